@@ -1,0 +1,244 @@
+!> Files and folders. The only `open` and `close` of the program.
+!>
+!> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
+!> are complete they are renamed together (commit_files), otherwise none is (discard_files).
+module atrito_files
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_associated
+   use atrito_kinds, only: ip
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
+   use atrito_strings, only: string_t, append_string
+   implicit none (type, external)
+   private
+   public :: read_file, file_exists, is_folder, make_folder, remove_file
+   public :: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files, discard_files
+
+   !> A set of files that appear together or not at all.
+   type :: file_set_t
+      character(len=:), allocatable :: folder
+      type(string_t), allocatable :: names(:)          !< final names, without folder
+   end type file_set_t
+
+   !> A text file being written through a buffer.
+   type :: text_file_t
+      integer :: unit = 0
+      character(len=:), allocatable :: path            !< temporary path
+      character(len=:), allocatable :: buffer
+      integer :: used = 0
+      type(status_t) :: status                         !< first failure; later calls do nothing
+   end type text_file_t
+
+   integer, parameter :: BUFFER_LENGTH = 65536
+   character(len=*), parameter :: TEMPORARY = '.part'
+   character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
+   integer(c_int), parameter :: FOLDER_MODE = int(o'777', c_int)
+
+   interface
+      integer(c_int) function c_mkdir(path, mode) bind(C, name='mkdir')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_mkdir
+      integer(c_int) function c_rename(old, new) bind(C, name='rename')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: old(*), new(*)
+      end function c_rename
+      integer(c_int) function c_unlink(path) bind(C, name='unlink')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_unlink
+      type(c_ptr) function c_opendir(path) bind(C, name='opendir')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_opendir
+      integer(c_int) function c_closedir(folder) bind(C, name='closedir')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: folder
+      end function c_closedir
+   end interface
+
+contains
+
+   !> Reads a whole file into one string. status: STATUS_FILE when it cannot be read.
+   subroutine read_file(path, text, status)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable, intent(out) :: text
+      type(status_t), intent(out) :: status
+      character(len=256) :: reason
+      integer :: unit, ios, length
+
+      if (is_folder(path)) then
+         call set_status(status, STATUS_FILE, path//': is a folder')
+         return
+      end if
+      open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=ios, iomsg=reason)
+      if (ios /= 0) then
+         call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
+         return
+      end if
+      inquire (unit=unit, size=length)
+      allocate (character(len=max(length, 0)) :: text)
+      if (length > 0) read (unit, iostat=ios, iomsg=reason) text
+      close (unit)
+      if (ios /= 0) call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
+   end subroutine read_file
+
+   logical function file_exists(path)
+      character(len=*), intent(in) :: path
+
+      inquire (file=path, exist=file_exists)
+   end function file_exists
+
+   logical function is_folder(path)
+      character(len=*), intent(in) :: path
+      type(c_ptr) :: folder
+      integer(c_int) :: ignored
+
+      folder = c_opendir(path//c_null_char)
+      is_folder = c_associated(folder)
+      if (is_folder) ignored = c_closedir(folder)
+   end function is_folder
+
+   !> Makes a folder and those above it where they are missing.
+   subroutine make_folder(path, status)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+      integer :: i
+      integer(c_int) :: ignored
+
+      do i = 2, len(path)
+         if (path(i:i) == '/') ignored = c_mkdir(path(:i - 1)//c_null_char, FOLDER_MODE)
+      end do
+      ignored = c_mkdir(path//c_null_char, FOLDER_MODE)
+      if (.not. is_folder(path)) call set_status(status, STATUS_FILE, path//': the folder cannot be made')
+   end subroutine make_folder
+
+   !> Removes a file; one that is not there is no failure.
+   subroutine remove_file(path)
+      character(len=*), intent(in) :: path
+      integer(c_int) :: ignored
+
+      ignored = c_unlink(path//c_null_char)
+   end subroutine remove_file
+
+   !> Begins a set of files in a folder, which is made where it is missing.
+   subroutine begin_files(set, folder, status)
+      type(file_set_t), intent(out) :: set
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(out) :: status
+
+      set%folder = folder
+      allocate (set%names(0))
+      call make_folder(folder, status)
+   end subroutine begin_files
+
+   !> Opens a file of the set under its temporary name. A failure is kept in the file until close_text.
+   subroutine open_text(set, name, file)
+      type(file_set_t), intent(inout) :: set
+      character(len=*), intent(in) :: name
+      type(text_file_t), intent(out) :: file
+      character(len=256) :: reason
+      integer :: ios
+
+      call append_string(set%names, name)
+      file%path = set%folder//'/'//name//TEMPORARY
+      allocate (character(len=BUFFER_LENGTH) :: file%buffer)
+      open (newunit=file%unit, file=file%path, access='stream', form='unformatted', status='replace', action='write', &
+            iostat=ios, iomsg=reason)
+      if (ios /= 0) call set_status(file%status, STATUS_FILE, set%folder//'/'//name//': cannot be written: '//trim(reason))
+   end subroutine open_text
+
+   !> Writes a line.
+   subroutine put_line(file, line)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: line
+      integer :: length
+
+      length = len(line) + 1
+      if (file%used + length > BUFFER_LENGTH) call flush_buffer(file)
+      if (length > BUFFER_LENGTH) then
+         call put_text(file, line//NEW_LINE_CHARACTER)
+      else
+         file%buffer(file%used + 1:file%used + length) = line//NEW_LINE_CHARACTER
+         file%used = file%used + length
+      end if
+   end subroutine put_line
+
+   subroutine flush_buffer(file)
+      type(text_file_t), intent(inout) :: file
+
+      call put_text(file, file%buffer(:file%used))
+      file%used = 0
+   end subroutine flush_buffer
+
+   subroutine put_text(file, text)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: text
+      character(len=256) :: reason
+      integer :: ios
+
+      if (.not. is_ok(file%status) .or. len(text) == 0) return
+      write (file%unit, iostat=ios, iomsg=reason) text
+      if (ios /= 0) call set_status(file%status, STATUS_FILE, file%path//': cannot be written: '//trim(reason))
+   end subroutine put_text
+
+   !> Completes a file. status: STATUS_FILE when any part of it could not be written.
+   subroutine close_text(file, status)
+      type(text_file_t), intent(inout) :: file
+      type(status_t), intent(out) :: status
+      character(len=256) :: reason
+      integer :: ios
+
+      if (is_ok(file%status)) then
+         call flush_buffer(file)
+         flush (file%unit, iostat=ios, iomsg=reason)
+         if (ios /= 0) call set_status(file%status, STATUS_FILE, file%path//': cannot be written: '//trim(reason))
+         close (file%unit, iostat=ios, iomsg=reason)
+         if (ios /= 0) call set_status(file%status, STATUS_FILE, file%path//': cannot be written: '//trim(reason))
+      end if
+      status = file%status
+   end subroutine close_text
+
+   !> Gives all files of the set their final names and removes the stale ones, files of an earlier run that this one does not
+   !> write.
+   subroutine commit_files(set, stale, status)
+      type(file_set_t), intent(in) :: set
+      type(string_t), intent(in) :: stale(:)        !< names without folder
+      type(status_t), intent(out) :: status
+      integer :: i
+
+      do i = 1, size(set%names)
+         if (c_rename(set%folder//'/'//set%names(i)%s//TEMPORARY//c_null_char, &
+                      set%folder//'/'//set%names(i)%s//c_null_char) /= 0_c_int) then
+            call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written')
+            call discard_files(set)
+            return
+         end if
+      end do
+      do i = 1, size(stale)
+         if (.not. is_in(set, stale(i)%s)) call remove_file(set%folder//'/'//stale(i)%s)
+      end do
+   end subroutine commit_files
+
+   pure logical function is_in(set, name)
+      type(file_set_t), intent(in) :: set
+      character(len=*), intent(in) :: name
+      integer(ip) :: i
+
+      is_in = .false.
+      do i = 1, int(size(set%names), ip)
+         is_in = is_in .or. set%names(i)%s == name
+      end do
+   end function is_in
+
+   !> Removes what was written under temporary names.
+   subroutine discard_files(set)
+      type(file_set_t), intent(in) :: set
+      integer :: i
+
+      if (.not. allocated(set%names)) return
+      do i = 1, size(set%names)
+         call remove_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
+      end do
+   end subroutine discard_files
+
+end module atrito_files

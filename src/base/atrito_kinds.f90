@@ -1,0 +1,15 @@
+!> Kinds of numbers used everywhere.
+module atrito_kinds
+   use, intrinsic :: iso_fortran_env, only: int32, int64, real64
+   implicit none (type, external)
+   private
+   public :: wp, ip, lp, EPS_MACH, HUGE_REAL, PI
+
+   integer, parameter :: wp = real64   !< every real of the program
+   integer, parameter :: ip = int32    !< node, element and equation numbers
+   integer, parameter :: lp = int64    !< lengths that grow faster than the mesh: profiles, bytes
+
+   real(wp), parameter :: EPS_MACH = epsilon(1.0_wp)
+   real(wp), parameter :: HUGE_REAL = huge(1.0_wp)
+   real(wp), parameter :: PI = 3.14159265358979323846264338327950288_wp
+end module atrito_kinds

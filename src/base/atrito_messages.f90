@@ -1,0 +1,234 @@
+!> The message store: errors, warnings and notes of a run, in one place.
+!>
+!> Together with the timers the only module state of the program. Deck errors carry a place and are printed as a compiler
+!> prints them; numerical warnings carry none. The listing repeats all of them.
+module atrito_messages
+   use atrito_kinds, only: ip
+   use atrito_strings, only: string_t, append_string, join, to_text
+   implicit none (type, external)
+   private
+   public :: message_t, add_message, add_warning, add_note, has_room, count_messages, get_message, clear_messages, sort_messages
+   public :: format_message
+   public :: SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE, MOST_ERRORS
+
+   integer, parameter :: SEVERITY_ERROR = 1, SEVERITY_WARNING = 2, SEVERITY_NOTE = 3
+   integer, parameter :: MOST_ERRORS = 50       !< errors printed; the rest is counted
+   integer(ip), parameter :: MOST_KEPT = 1000   !< messages of a severity kept; the rest is counted
+   integer, parameter :: WIDEST_SOURCE = 100    !< characters shown of a longer line of the deck
+
+   type :: message_t
+      integer :: severity = SEVERITY_ERROR
+      character(len=:), allocatable :: id       !< short stable name, e.g. E-NUMBER
+      character(len=:), allocatable :: text     !< what is wrong
+      character(len=:), allocatable :: file     !< as the user wrote it; not allocated: no place at all
+      integer(ip) :: line = 0, column = 0       !< 0: no place within the file
+      integer(ip) :: length = 1                 !< characters under the marker
+      character(len=:), allocatable :: source   !< the deck's line
+      character(len=:), allocatable :: expected !< what was expected, with its dimension
+      type(string_t), allocatable :: nearest(:) !< nearest valid names
+      type(string_t), allocatable :: known(:)   !< all valid names, when they are few
+      character(len=:), allocatable :: keyword  !< for `atrito help KEYWORD`
+      integer(ip) :: order = huge(1_ip)         !< place in reading order: messages are told in it
+   end type message_t
+
+   type(message_t), allocatable :: store(:)
+   integer(ip) :: stored = 0
+   integer(ip) :: counted(SEVERITY_ERROR:SEVERITY_NOTE) = 0
+
+contains
+
+   !> Keeps a message. One that says the same of the same place is kept once; when a thousand of its severity are kept, it is
+   !> counted only (a large deck can be wrong in every line).
+   subroutine add_message(message)
+      type(message_t), intent(in) :: message
+      type(message_t), allocatable :: longer(:)
+      integer(ip) :: i
+
+      if (.not. has_room(message%severity)) then
+         counted(message%severity) = counted(message%severity) + 1
+         return
+      end if
+      if (.not. allocated(store)) allocate (store(16))
+      do i = 1, stored
+         if (is_same(store(i), message)) return
+      end do
+      if (stored == size(store)) then
+         allocate (longer(2*stored))
+         longer(:stored) = store
+         call move_alloc(longer, store)
+      end if
+      stored = stored + 1
+      store(stored) = message
+      counted(message%severity) = counted(message%severity) + 1
+   end subroutine add_message
+
+   !> Another message of this severity would be kept, not only counted.
+   logical function has_room(severity)
+      integer, intent(in) :: severity
+
+      has_room = counted(severity) < MOST_KEPT
+   end function has_room
+
+   pure logical function is_same(a, b)
+      type(message_t), intent(in) :: a, b
+
+      is_same = a%severity == b%severity .and. a%line == b%line .and. a%column == b%column .and. a%order == b%order
+      if (is_same) is_same = a%text == b%text
+   end function is_same
+
+   !> A warning without a place.
+   subroutine add_warning(id, text)
+      character(len=*), intent(in) :: id, text
+
+      call add_message(message_t(severity=SEVERITY_WARNING, id=id, text=text))
+   end subroutine add_warning
+
+   !> A note without a place.
+   subroutine add_note(id, text)
+      character(len=*), intent(in) :: id, text
+
+      call add_message(message_t(severity=SEVERITY_NOTE, id=id, text=text))
+   end subroutine add_note
+
+   !> How many messages of one severity there were; without it, how many are kept and can be fetched.
+   integer(ip) function count_messages(severity) result(n)
+      integer, intent(in), optional :: severity
+
+      n = stored
+      if (present(severity)) n = counted(severity)
+   end function count_messages
+
+   !> The i-th message, 1 <= i <= count_messages().
+   function get_message(i) result(message)
+      integer(ip), intent(in) :: i
+      type(message_t) :: message
+
+      message = store(i)
+   end function get_message
+
+   !> Forgets all: a new deck begins.
+   subroutine clear_messages()
+      if (allocated(store)) deallocate (store)
+      stored = 0
+      counted = 0
+   end subroutine clear_messages
+
+   !> Puts the messages into the order of the deck; those without a place keep theirs at the end.
+   subroutine sort_messages()
+      integer(ip) :: place(stored), i, j, held
+
+      place = [(i, i=1, stored)]
+      do i = 2, stored
+         held = place(i)
+         j = i - 1
+         do while (j >= 1)
+            if (.not. comes_after(store(place(j)), store(held))) exit
+            place(j + 1) = place(j)
+            j = j - 1
+         end do
+         place(j + 1) = held
+      end do
+      if (stored > 0) store = store(place)
+   end subroutine sort_messages
+
+   pure logical function comes_after(a, b)
+      type(message_t), intent(in) :: a, b
+
+      comes_after = a%order > b%order
+      if (a%order == b%order) comes_after = a%column > b%column
+   end function comes_after
+
+   !> The lines of a message as they are printed, docs/user/messages.md.
+   function format_message(message) result(lines)
+      type(message_t), intent(in) :: message
+      type(string_t), allocatable :: lines(:)
+
+      allocate (lines(0))
+      call append_string(lines, first_line(message))
+      if (allocated(message%source) .and. message%column > 0) then
+         call append_source(lines, message)
+      end if
+      if (allocated(message%expected)) call append_string(lines, '    expected: '//message%expected)
+      if (allocated(message%nearest)) then
+         if (size(message%nearest) > 0) call append_string(lines, '    nearest:  '//join(message%nearest, ', '))
+      end if
+      if (allocated(message%known)) then
+         if (size(message%known) > 0) call append_string(lines, '    known:    '//join(message%known, ', '))
+      end if
+      if (allocated(message%keyword)) call append_string(lines, '    see:      atrito help '//message%keyword)
+   end function format_message
+
+   function first_line(message) result(text)
+      type(message_t), intent(in) :: message
+      character(len=:), allocatable :: text
+      character(len=7), parameter :: WORD(3) = ['error  ', 'warning', 'note   ']
+
+      text = ''
+      if (allocated(message%file)) then
+         text = message%file//':'
+         if (message%line > 0) text = text//to_text(message%line)//':'//to_text(max(message%column, 1_ip))//':'
+         text = text//' '
+      end if
+      text = text//trim(WORD(message%severity))//' ['//message%id//'] '//visible(message%text)
+   end function first_line
+
+   !> The deck's line and the marker below it; of a long line the part round the marker.
+   subroutine append_source(lines, message)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      type(message_t), intent(in) :: message
+      character(len=:), allocatable :: before, after
+      integer :: first, last, length
+
+      first = 1
+      last = len(message%source)
+      if (last > WIDEST_SOURCE) then
+         first = max(1, min(message%column - WIDEST_SOURCE/2, last - WIDEST_SOURCE + 1))
+         last = min(last, first + WIDEST_SOURCE - 1)
+      end if
+      before = repeat('.', merge(3, 0, first > 1))
+      after = repeat('.', merge(3, 0, last < len(message%source)))
+      length = max(1, min(message%length, last - message%column + 1))
+      call append_string(lines, '    '//before//visible(message%source(first:last))//after)
+      call append_string(lines, '    '//before//marker(message%source(first:last), message%column - first + 1, length))
+   end subroutine append_source
+
+   !> Blanks for tabs, so that the marker stands below its place; no other character may disturb the terminal.
+   pure function visible(source) result(text)
+      character(len=*), intent(in) :: source
+      character(len=len(source)) :: text
+      integer :: i
+
+      text = source
+      do i = 1, len(source)
+         if (source(i:i) == achar(9)) then
+            text(i:i) = ' '
+         else if (iachar(source(i:i)) < 32 .or. iachar(source(i:i)) == 127) then
+            text(i:i) = '?'
+         end if
+      end do
+   end function visible
+
+   !> The marker under characters of a line: `^~~`.
+   pure function marker(source, column, length) result(text)
+      character(len=*), intent(in) :: source
+      integer, intent(in) :: column, length
+      character(len=:), allocatable :: text
+      integer :: last
+
+      last = min(len(source), column + length - 1)
+      text = repeat(' ', column - 1 - continuations(source(:min(column - 1, len(source)))))//'^'
+      text = text//repeat('~', max(0, length - 1 - continuations(source(column:last))))
+   end function marker
+
+   !> Bytes that continue a character of UTF-8: they take no room on the screen.
+   pure integer function continuations(text) result(n)
+      character(len=*), intent(in) :: text
+      integer :: i
+
+      n = 0
+      do i = 1, len(text)
+         if (iand(ichar(text(i:i)), 192) == 128) n = n + 1
+      end do
+   end function continuations
+
+end module atrito_messages

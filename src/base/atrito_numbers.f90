@@ -1,0 +1,192 @@
+!> Strict reading of numbers: a deck never contains a guess.
+!>
+!> Accepted: [+-]digits[.digits][e|E|d|D[+-]digits], `1.` and `.5`. Everything that a list-directed read would bend into a
+!> number (1,5  3*2  2/3  1+5  nan  inf) is refused, and so is what does not fit into a double (1e999).
+module atrito_numbers
+   use atrito_kinds, only: ip, lp, wp
+   implicit none (type, external)
+   private
+   public :: read_real, read_integer, NUMBER_OK, NUMBER_MALFORMED, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
+
+   integer, parameter :: NUMBER_OK = 0
+   integer, parameter :: NUMBER_MALFORMED = 1      !< not of the form above
+   integer, parameter :: NUMBER_TOO_LARGE = 2      !< overflows
+   integer, parameter :: NUMBER_NOT_INTEGER = 3    !< a real where an integer is wanted
+
+   !> Powers of ten that a double holds exactly.
+   integer, parameter :: EXACT_POWERS = 22
+   real(wp), parameter :: POWER(0:EXACT_POWERS) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, 1e8_wp, &
+      1e9_wp, 1e10_wp, 1e11_wp, 1e12_wp, 1e13_wp, 1e14_wp, 1e15_wp, 1e16_wp, 1e17_wp, 1e18_wp, 1e19_wp, 1e20_wp, 1e21_wp, 1e22_wp]
+   !> Largest count of digits whose integer a double holds exactly.
+   integer, parameter :: EXACT_DIGITS = 15
+   !> A number with more digits before its point overflows for certain.
+   integer, parameter :: LARGEST_POWER = 309
+   !> First 17 digits of the largest double, 1.7976931348623157e308; a number that begins so does not overflow yet.
+   integer(lp), parameter :: LARGEST_DIGITS = 17976931348623157_lp
+
+contains
+
+   !> Reads a real; the nearest double, as the compiler would. `outcome` is one of NUMBER_*.
+   pure subroutine read_real(text, value, outcome)
+      character(len=*), intent(in) :: text
+      real(wp), intent(out) :: value
+      integer, intent(out) :: outcome
+      integer(lp) :: mantissa
+      integer :: digits, exponent
+      logical :: negative
+
+      value = 0.0_wp
+      call scan_number(text, negative, mantissa, digits, exponent, outcome)
+      if (outcome /= NUMBER_OK) return
+      if (mantissa == 0_lp .and. digits <= EXACT_DIGITS) return
+      if (digits <= EXACT_DIGITS .and. abs(exponent) <= EXACT_POWERS) then
+         ! one correctly rounded operation on two exact numbers
+         if (exponent >= 0) then
+            value = real(mantissa, wp)*POWER(exponent)
+         else
+            value = real(mantissa, wp)/POWER(-exponent)
+         end if
+         if (negative) value = -value
+      else if (digits + exponent > LARGEST_POWER) then
+         outcome = NUMBER_TOO_LARGE
+      else if (digits + exponent == LARGEST_POWER .and. first_digits(text) > LARGEST_DIGITS) then
+         outcome = NUMBER_TOO_LARGE      ! known before it is read: reading would raise the exception
+      else
+         call read_long_real(text, value, outcome)
+      end if
+   end subroutine read_real
+
+   !> Takes a number apart. `exponent` is that of the mantissa read as an integer; digits counts without leading zeros.
+   pure subroutine scan_number(text, negative, mantissa, digits, exponent, outcome)
+      character(len=*), intent(in) :: text
+      logical, intent(out) :: negative
+      integer(lp), intent(out) :: mantissa
+      integer, intent(out) :: digits, exponent, outcome
+      integer :: i, seen, power_of_ten, d
+
+      mantissa = 0_lp
+      digits = 0
+      exponent = 0
+      seen = 0
+      outcome = NUMBER_MALFORMED
+      i = 1
+      negative = .false.
+      if (len(text) == 0) return
+      if (text(1:1) == '+' .or. text(1:1) == '-') then
+         negative = text(1:1) == '-'
+         i = 2
+      end if
+      call take_digits(text, i, mantissa, digits, seen)
+      if (i <= len(text)) then
+         if (text(i:i) == '.') then
+            i = i + 1
+            d = i
+            call take_digits(text, i, mantissa, digits, seen)
+            exponent = d - i
+         end if
+      end if
+      if (seen == 0) return
+      if (i <= len(text)) then
+         if (scan(text(i:i), 'eEdD') == 0) return
+         call take_exponent(text(i + 1:), power_of_ten, outcome)
+         if (outcome /= NUMBER_OK) return
+         exponent = exponent + power_of_ten
+      end if
+      outcome = NUMBER_OK
+   end subroutine scan_number
+
+   pure subroutine take_digits(text, i, mantissa, digits, seen)
+      character(len=*), intent(in) :: text
+      integer, intent(inout) :: i, digits, seen
+      integer(lp), intent(inout) :: mantissa
+      integer :: d
+
+      do while (i <= len(text))
+         d = iachar(text(i:i)) - iachar('0')
+         if (d < 0 .or. d > 9) exit
+         if (digits > 0 .or. d > 0) digits = digits + 1
+         if (digits <= EXACT_DIGITS) mantissa = 10_lp*mantissa + int(d, lp)
+         seen = seen + 1
+         i = i + 1
+      end do
+   end subroutine take_digits
+
+   pure subroutine take_exponent(text, exponent, outcome)
+      character(len=*), intent(in) :: text
+      integer, intent(out) :: exponent, outcome
+      integer :: i, first, d
+
+      outcome = NUMBER_MALFORMED
+      exponent = 0
+      first = 1
+      if (len(text) == 0) return
+      if (text(1:1) == '+' .or. text(1:1) == '-') first = 2
+      if (first > len(text)) return
+      do i = first, len(text)
+         d = iachar(text(i:i)) - iachar('0')
+         if (d < 0 .or. d > 9) return
+         if (exponent < 100000) exponent = 10*exponent + d
+      end do
+      if (text(1:1) == '-') exponent = -exponent
+      outcome = NUMBER_OK
+   end subroutine take_exponent
+
+   !> The first 17 digits from the first that is not zero, as an integer.
+   pure integer(lp) function first_digits(text) result(value)
+      character(len=*), intent(in) :: text
+      integer :: i, d, n
+
+      value = 0_lp
+      n = 0
+      do i = 1, len(text)
+         if (scan(text(i:i), 'eEdD') > 0) exit
+         d = iachar(text(i:i)) - iachar('0')
+         if (d < 0 .or. d > 9 .or. n == 17) cycle
+         if (n > 0 .or. d > 0) n = n + 1
+         value = 10_lp*value + int(d, lp)
+      end do
+      value = value*10_lp**(17 - n)
+   end function first_digits
+
+   !> Many digits or a large exponent: the run-time library rounds correctly; the form was checked before.
+   pure subroutine read_long_real(text, value, outcome)
+      character(len=*), intent(in) :: text
+      real(wp), intent(out) :: value
+      integer, intent(out) :: outcome
+      character(len=24) :: form
+      integer :: ios
+
+      write (form, '("(f",i0,".0)")') len(text)
+      read (text, form, iostat=ios) value
+      outcome = NUMBER_OK
+      if (ios /= 0) then
+         outcome = NUMBER_TOO_LARGE
+      else if (abs(value) > huge(value)) then
+         outcome = NUMBER_TOO_LARGE
+      end if
+      if (outcome /= NUMBER_OK) value = 0.0_wp
+   end subroutine read_long_real
+
+   !> Reads an integer; `outcome` is one of NUMBER_*.
+   pure subroutine read_integer(text, value, outcome)
+      character(len=*), intent(in) :: text
+      integer(ip), intent(out) :: value
+      integer, intent(out) :: outcome
+      integer(lp) :: mantissa
+      integer :: digits, exponent
+      logical :: negative
+
+      value = 0_ip
+      call scan_number(text, negative, mantissa, digits, exponent, outcome)
+      if (outcome /= NUMBER_OK) return
+      if (scan(text, '.eEdD') > 0) then
+         outcome = NUMBER_NOT_INTEGER
+      else if (digits > 10 .or. mantissa > int(huge(value), lp)) then
+         outcome = NUMBER_TOO_LARGE
+      else
+         value = int(mantissa, ip)
+         if (negative) value = -value
+      end if
+   end subroutine read_integer
+
+end module atrito_numbers

@@ -1,0 +1,22 @@
+!> Progress of a run, told on standard error unless --quiet.
+module atrito_reporter
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   implicit none (type, external)
+   private
+   public :: reporter_t, report_progress
+
+   type :: reporter_t
+      logical :: quiet = .false.
+   end type reporter_t
+
+contains
+
+   !> One line of progress.
+   subroutine report_progress(reporter, text)
+      type(reporter_t), intent(in) :: reporter
+      character(len=*), intent(in) :: text
+
+      if (.not. reporter%quiet) write (error_unit, '(a)') text
+   end subroutine report_progress
+
+end module atrito_reporter

@@ -1,0 +1,230 @@
+!> Small string tools: case, numbers to text, nearest names, lists of strings.
+module atrito_strings
+   use atrito_kinds, only: ip, lp, wp
+   implicit none (type, external)
+   private
+   public :: string_t, lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string
+
+   !> A string of its own length, for lists of strings.
+   type :: string_t
+      character(len=:), allocatable :: s
+   end type string_t
+
+   !> Nothing is near a longer name: it is no name.
+   integer, parameter :: LONGEST_NAME = 200
+
+   !> Number to text, without blanks.
+   interface to_text
+      module procedure integer_to_text, long_to_text, real_to_text
+   end interface to_text
+
+contains
+
+   pure function lower_case(text) result(lower)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: lower
+      integer :: i
+
+      lower = text
+      do i = 1, len(text)
+         if (text(i:i) >= 'A' .and. text(i:i) <= 'Z') lower(i:i) = achar(iachar(text(i:i)) + 32)
+      end do
+   end function lower_case
+
+   pure function upper_case(text) result(upper)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: upper
+      integer :: i
+
+      upper = text
+      do i = 1, len(text)
+         if (text(i:i) >= 'a' .and. text(i:i) <= 'z') upper(i:i) = achar(iachar(text(i:i)) - 32)
+      end do
+   end function upper_case
+
+   !> Names are without case.
+   pure logical function same_name(a, b)
+      character(len=*), intent(in) :: a, b
+
+      same_name = len_trim(a) == len_trim(b)
+      if (same_name) same_name = lower_case(trim(a)) == lower_case(trim(b))
+   end function same_name
+
+   pure function integer_to_text(i) result(text)
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
+      character(len=12) :: buffer
+
+      write (buffer, '(i0)') i
+      text = trim(buffer)
+   end function integer_to_text
+
+   pure function long_to_text(i) result(text)
+      integer(lp), intent(in) :: i
+      character(len=:), allocatable :: text
+      character(len=24) :: buffer
+
+      write (buffer, '(i0)') i
+      text = trim(buffer)
+   end function long_to_text
+
+   !> Real to text for messages: shortest of fixed and exponent form with `digits` significant digits (default 6).
+   pure function real_to_text(x, digits) result(text)
+      real(wp), intent(in) :: x
+      integer, intent(in), optional :: digits
+      character(len=:), allocatable :: text
+      character(len=40) :: buffer
+      integer :: d, e
+
+      d = 6
+      if (present(digits)) d = digits
+      if (x == 0.0_wp) then
+         text = '0'
+         return
+      end if
+      if (abs(x) >= 1.0e-3_wp .and. abs(x) < 10.0_wp**min(d, 15)) then
+         e = floor(log10(abs(x))) + 1
+         write (buffer, '(f0.'//integer_to_text(int(max(d - e, 0), ip))//')') x
+         text = without_trailing_zeros(trim(buffer))
+      else
+         write (buffer, '(es32.'//integer_to_text(int(d - 1, ip))//'e3)') x
+         text = short_exponent(trim(adjustl(buffer)))
+      end if
+      if (text(1:1) == '.') text = '0'//text
+      if (len(text) > 1) then
+         if (text(1:2) == '-.') text = '-0'//text(2:)
+      end if
+   end function real_to_text
+
+   pure function without_trailing_zeros(text) result(short)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: short
+      integer :: last
+
+      last = len(text)
+      if (index(text, '.') > 0) then
+         do while (text(last:last) == '0')
+            last = last - 1
+         end do
+         if (text(last:last) == '.') last = last - 1
+      end if
+      short = text(:last)
+   end function without_trailing_zeros
+
+   !> 1.50000E-007 becomes 1.5e-7.
+   pure function short_exponent(text) result(short)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: short
+      integer :: e, first
+
+      e = index(text, 'E')
+      if (e == 0) then
+         short = text
+         return
+      end if
+      first = e + 2
+      do while (first < len(text) .and. text(first:first) == '0')
+         first = first + 1
+      end do
+      short = without_trailing_zeros(text(:e - 1))//'e'
+      if (text(e + 1:e + 1) == '-') short = short//'-'
+      short = short//text(first:)
+   end function short_exponent
+
+   !> The strings of a list with a separator between them.
+   pure function join(list, separator) result(text)
+      type(string_t), intent(in) :: list(:)
+      character(len=*), intent(in) :: separator
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = ''
+      do i = 1, size(list)
+         if (i > 1) text = text//separator
+         text = text//list(i)%s
+      end do
+   end function join
+
+   pure subroutine append_string(list, text)
+      type(string_t), allocatable, intent(inout) :: list(:)
+      character(len=*), intent(in) :: text
+      type(string_t), allocatable :: longer(:)
+      integer :: i, n
+
+      n = 0
+      if (allocated(list)) n = size(list)
+      allocate (longer(n + 1))
+      do i = 1, n
+         call move_alloc(list(i)%s, longer(i)%s)
+      end do
+      longer(n + 1)%s = text
+      call move_alloc(longer, list)
+   end subroutine append_string
+
+   !> Least number of single-character changes (insert, delete, replace, swap of neighbours) from a to b, without case.
+   pure integer function edit_distance(a, b) result(distance)
+      character(len=*), intent(in) :: a, b
+      integer :: d(0:len(a), 0:len(b))
+      character(len=len(a)) :: x
+      character(len=len(b)) :: y
+      integer :: i, j, cost
+
+      x = lower_case(a)
+      y = lower_case(b)
+      d(:, 0) = [(i, i=0, len(a))]
+      d(0, :) = [(j, j=0, len(b))]
+      do j = 1, len(b)
+         do i = 1, len(a)
+            cost = merge(0, 1, x(i:i) == y(j:j))
+            d(i, j) = min(d(i - 1, j) + 1, d(i, j - 1) + 1, d(i - 1, j - 1) + cost)
+            if (swapped(x(:i), y(:j))) d(i, j) = min(d(i, j), d(max(i - 2, 0), max(j - 2, 0)) + 1)
+         end do
+      end do
+      distance = d(len(a), len(b))
+   end function edit_distance
+
+   !> The last two letters of a are those of b the other way round.
+   pure logical function swapped(a, b)
+      character(len=*), intent(in) :: a, b
+      integer :: m, n
+
+      m = len(a)
+      n = len(b)
+      swapped = m > 1 .and. n > 1
+      if (swapped) swapped = a(m:m) == b(n - 1:n - 1) .and. a(m - 1:m - 1) == b(n:n)
+   end function swapped
+
+   !> Up to `most` names of `known` that are near `name`, nearest first: a third of its letters wrong at most, or one name begins
+   !> the other.
+   pure function nearest_names(name, known, most) result(near)
+      character(len=*), intent(in) :: name
+      type(string_t), intent(in) :: known(:)
+      integer, intent(in) :: most
+      type(string_t), allocatable :: near(:)
+      integer :: distance(size(known)), allowed, i, best
+
+      allocate (near(0))
+      allowed = max(1, len(name)/3)
+      distance = huge(1)
+      if (len(name) > LONGEST_NAME) return
+      do i = 1, size(known)
+         if (abs(len(name) - len(known(i)%s)) <= allowed) distance(i) = edit_distance(name, known(i)%s)
+         if (is_prefix(name, known(i)%s) .or. is_prefix(known(i)%s, name)) distance(i) = min(distance(i), 1)
+         if (distance(i) > allowed) distance(i) = huge(1)
+      end do
+      do while (size(near) < most .and. size(near) < size(known))
+         best = minloc(distance, dim=1)
+         if (distance(best) == huge(1)) exit
+         call append_string(near, known(best)%s)
+         distance(best) = huge(1)
+      end do
+   end function nearest_names
+
+   pure logical function is_prefix(a, b)
+      character(len=*), intent(in) :: a, b
+
+      is_prefix = len(a) >= 3 .and. len(a) <= len(b)
+      if (is_prefix) is_prefix = lower_case(a) == lower_case(b(:len(a)))
+   end function is_prefix
+
+end module atrito_strings

@@ -1,0 +1,62 @@
+!> Linear isotropic elasticity in the plane. Strains are e11, e22, 2 e12.
+module atrito_elasticity
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: PLANE_STRESS
+   implicit none (type, external)
+   private
+   public :: elastic_t, elasticity_matrix, stress_33, von_mises
+
+   !> What an element needs to know of its section.
+   type :: elastic_t
+      real(wp) :: young = 1.0_wp           !< E [F/L^2]
+      real(wp) :: poisson = 0.0_wp         !< mu
+      real(wp) :: thickness = 1.0_wp       !< [L]
+      real(wp) :: density = 0.0_wp
+   end type elastic_t
+
+contains
+
+   !> Stress = matrix * strain for s11, s22, s12 [F/L^2].
+   pure function elasticity_matrix(section, state) result(d)
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state     !< PLANE_STRAIN or PLANE_STRESS
+      real(wp) :: d(3, 3)
+      real(wp) :: lambda, shear
+
+      associate (young => section%young, mu => section%poisson)
+         shear = young/(2*(1 + mu))
+         if (state == PLANE_STRESS) then
+            lambda = young*mu/((1 + mu)*(1 - mu))
+         else
+            lambda = young*mu/((1 + mu)*(1 - 2*mu))
+         end if
+      end associate
+      d = 0.0_wp
+      d(1:2, 1:2) = lambda
+      d(1, 1) = lambda + 2*shear
+      d(2, 2) = lambda + 2*shear
+      d(3, 3) = shear
+   end function elasticity_matrix
+
+   !> The stress across the plane.
+   pure real(wp) function stress_33(section, state, s)
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state
+      real(wp), intent(in) :: s(3)         !< s11, s22, s12 [F/L^2]
+
+      stress_33 = section%poisson*(s(1) + s(2))
+      if (state == PLANE_STRESS) stress_33 = 0.0_wp
+   end function stress_33
+
+   !> Von Mises' equivalent stress.
+   pure real(wp) function von_mises(s, s33)
+      real(wp), intent(in) :: s(3), s33    !< s11, s22, s12 and s33 [F/L^2]
+      real(wp) :: scale
+
+      scale = max(maxval(abs(s)), abs(s33))
+      von_mises = 0.0_wp
+      if (scale > 0.0_wp) von_mises = scale*sqrt(0.5_wp*(((s(1) - s(2))/scale)**2 + ((s(2) - s33)/scale)**2 &
+                                                         + ((s33 - s(1))/scale)**2) + 3*(s(3)/scale)**2)
+   end function von_mises
+
+end module atrito_elasticity

@@ -1,0 +1,156 @@
+!> Shape functions of the Lagrange quadrilaterals on [-1,1]^2 and of their faces, and Gauss points.
+!>
+!> Nodes: corners counter-clockwise from (-1,-1), then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre.
+module atrito_shape_functions
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: Q1_NODES, Q2_NODES
+   implicit none (type, external)
+   private
+   public :: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, gauss_count
+
+   !> Places of the nodes in the tensor grid: index along xi and along eta (1: -1, 2: 0 or +1 for Q1, 3: +1).
+   integer(ip), parameter :: Q1_GRID(2, Q1_NODES) = reshape([1, 1, 2, 1, 2, 2, 1, 2], [2, 4])
+   integer(ip), parameter :: Q2_GRID(2, Q2_NODES) = reshape([1, 1, 3, 1, 3, 3, 1, 3, 2, 1, 3, 2, 2, 3, 1, 2, 2, 2], [2, 9])
+
+contains
+
+   !> Values of the shape functions at a place.
+   pure function shape_values(n_nodes, xi) result(n)
+      integer(ip), intent(in) :: n_nodes           !< Q1_NODES or Q2_NODES
+      real(wp), intent(in) :: xi(2)                !< in [-1,1]^2
+      real(wp) :: n(n_nodes)
+      real(wp) :: a(3), b(3)
+      integer(ip) :: i, grid(2)
+
+      a = line_values(n_nodes, xi(1))
+      b = line_values(n_nodes, xi(2))
+      do i = 1, n_nodes
+         grid = grid_of(n_nodes, i)
+         n(i) = a(grid(1))*b(grid(2))
+      end do
+   end function shape_values
+
+   !> Derivatives of the shape functions with respect to xi (column 1) and eta (column 2).
+   pure function shape_gradients(n_nodes, xi) result(dn)
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(in) :: xi(2)
+      real(wp) :: dn(n_nodes, 2)
+      real(wp) :: a(3), b(3), da(3), db(3)
+      integer(ip) :: i, grid(2)
+
+      a = line_values(n_nodes, xi(1))
+      b = line_values(n_nodes, xi(2))
+      da = line_slopes(n_nodes, xi(1))
+      db = line_slopes(n_nodes, xi(2))
+      do i = 1, n_nodes
+         grid = grid_of(n_nodes, i)
+         dn(i, :) = [da(grid(1))*b(grid(2)), a(grid(1))*db(grid(2))]
+      end do
+   end function shape_gradients
+
+   pure function grid_of(n_nodes, node) result(grid)
+      integer(ip), intent(in) :: n_nodes, node
+      integer(ip) :: grid(2)
+
+      if (n_nodes == Q1_NODES) then
+         grid = Q1_GRID(:, node)
+      else
+         grid = Q2_GRID(:, node)
+      end if
+   end function grid_of
+
+   !> Lagrange polynomials on the line: two points for Q1, three for Q2.
+   pure function line_values(n_nodes, t) result(v)
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(in) :: t
+      real(wp) :: v(3)
+
+      if (n_nodes == Q1_NODES) then
+         v = [0.5_wp*(1 - t), 0.5_wp*(1 + t), 0.0_wp]
+      else
+         v = [0.5_wp*t*(t - 1), (1 - t)*(1 + t), 0.5_wp*t*(t + 1)]
+      end if
+   end function line_values
+
+   pure function line_slopes(n_nodes, t) result(v)
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(in) :: t
+      real(wp) :: v(3)
+
+      if (n_nodes == Q1_NODES) then
+         v = [-0.5_wp, 0.5_wp, 0.0_wp]
+      else
+         v = [t - 0.5_wp, -2*t, t + 0.5_wp]
+      end if
+   end function line_slopes
+
+   !> Values on a face at t in [-1,1]; nodes in the order of face_nodes: first, last, middle.
+   pure function face_shape_values(n_face_nodes, t) result(n)
+      integer(ip), intent(in) :: n_face_nodes      !< 2 or 3
+      real(wp), intent(in) :: t
+      real(wp) :: n(n_face_nodes)
+      real(wp) :: v(3)
+
+      if (n_face_nodes == 2) then
+         v = line_values(Q1_NODES, t)
+         n = v(:2)
+      else
+         v = line_values(Q2_NODES, t)
+         n = v([1, 3, 2])
+      end if
+   end function face_shape_values
+
+   !> Derivatives of face_shape_values.
+   pure function face_shape_slopes(n_face_nodes, t) result(n)
+      integer(ip), intent(in) :: n_face_nodes
+      real(wp), intent(in) :: t
+      real(wp) :: n(n_face_nodes)
+      real(wp) :: v(3)
+
+      if (n_face_nodes == 2) then
+         v = line_slopes(Q1_NODES, t)
+         n = v(:2)
+      else
+         v = line_slopes(Q2_NODES, t)
+         n = v([1, 3, 2])
+      end if
+   end function face_shape_slopes
+
+   !> Points and weights of the Gauss rule with 2 or 3 points on [-1,1].
+   pure subroutine gauss_rule(n, points, weights)
+      integer(ip), intent(in) :: n                 !< 2 or 3
+      real(wp), intent(out) :: points(n), weights(n)
+
+      if (n == 2) then
+         points = [-1.0_wp, 1.0_wp]/sqrt(3.0_wp)
+         weights = 1.0_wp
+      else
+         points = [-1.0_wp, 0.0_wp, 1.0_wp]*sqrt(0.6_wp)
+         weights = [5.0_wp, 8.0_wp, 5.0_wp]/9.0_wp
+      end if
+   end subroutine gauss_rule
+
+   !> Gauss points of an element along one direction: 2 for Q1, 3 for Q2.
+   pure integer(ip) function gauss_count(n_nodes)
+      integer(ip), intent(in) :: n_nodes
+
+      gauss_count = merge(2_ip, 3_ip, n_nodes == Q1_NODES)
+   end function gauss_count
+
+   !> The k-th point of an element's Gauss rule, xi fastest, from the corner at node 1.
+   pure subroutine gauss_point(n_nodes, k, xi, weight)
+      integer(ip), intent(in) :: n_nodes
+      integer(ip), intent(in) :: k                 !< 1 .. gauss_count**2
+      real(wp), intent(out) :: xi(2), weight
+      real(wp) :: points(3), weights(3)
+      integer(ip) :: n, i, j
+
+      n = gauss_count(n_nodes)
+      call gauss_rule(n, points(:n), weights(:n))
+      i = mod(k - 1, n) + 1
+      j = (k - 1)/n + 1
+      xi = [points(i), points(j)]
+      weight = weights(i)*weights(j)
+   end subroutine gauss_point
+
+end module atrito_shape_functions

@@ -1,0 +1,237 @@
+!> Band Cholesky by LAPACK: K_ii = L L' (dpbtrf), the coupling H = L^-1 K_ic, S = K_cc - H' H.
+!>
+!> The coupling is a full block from the first interior row that the kept equations reach.
+module atrito_banded
+   use atrito_halting, only: halting_t, suspend_halting, restore_halting
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_lapack, only: dgemm, dpbtrf, dsyrk, dtbtrs, dtrsm
+   use atrito_profile, only: profile_t, half_bandwidth, first_coupled_row, BAND_BLOCK
+   use atrito_status, only: status_t, set_status, STATUS_INTERNAL
+   use atrito_storage, only: storage_t, pivot_report_t, note_pivot, set_pivot_status
+   implicit none (type, external)
+   private
+   public :: banded_t
+
+   type, extends(storage_t) :: banded_t
+      private
+      integer(ip) :: half_width = 0              !< entries below the diagonal
+      integer(ip) :: first_coupled = 1           !< first row of the coupling
+      real(wp), allocatable :: band(:, :)        !< (half_width + 1 + padding, n_interior): a_ij in (1 + i - j, j), i >= j
+      real(wp), allocatable :: coupling(:, :)    !< (n_interior - first_coupled + 1, n_kept): K_ic, then H
+      real(wp), allocatable :: kept(:, :)        !< (n_kept, n_kept), lower triangle: K_cc, then S
+   contains
+      procedure :: create => create_banded
+      procedure :: add => add_to_banded
+      procedure :: factor => factor_banded
+      procedure :: get_schur => get_banded_schur
+      procedure :: reduce => reduce_banded
+      procedure :: expand => expand_banded
+      procedure :: memory_bytes => banded_memory
+      procedure, nopass :: name => banded_name
+   end type banded_t
+
+contains
+
+   subroutine create_banded(self, profile, status)
+      class(banded_t), intent(inout) :: self
+      type(profile_t), intent(in) :: profile
+      type(status_t), intent(out) :: status
+      integer(ip) :: n_interior, padding
+      integer :: no_memory
+
+      self%n = profile%n
+      self%n_kept = profile%n_kept
+      self%report = pivot_report_t()
+      self%half_width = half_bandwidth(profile)
+      self%first_coupled = first_coupled_row(profile)
+      n_interior = self%n - self%n_kept
+      padding = 0
+      if (self%n_kept > 0) padding = BAND_BLOCK      ! zeros that eliminate_coupling multiplies with
+      if (allocated(self%band)) deallocate (self%band, self%coupling, self%kept)
+      allocate (self%band(self%half_width + 1 + padding, n_interior), &
+                self%coupling(n_interior - self%first_coupled + 1, self%n_kept), &
+                self%kept(self%n_kept, self%n_kept), stat=no_memory)
+      if (no_memory /= 0) then
+         call set_status(status, STATUS_INTERNAL, 'not enough memory for the band')
+         return
+      end if
+      self%band = 0.0_wp
+      self%coupling = 0.0_wp
+      self%kept = 0.0_wp
+   end subroutine create_banded
+
+   subroutine add_to_banded(self, equations, matrix)
+      class(banded_t), intent(inout) :: self
+      integer(ip), intent(in) :: equations(:)
+      real(wp), intent(in) :: matrix(:, :)
+      integer(ip) :: a, b, i, j, n_interior
+
+      n_interior = self%n - self%n_kept
+      do b = 1, size(equations, kind=ip)
+         j = equations(b)
+         if (j == 0) cycle
+         do a = 1, size(equations, kind=ip)
+            i = equations(a)
+            if (i < j) cycle
+            if (i <= n_interior) then
+               self%band(1 + i - j, j) = self%band(1 + i - j, j) + matrix(a, b)
+            else if (j <= n_interior) then
+               self%coupling(j - self%first_coupled + 1, i - n_interior) = &
+                  self%coupling(j - self%first_coupled + 1, i - n_interior) + matrix(a, b)
+            else
+               self%kept(i - n_interior, j - n_interior) = self%kept(i - n_interior, j - n_interior) + matrix(a, b)
+            end if
+         end do
+      end do
+   end subroutine add_to_banded
+
+   subroutine factor_banded(self, status)
+      class(banded_t), intent(inout) :: self
+      type(status_t), intent(out) :: status
+      type(halting_t) :: halting
+      real(wp) :: diagonal(self%n - self%n_kept)
+      integer(ip) :: info, rows
+      logical :: stopped
+
+      diagonal = self%band(1, :)
+      rows = size(self%coupling, 1, kind=ip)
+      call suspend_halting(halting)
+      call dpbtrf('L', size(diagonal, kind=ip), self%half_width, self%band, size(self%band, 1, kind=ip), info)
+      call restore_halting(halting)
+      call check_pivots(self, diagonal, info, stopped)
+      call set_pivot_status(self%report, stopped, status)
+      if (stopped .or. self%n_kept == 0 .or. rows == 0) return
+      call suspend_halting(halting)
+      call eliminate_coupling(self, rows)
+      call dsyrk('L', 'T', self%n_kept, rows, -1.0_wp, self%coupling, rows, 1.0_wp, self%kept, self%n_kept)
+      call restore_halting(halting)
+   end subroutine factor_banded
+
+   !> The pivots are the squares of L's diagonal; the one at which dpbtrf gave up (`failed` > 0) is computed anew from its row,
+   !> to tell a negative one from none.
+   subroutine check_pivots(self, diagonal, failed, stopped)
+      class(banded_t), intent(inout) :: self
+      real(wp), intent(in) :: diagonal(:)            !< of K_ii
+      integer(ip), intent(in) :: failed
+      logical, intent(out) :: stopped
+      real(wp) :: pivot
+      logical :: usable
+      integer(ip) :: j, k
+
+      self%report = pivot_report_t()
+      stopped = .false.
+      do j = 1, size(diagonal, kind=ip)
+         if (j == failed) then
+            pivot = diagonal(j)
+            do k = max(1_ip, j - self%half_width), j - 1
+               pivot = pivot - self%band(1 + j - k, k)**2
+            end do
+         else
+            pivot = self%band(1, j)**2
+         end if
+         call note_pivot(self%report, j, self%n, diagonal(j), pivot, usable)
+         stopped = j == failed .or. .not. usable
+         if (stopped) return
+      end do
+   end subroutine check_pivots
+
+   !> coupling <- L^-1 coupling, by blocks of columns of L (dtbtrs takes one column of the coupling at a time and is slow).
+   !> With one row less as leading dimension the band reads as a full matrix; the padding holds the zeros below it.
+   subroutine eliminate_coupling(self, rows)
+      class(banded_t), intent(inout) :: self
+      integer(ip), intent(in) :: rows
+      integer(ip) :: leading, k, row, columns, below
+
+      leading = size(self%band, 1, kind=ip) - 1
+      do row = 1, rows, BAND_BLOCK
+         k = self%first_coupled + row - 1
+         columns = min(BAND_BLOCK, rows - row + 1)
+         call dtrsm('L', 'L', 'N', 'N', columns, self%n_kept, 1.0_wp, self%band(1, k), leading, self%coupling(row, 1), rows)
+         below = min(self%half_width, rows - row - columns + 1)
+         if (below == 0) cycle
+         call dgemm('N', 'N', below, self%n_kept, columns, -1.0_wp, self%band(1 + columns, k), leading, &
+                    self%coupling(row, 1), rows, 1.0_wp, self%coupling(row + columns, 1), rows)
+      end do
+   end subroutine eliminate_coupling
+
+   subroutine get_banded_schur(self, schur)
+      class(banded_t), intent(in) :: self
+      real(wp), intent(out) :: schur(:, :)
+      integer(ip) :: j
+
+      do j = 1, self%n_kept
+         schur(j:, j) = self%kept(j:, j)
+         schur(j, j + 1:) = self%kept(j + 1:, j)
+      end do
+   end subroutine get_banded_schur
+
+   !> f_i <- L^-1 f_i, f_c <- f_c - H' f_i.
+   subroutine reduce_banded(self, f)
+      class(banded_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: f(:, :)
+
+      call reduce_columns(self, self%n, size(f, 2, kind=ip), f)
+   end subroutine reduce_banded
+
+   subroutine reduce_columns(self, n, loads, f)
+      class(banded_t), intent(in) :: self
+      integer(ip), intent(in) :: n, loads
+      real(wp), intent(inout) :: f(n, loads)
+      type(halting_t) :: halting
+      integer(ip) :: n_interior, rows, ignored
+
+      n_interior = n - self%n_kept
+      rows = size(self%coupling, 1, kind=ip)
+      if (n_interior == 0 .or. loads == 0) return
+      call suspend_halting(halting)
+      call dtbtrs('L', 'N', 'N', n_interior, self%half_width, loads, self%band, size(self%band, 1, kind=ip), f, n, ignored)
+      if (self%n_kept > 0 .and. rows > 0) then
+         call dgemm('T', 'N', self%n_kept, loads, rows, -1.0_wp, self%coupling, rows, f(self%first_coupled, 1), n, 1.0_wp, &
+                    f(n_interior + 1, 1), n)
+      end if
+      call restore_halting(halting)
+   end subroutine reduce_columns
+
+   !> x_i <- L^-T (f_i - H x_c).
+   subroutine expand_banded(self, x)
+      class(banded_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: x(:, :)
+
+      call expand_columns(self, self%n, size(x, 2, kind=ip), x)
+   end subroutine expand_banded
+
+   subroutine expand_columns(self, n, loads, x)
+      class(banded_t), intent(in) :: self
+      integer(ip), intent(in) :: n, loads
+      real(wp), intent(inout) :: x(n, loads)
+      type(halting_t) :: halting
+      integer(ip) :: n_interior, rows, ignored
+
+      n_interior = n - self%n_kept
+      rows = size(self%coupling, 1, kind=ip)
+      if (n_interior == 0 .or. loads == 0) return
+      call suspend_halting(halting)
+      if (self%n_kept > 0 .and. rows > 0) then
+         call dgemm('N', 'N', rows, loads, self%n_kept, -1.0_wp, self%coupling, rows, x(n_interior + 1, 1), n, 1.0_wp, &
+                    x(self%first_coupled, 1), n)
+      end if
+      call dtbtrs('L', 'T', 'N', n_interior, self%half_width, loads, self%band, size(self%band, 1, kind=ip), x, n, ignored)
+      call restore_halting(halting)
+   end subroutine expand_columns
+
+   pure integer(lp) function banded_memory(self)
+      class(banded_t), intent(in) :: self
+
+      banded_memory = 0
+      if (.not. allocated(self%band)) return
+      banded_memory = (size(self%band, kind=lp) + size(self%coupling, kind=lp) + size(self%kept, kind=lp)) &
+                      *int(storage_size(1.0_wp)/8, lp)
+   end function banded_memory
+
+   pure function banded_name() result(name)
+      character(len=:), allocatable :: name
+
+      name = 'banded'
+   end function banded_name
+
+end module atrito_banded

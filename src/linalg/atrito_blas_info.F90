@@ -1,0 +1,82 @@
+!> Which BLAS the program was linked with, and how many threads it takes.
+!>
+!> CMake looks for OpenBLAS's own functions in the libraries that it found (ATRITO_OPENBLAS) and says where these are
+!> (ATRITO_BLAS_LIBRARY). The reference BLAS costs a factor of three, hence the question.
+module atrito_blas_info
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_associated, c_f_pointer
+   use atrito_kinds, only: ip
+   implicit none (type, external)
+   private
+   public :: blas_name, is_reference_blas, set_blas_threads
+
+#ifdef ATRITO_OPENBLAS
+   logical, parameter :: HAS_OPENBLAS = .true.
+
+   interface
+      type(c_ptr) function openblas_get_config() bind(C, name='openblas_get_config')
+         import :: c_ptr
+      end function openblas_get_config
+      subroutine openblas_set_num_threads(threads) bind(C, name='openblas_set_num_threads')
+         import :: c_int
+         integer(c_int), value :: threads
+      end subroutine openblas_set_num_threads
+   end interface
+#else
+   logical, parameter :: HAS_OPENBLAS = .false.
+#endif
+
+contains
+
+   !> For the listing: 'OpenBLAS 0.3.21 ...' as the library describes itself, else the name of the library file.
+   function blas_name() result(name)
+      character(len=:), allocatable :: name
+
+#ifdef ATRITO_OPENBLAS
+      name = to_string(openblas_get_config())
+      if (index(name, 'OpenBLAS') /= 1) name = 'OpenBLAS '//name
+#else
+      name = ATRITO_BLAS_LIBRARY
+#endif
+   end function blas_name
+
+   !> True for the slow one: a library of the plain name libblas or liblapack that is not OpenBLAS in disguise.
+   pure logical function is_reference_blas()
+      character(len=*), parameter :: FILE = ATRITO_BLAS_LIBRARY
+      character(len=*), parameter :: STEM = FILE(index(FILE, '/', back=.true.) + 1:)
+
+      is_reference_blas = .not. HAS_OPENBLAS .and. &
+                          (index(STEM, 'libblas') == 1 .or. index(STEM, 'liblapack') == 1 .or. index(STEM, 'librefblas') == 1)
+   end function is_reference_blas
+
+   !> Threads that BLAS may use from now on; without effect where the library offers no such call.
+   subroutine set_blas_threads(n)
+      integer(ip), intent(in) :: n              !< >= 1
+
+#ifdef ATRITO_OPENBLAS
+      call openblas_set_num_threads(int(max(n, 1_ip), c_int))
+#else
+      if (n < 1) return
+#endif
+   end subroutine set_blas_threads
+
+#ifdef ATRITO_OPENBLAS
+   !> A C string; empty for a null pointer.
+   function to_string(pointer) result(text)
+      type(c_ptr), intent(in) :: pointer
+      character(len=:), allocatable :: text
+      integer, parameter :: LONGEST = 256
+      character(kind=c_char), pointer :: characters(:)
+      integer :: i
+
+      text = ''
+      if (.not. c_associated(pointer)) return
+      call c_f_pointer(pointer, characters, [LONGEST])
+      do i = 1, LONGEST
+         if (characters(i) == c_null_char) exit
+         text = text//characters(i)
+      end do
+      text = trim(text)
+   end function to_string
+#endif
+
+end module atrito_blas_info

@@ -1,0 +1,305 @@
+!> Dense linear algebra: the one wrapper of LAPACK and BLAS for full matrices.
+!>
+!> All of it works at order 0. Tolerances are relative to the largest singular value, so that nothing depends on units. `info`
+!> is LAPACK's: 0 is success; a factorisation that meets an exactly zero pivot, or an iteration for eigen- or singular values
+!> that does not converge (which takes NaN or infinity in the matrix), returns something else.
+module atrito_dense
+   use atrito_halting, only: halting_t, suspend_halting, restore_halting
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_lapack, only: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpocon, dpotrf, dpotrs, dsyev
+   implicit none (type, external)
+   private
+   public :: factor_cholesky, solve_cholesky, estimate_condition, norm_one, solve_lu, eigen_symmetric
+   public :: orthonormalise, multiply, multiply_vector, singular_values, null_space, least_squares
+
+   !> b <- A^-1 b with the factor of factor_cholesky; b of rank 1 or 2.
+   interface solve_cholesky
+      module procedure solve_cholesky_one, solve_cholesky_many
+   end interface solve_cholesky
+
+   !> b <- A^-1 b by LU; b of rank 1 or 2.
+   interface solve_lu
+      module procedure solve_lu_one, solve_lu_many
+   end interface solve_lu
+
+contains
+
+   !> A = L L' in place (dpotrf): reads and writes the lower triangle alone. The caller scales.
+   subroutine factor_cholesky(a, pivot_failed)
+      real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n)
+      integer(ip), intent(out) :: pivot_failed           !< 0, or the first row whose pivot is not positive
+      type(halting_t) :: halting
+
+      call suspend_halting(halting)
+      call dpotrf('L', order(a), a, leading(a), pivot_failed)
+      call restore_halting(halting)
+   end subroutine factor_cholesky
+
+   subroutine solve_cholesky_many(a, b)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (n, n) factor, lower triangle
+      real(wp), intent(inout), contiguous :: b(:, :)     !< (n, loads)
+      type(halting_t) :: halting
+      integer(ip) :: ignored
+
+      call suspend_halting(halting)
+      call dpotrs('L', order(a), size(b, 2, kind=ip), a, leading(a), b, leading(b), ignored)
+      call restore_halting(halting)
+   end subroutine solve_cholesky_many
+
+   subroutine solve_cholesky_one(a, b)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (n, n) factor, lower triangle
+      real(wp), intent(inout), contiguous :: b(:)        !< (n)
+      type(halting_t) :: halting
+      integer(ip) :: ignored
+
+      call suspend_halting(halting)
+      call dpotrs('L', order(a), 1_ip, a, leading(a), b, leading(a), ignored)
+      call restore_halting(halting)
+   end subroutine solve_cholesky_one
+
+   !> Estimate of the condition number in the 1-norm, >= 1 (dpocon); 1 at order 0.
+   real(wp) function estimate_condition(a_factor, norm1) result(condition)
+      real(wp), intent(in), contiguous :: a_factor(:, :) !< (n, n) factor of factor_cholesky
+      real(wp), intent(in) :: norm1                      !< norm_one of the matrix before
+      type(halting_t) :: halting
+      real(wp) :: reciprocal, work(3*size(a_factor, 2))
+      integer(ip) :: ignored, iwork(size(a_factor, 2))
+
+      call suspend_halting(halting)
+      call dpocon('L', order(a_factor), a_factor, leading(a_factor), norm1, reciprocal, work, iwork, ignored)
+      call restore_halting(halting)
+      condition = HUGE_REAL
+      if (reciprocal > 1.0_wp/HUGE_REAL) condition = max(1.0_wp/reciprocal, 1.0_wp)
+   end function estimate_condition
+
+   !> Largest column sum of absolute values; 0 at order 0.
+   pure real(wp) function norm_one(a)
+      real(wp), intent(in) :: a(:, :)                    !< any shape
+      integer(ip) :: j
+
+      norm_one = 0.0_wp
+      do j = 1, size(a, 2, kind=ip)
+         norm_one = max(norm_one, sum(abs(a(:, j))))
+      end do
+   end function norm_one
+
+   subroutine solve_lu_many(a, b, info)
+      real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n); destroyed
+      real(wp), intent(inout), contiguous :: b(:, :)     !< (n, loads)
+      integer(ip), intent(out) :: info                   !< > 0: the pivot of this row is exactly zero
+      type(halting_t) :: halting
+      integer(ip) :: pivots(size(a, 2))
+
+      call suspend_halting(halting)
+      call dgesv(order(a), size(b, 2, kind=ip), a, leading(a), pivots, b, leading(b), info)
+      call restore_halting(halting)
+   end subroutine solve_lu_many
+
+   subroutine solve_lu_one(a, b, info)
+      real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n); destroyed
+      real(wp), intent(inout), contiguous :: b(:)        !< (n)
+      integer(ip), intent(out) :: info                   !< > 0: the pivot of this row is exactly zero
+      type(halting_t) :: halting
+      integer(ip) :: pivots(size(a, 2))
+
+      call suspend_halting(halting)
+      call dgesv(order(a), 1_ip, a, leading(a), pivots, b, leading(a), info)
+      call restore_halting(halting)
+   end subroutine solve_lu_one
+
+   !> All eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix (dsyev).
+   subroutine eigen_symmetric(a, values, info)
+      real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n) lower triangle; the vectors, by columns, on return
+      real(wp), intent(out), contiguous :: values(:)     !< (n)
+      integer(ip), intent(out) :: info
+      real(wp), allocatable :: work(:)
+      real(wp) :: wanted(1)
+      type(halting_t) :: halting
+
+      call suspend_halting(halting)
+      call dsyev('V', 'L', order(a), a, leading(a), values, wanted, -1_ip, info)
+      allocate (work(max(int(wanted(1)), 1)))
+      call dsyev('V', 'L', order(a), a, leading(a), values, work, size(work, kind=ip), info)
+      call restore_halting(halting)
+   end subroutine eigen_symmetric
+
+   !> Singular values in descending order; a is kept.
+   subroutine singular_values(a, values, info)
+      real(wp), intent(in) :: a(:, :)                    !< (m, n)
+      real(wp), intent(out), contiguous :: values(:)     !< (min(m, n))
+      integer(ip), intent(out) :: info
+      real(wp) :: copy(size(a, 1), size(a, 2)), vectors(1, 1)
+
+      copy = a
+      call decompose('N', 'N', copy, values, vectors, info)
+   end subroutine singular_values
+
+   !> An orthonormal basis of the space of the columns (dgesvd).
+   subroutine orthonormalise(a, rank, tol, info)
+      real(wp), intent(inout), contiguous :: a(:, :)     !< (m, n); on return the basis is a(:, :rank)
+      integer(ip), intent(out) :: rank                   !< 0..min(m, n)
+      real(wp), intent(in) :: tol                        !< singular values below tol times the largest count as zero
+      integer(ip), intent(out) :: info
+      real(wp) :: values(min(size(a, 1), size(a, 2))), vectors(1, 1)
+
+      call decompose('O', 'N', a, values, vectors, info)
+      rank = count_rank(values, tol)
+   end subroutine orthonormalise
+
+   !> An orthonormal basis of the right null space: A z = 0 (dgesvd).
+   subroutine null_space(a, tol, z, info)
+      real(wp), intent(in) :: a(:, :)                    !< (m, n)
+      real(wp), intent(in) :: tol                        !< singular values below tol times the largest count as zero
+      real(wp), allocatable, intent(out) :: z(:, :)      !< (n, n - rank)
+      integer(ip), intent(out) :: info
+      real(wp) :: copy(size(a, 1), size(a, 2)), values(min(size(a, 1), size(a, 2)))
+      real(wp) :: vectors(size(a, 2), size(a, 2))
+      integer(ip) :: i
+
+      copy = a
+      vectors = 0.0_wp
+      do i = 1, size(a, 2, kind=ip)
+         vectors(i, i) = 1.0_wp     ! all there is without rows: LAPACK returns at once
+      end do
+      call decompose('N', 'A', copy, values, vectors, info)
+      z = transpose(vectors(count_rank(values, tol) + 1:, :))
+   end subroutine null_space
+
+   !> Singular values above tol times the largest; a zero matrix has none.
+   pure integer(ip) function count_rank(values, tol) result(rank)
+      real(wp), intent(in) :: values(:), tol
+
+      rank = 0
+      if (size(values) > 0) rank = count(values > tol*values(1), kind=ip)
+   end function count_rank
+
+   !> dgesvd; left vectors, where wanted, replace a.
+   subroutine decompose(jobu, jobvt, a, values, vectors, info)
+      character(len=1), intent(in) :: jobu, jobvt
+      real(wp), intent(inout), contiguous :: a(:, :)
+      real(wp), intent(out), contiguous :: values(:)
+      real(wp), intent(inout), contiguous :: vectors(:, :)
+      integer(ip), intent(out) :: info
+      real(wp), allocatable :: work(:)
+      real(wp) :: wanted(1), no_vectors(1, 1)
+      type(halting_t) :: halting
+      integer(ip) :: m, n
+
+      info = 0
+      m = size(a, 1, kind=ip)
+      n = size(a, 2, kind=ip)
+      if (min(m, n) == 0) return
+      call suspend_halting(halting)
+      call dgesvd(jobu, jobvt, m, n, a, m, values, no_vectors, 1_ip, vectors, leading(vectors), wanted, -1_ip, info)
+      allocate (work(max(int(wanted(1)), 1)))
+      call dgesvd(jobu, jobvt, m, n, a, m, values, no_vectors, 1_ip, vectors, leading(vectors), work, &
+                  size(work, kind=ip), info)
+      call restore_halting(halting)
+   end subroutine decompose
+
+   !> The shortest of all x that minimise |A x - b| (dgelsd).
+   subroutine least_squares(a, b, x, tol, rank, info)
+      real(wp), intent(in) :: a(:, :)                    !< (m, n)
+      real(wp), intent(in) :: b(:)                       !< (m)
+      real(wp), intent(out) :: x(:)                      !< (n)
+      real(wp), intent(in) :: tol                        !< singular values below tol times the largest count as zero
+      integer(ip), intent(out) :: rank                   !< 0..min(m, n)
+      integer(ip), intent(out) :: info
+      real(wp) :: copy(size(a, 1), size(a, 2)), both(max(size(a, 1), size(a, 2), 1)), values(size(x))
+      real(wp), allocatable :: work(:)
+      integer(ip), allocatable :: iwork(:)
+      real(wp) :: wanted(1)
+      integer(ip) :: wanted_integers(1), m, n
+      type(halting_t) :: halting
+
+      m = size(a, 1, kind=ip)
+      n = size(a, 2, kind=ip)
+      copy = a
+      both = 0.0_wp
+      both(:m) = b
+      rank = 0
+      info = 0
+      if (min(m, n) > 0) then
+         call suspend_halting(halting)
+         call dgelsd(m, n, 1_ip, copy, m, both, size(both, kind=ip), values, tol, rank, wanted, -1_ip, wanted_integers, info)
+         allocate (work(max(int(wanted(1)), 1)), iwork(max(wanted_integers(1), 1_ip)))
+         call dgelsd(m, n, 1_ip, copy, m, both, size(both, kind=ip), values, tol, rank, work, size(work, kind=ip), iwork, &
+                     info)
+         call restore_halting(halting)
+      else
+         both = 0.0_wp
+      end if
+      x = both(:n)
+   end subroutine least_squares
+
+   !> c <- alpha op(a) op(b) + beta c (dgemm).
+   subroutine multiply(a, b, c, transa, transb, alpha, beta)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (m, k), or (k, m) when transa
+      real(wp), intent(in), contiguous :: b(:, :)        !< (k, n), or (n, k) when transb
+      real(wp), intent(inout), contiguous :: c(:, :)     !< (m, n); need not be defined when beta = 0
+      logical, intent(in), optional :: transa, transb    !< default false
+      real(wp), intent(in), optional :: alpha            !< default 1
+      real(wp), intent(in), optional :: beta             !< default 0
+      type(halting_t) :: halting
+      integer(ip) :: terms
+
+      terms = size(a, 2, kind=ip)
+      if (operation(transa) == 'T') terms = size(a, 1, kind=ip)
+      call suspend_halting(halting)
+      call dgemm(operation(transa), operation(transb), size(c, 1, kind=ip), size(c, 2, kind=ip), terms, &
+                 value_or(alpha, 1.0_wp), a, leading(a), b, leading(b), value_or(beta, 0.0_wp), c, leading(c))
+      call restore_halting(halting)
+   end subroutine multiply
+
+   !> y <- alpha op(a) x + beta y (dgemv).
+   subroutine multiply_vector(a, x, y, transa, alpha, beta)
+      real(wp), intent(in), contiguous :: a(:, :)        !< (m, n)
+      real(wp), intent(in), contiguous :: x(:)           !< (n), or (m) when transa
+      real(wp), intent(inout), contiguous :: y(:)        !< (m), or (n) when transa; need not be defined when beta = 0
+      logical, intent(in), optional :: transa            !< default false
+      real(wp), intent(in), optional :: alpha            !< default 1
+      real(wp), intent(in), optional :: beta             !< default 0
+      type(halting_t) :: halting
+      real(wp) :: old
+
+      old = value_or(beta, 0.0_wp)
+      if (size(x) == 0) then       ! dgemv returns at once and leaves y as it is
+         if (old == 0.0_wp) y = 0.0_wp
+         if (old /= 0.0_wp) y = old*y
+         return
+      end if
+      call suspend_halting(halting)
+      call dgemv(operation(transa), size(a, 1, kind=ip), size(a, 2, kind=ip), value_or(alpha, 1.0_wp), a, leading(a), &
+                 x, 1_ip, old, y, 1_ip)
+      call restore_halting(halting)
+   end subroutine multiply_vector
+
+   pure character(len=1) function operation(transposed)
+      logical, intent(in), optional :: transposed
+
+      operation = 'N'
+      if (present(transposed)) operation = merge('T', 'N', transposed)
+   end function operation
+
+   pure real(wp) function value_or(value, default)
+      real(wp), intent(in), optional :: value
+      real(wp), intent(in) :: default
+
+      value_or = default
+      if (present(value)) value_or = value
+   end function value_or
+
+   pure integer(ip) function order(a)
+      real(wp), intent(in) :: a(:, :)
+
+      order = size(a, 2, kind=ip)
+   end function order
+
+   !> Leading dimension; LAPACK wants at least 1.
+   pure integer(ip) function leading(a)
+      real(wp), intent(in) :: a(:, :)
+
+      leading = max(size(a, 1, kind=ip), 1_ip)
+   end function leading
+
+end module atrito_dense

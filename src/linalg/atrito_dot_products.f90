@@ -1,0 +1,85 @@
+!> The inner loops of the skyline: dot products of one or two columns with one or four.
+!>
+!> Each number that is loaded is used two or four times, and the `simd` directives (honoured with -fopenmp-simd, comments
+!> otherwise) let the compiler add up in vector lanes, which it may not do on its own.
+module atrito_dot_products
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: dot, dot_1x4, dot_2x4, PANEL_WIDTH
+
+   integer(ip), parameter :: PANEL_WIDTH = 4_ip   !< columns that are eliminated together
+
+contains
+
+   !> a . b
+   pure real(wp) function dot(n, a, b)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: a(n), b(n)
+      integer(ip) :: k
+
+      dot = 0.0_wp
+      !$omp simd reduction(+:dot)
+      do k = 1, n
+         dot = dot + a(k)*b(k)
+      end do
+   end function dot
+
+   !> products(c) = a . panel(:, c)
+   pure subroutine dot_1x4(n, a, rows, panel, products)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: a(n)
+      integer(ip), intent(in) :: rows                        !< leading dimension of the panel
+      real(wp), intent(in) :: panel(rows, PANEL_WIDTH)       !< only its first n rows are used
+      real(wp), intent(out) :: products(PANEL_WIDTH)
+      real(wp) :: s1, s2, s3, s4
+      integer(ip) :: k
+
+      s1 = 0.0_wp
+      s2 = 0.0_wp
+      s3 = 0.0_wp
+      s4 = 0.0_wp
+      !$omp simd reduction(+:s1, s2, s3, s4)
+      do k = 1, n
+         s1 = s1 + a(k)*panel(k, 1)
+         s2 = s2 + a(k)*panel(k, 2)
+         s3 = s3 + a(k)*panel(k, 3)
+         s4 = s4 + a(k)*panel(k, 4)
+      end do
+      products = [s1, s2, s3, s4]
+   end subroutine dot_1x4
+
+   !> products(c, 1) = a . panel(:, c), products(c, 2) = b . panel(:, c)
+   pure subroutine dot_2x4(n, a, b, rows, panel, products)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: a(n), b(n)
+      integer(ip), intent(in) :: rows                        !< leading dimension of the panel
+      real(wp), intent(in) :: panel(rows, PANEL_WIDTH)       !< only its first n rows are used
+      real(wp), intent(out) :: products(PANEL_WIDTH, 2)
+      real(wp) :: s1, s2, s3, s4, t1, t2, t3, t4
+      integer(ip) :: k
+
+      s1 = 0.0_wp
+      s2 = 0.0_wp
+      s3 = 0.0_wp
+      s4 = 0.0_wp
+      t1 = 0.0_wp
+      t2 = 0.0_wp
+      t3 = 0.0_wp
+      t4 = 0.0_wp
+      !$omp simd reduction(+:s1, s2, s3, s4, t1, t2, t3, t4)
+      do k = 1, n
+         s1 = s1 + a(k)*panel(k, 1)
+         s2 = s2 + a(k)*panel(k, 2)
+         s3 = s3 + a(k)*panel(k, 3)
+         s4 = s4 + a(k)*panel(k, 4)
+         t1 = t1 + b(k)*panel(k, 1)
+         t2 = t2 + b(k)*panel(k, 2)
+         t3 = t3 + b(k)*panel(k, 3)
+         t4 = t4 + b(k)*panel(k, 4)
+      end do
+      products(:, 1) = [s1, s2, s3, s4]
+      products(:, 2) = [t1, t2, t3, t4]
+   end subroutine dot_2x4
+
+end module atrito_dot_products

@@ -1,0 +1,314 @@
+!> Node numbering for the profile: reverse Cuthill-McKee with the contact nodes last.
+!>
+!> Reference: A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4.
+module atrito_ordering
+   use atrito_kinds, only: ip
+   implicit none (type, external)
+   private
+   public :: graph_t, build_graph, order_contact_last, connected_components
+
+   !> Which nodes share an element. Node itself left out.
+   type :: graph_t
+      integer(ip) :: n = 0                       !< nodes
+      integer(ip), allocatable :: xadj(:)        !< (n + 1) neighbours of i are adjncy(xadj(i):xadj(i + 1) - 1)
+      integer(ip), allocatable :: adjncy(:)
+   end type graph_t
+
+   !> A sequence of nodes being made, breadth first.
+   type :: walk_t
+      integer(ip), allocatable :: nodes(:)       !< (n)
+      integer(ip) :: length = 0
+      logical, allocatable :: seen(:)            !< (n)
+   end type walk_t
+
+contains
+
+   !> Graph of a mesh, in time linear in the number of pairs of nodes within elements.
+   pure subroutine build_graph(n, elements, graph)
+      integer(ip), intent(in) :: n               !< nodes
+      integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
+      type(graph_t), intent(out) :: graph
+      integer(ip), allocatable :: start(:), list(:), last_seen_from(:)
+      integer(ip) :: i, pass, used
+
+      call list_elements(n, elements, start, list)
+      graph%n = n
+      allocate (graph%xadj(n + 1), last_seen_from(n))
+      do pass = 1, 2          ! count, then fill
+         last_seen_from = 0
+         used = 0
+         do i = 1, n
+            graph%xadj(i) = used + 1
+            call take_neighbours(i, elements, list(start(i):start(i + 1) - 1), last_seen_from, graph%adjncy, used)
+         end do
+         graph%xadj(n + 1) = used + 1
+         if (pass == 1) allocate (graph%adjncy(used))
+      end do
+   end subroutine build_graph
+
+   !> The elements at each node: list(start(i):start(i + 1) - 1).
+   pure subroutine list_elements(n, elements, start, list)
+      integer(ip), intent(in) :: n, elements(:, :)
+      integer(ip), allocatable, intent(out) :: start(:), list(:)
+      integer(ip) :: e, k, node
+      integer(ip) :: next(n)
+
+      allocate (start(n + 1))
+      start = 0
+      do e = 1, size(elements, 2, kind=ip)
+         do k = 1, size(elements, 1, kind=ip)
+            node = elements(k, e)
+            if (node > 0) start(node + 1) = start(node + 1) + 1
+         end do
+      end do
+      start(1) = 1
+      do node = 1, n
+         start(node + 1) = start(node) + start(node + 1)
+      end do
+      allocate (list(start(n + 1) - 1))
+      next = start(:n)
+      do e = 1, size(elements, 2, kind=ip)
+         do k = 1, size(elements, 1, kind=ip)
+            node = elements(k, e)
+            if (node == 0) cycle
+            list(next(node)) = e
+            next(node) = next(node) + 1
+         end do
+      end do
+   end subroutine list_elements
+
+   !> Appends the neighbours of node i, or counts them while `neighbours` is not allocated.
+   pure subroutine take_neighbours(i, elements, around, last_seen_from, neighbours, used)
+      integer(ip), intent(in) :: i, elements(:, :)
+      integer(ip), intent(in) :: around(:)                    !< elements at node i
+      integer(ip), intent(inout) :: last_seen_from(:)
+      integer(ip), allocatable, intent(inout) :: neighbours(:)
+      integer(ip), intent(inout) :: used
+      integer(ip) :: e, k, node
+
+      last_seen_from(i) = i
+      do e = 1, size(around, kind=ip)
+         do k = 1, size(elements, 1, kind=ip)
+            node = elements(k, around(e))
+            if (node == 0) cycle
+            if (last_seen_from(node) == i) cycle
+            last_seen_from(node) = i
+            used = used + 1
+            if (allocated(neighbours)) neighbours(used) = node
+         end do
+      end do
+   end subroutine take_neighbours
+
+   !> Reverse Cuthill-McKee numbering that ends with given nodes.
+   !>
+   !> The given nodes are the root level of the search, so that the rest is numbered in layers that approach them: their
+   !> columns stay short. A component without any of them begins at a pseudo-peripheral node. Components follow one another.
+   !> Time linear in the number of edges (and in last_nodes times the components that hold any).
+   pure subroutine order_contact_last(graph, last_nodes, order)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(in) :: last_nodes(:)   !< distinct nodes, in the order wanted (along the chain); may be empty
+      integer(ip), intent(out) :: order(:)       !< (n) order(k) = node at place k
+      type(graph_t) :: sorted
+      type(walk_t) :: walk, trial
+      integer(ip) :: component(graph%n), n_components, i
+      logical, allocatable :: done(:)
+
+      call sort_neighbours(graph, sorted)
+      call connected_components(graph, component, n_components)
+      allocate (done(n_components))
+      done = .false.
+      call begin_walk(walk, graph%n)
+      call begin_walk(trial, graph%n)
+      do i = size(last_nodes, kind=ip), 1, -1
+         call visit(walk, last_nodes(i))
+      end do
+      do i = size(last_nodes, kind=ip), 1, -1
+         if (done(component(last_nodes(i)))) cycle
+         done(component(last_nodes(i))) = .true.
+         call grow_layers(sorted, pack(last_nodes, component(last_nodes) == component(last_nodes(i))), walk)
+      end do
+      do i = 1, graph%n
+         if (done(component(i))) cycle
+         done(component(i)) = .true.
+         call begin_component(sorted, i, trial, walk)
+      end do
+      order = walk%nodes(graph%n:1:-1)
+   end subroutine order_contact_last
+
+   !> Cuthill-McKee from the given roots, which are in the walk: those at the end of the list first.
+   pure subroutine grow_layers(sorted, roots, walk)
+      type(graph_t), intent(in) :: sorted
+      integer(ip), intent(in) :: roots(:)
+      type(walk_t), intent(inout) :: walk
+      integer(ip) :: i, next
+
+      next = walk%length + 1
+      do i = size(roots, kind=ip), 1, -1
+         call visit_neighbours(sorted, roots(i), walk)
+      end do
+      do while (next <= walk%length)
+         call visit_neighbours(sorted, walk%nodes(next), walk)
+         next = next + 1
+      end do
+   end subroutine grow_layers
+
+   !> Cuthill-McKee of the component of a node that nobody has seen.
+   pure subroutine begin_component(sorted, node, trial, walk)
+      type(graph_t), intent(in) :: sorted
+      integer(ip), intent(in) :: node
+      type(walk_t), intent(inout) :: trial, walk
+      integer(ip) :: root
+
+      call find_peripheral_node(sorted, node, trial, root)
+      call visit(walk, root)
+      call grow_layers(sorted, [root], walk)
+   end subroutine begin_component
+
+   !> A node from which the component has many layers (George and Liu): from the last layer take the node of least degree and
+   !> look back, as long as that makes more layers.
+   pure subroutine find_peripheral_node(graph, node, trial, root)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(in) :: node
+      type(walk_t), intent(inout) :: trial
+      integer(ip), intent(out) :: root
+      integer(ip) :: far, layers, before
+
+      call find_far_node(graph, node, trial, layers, far)
+      do
+         root = far
+         before = layers
+         call find_far_node(graph, root, trial, layers, far)
+         if (layers <= before) exit
+      end do
+   end subroutine find_peripheral_node
+
+   !> The number of layers seen from `root`, and the node of least degree in the last one. The trial walk is left empty.
+   pure subroutine find_far_node(graph, root, trial, layers, far)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(in) :: root
+      type(walk_t), intent(inout) :: trial
+      integer(ip), intent(out) :: layers, far
+      integer(ip) :: i, first, last
+
+      call visit(trial, root)
+      layers = 0
+      first = 1
+      last = 0
+      do while (last < trial%length)
+         first = last + 1
+         last = trial%length
+         layers = layers + 1
+         do i = first, last
+            call visit_neighbours(graph, trial%nodes(i), trial)
+         end do
+      end do
+      far = trial%nodes(first)
+      do i = first, last
+         if (degree(graph, trial%nodes(i)) < degree(graph, far)) far = trial%nodes(i)
+      end do
+      trial%seen(trial%nodes(:last)) = .false.
+      trial%length = 0
+   end subroutine find_far_node
+
+   !> The same graph with the neighbours of each node in order of their degree, in linear time: nodes are taken by degree and
+   !> enter themselves with their neighbours.
+   pure subroutine sort_neighbours(graph, sorted)
+      type(graph_t), intent(in) :: graph
+      type(graph_t), intent(out) :: sorted
+      integer(ip) :: by_degree(graph%n), next(graph%n), i, k, node
+
+      call sort_by_degree(graph, by_degree)
+      sorted%n = graph%n
+      sorted%xadj = graph%xadj
+      allocate (sorted%adjncy(size(graph%adjncy)))
+      next = graph%xadj(:graph%n)
+      do i = 1, graph%n
+         do k = graph%xadj(by_degree(i)), graph%xadj(by_degree(i) + 1) - 1
+            node = graph%adjncy(k)
+            sorted%adjncy(next(node)) = by_degree(i)
+            next(node) = next(node) + 1
+         end do
+      end do
+   end subroutine sort_neighbours
+
+   !> Counting sort.
+   pure subroutine sort_by_degree(graph, nodes)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(out) :: nodes(:)
+      integer(ip), allocatable :: place(:)
+      integer(ip) :: i, d
+
+      allocate (place(0:graph%n))      ! place(d): where the next node of degree d goes
+      place = 0
+      do i = 1, graph%n
+         d = degree(graph, i)
+         place(d + 1) = place(d + 1) + 1
+      end do
+      place(0) = 1
+      do d = 1, graph%n
+         place(d) = place(d - 1) + place(d)
+      end do
+      do i = 1, graph%n
+         d = degree(graph, i)
+         nodes(place(d)) = i
+         place(d) = place(d) + 1
+      end do
+   end subroutine sort_by_degree
+
+   !> Numbers the connected components from 1 in the order of their lowest nodes. Time linear in the number of edges.
+   pure subroutine connected_components(graph, component, n_components)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(out) :: component(:)   !< (n) 1..n_components
+      integer(ip), intent(out) :: n_components
+      type(walk_t) :: walk
+      integer(ip) :: i, first
+
+      call begin_walk(walk, graph%n)
+      n_components = 0
+      do i = 1, graph%n
+         if (walk%seen(i)) cycle
+         n_components = n_components + 1
+         first = walk%length + 1
+         call visit(walk, i)
+         call grow_layers(graph, [i], walk)
+         component(walk%nodes(first:walk%length)) = n_components
+      end do
+   end subroutine connected_components
+
+   pure subroutine begin_walk(walk, n)
+      type(walk_t), intent(out) :: walk
+      integer(ip), intent(in) :: n
+
+      allocate (walk%nodes(n), walk%seen(n))
+      walk%seen = .false.
+   end subroutine begin_walk
+
+   pure subroutine visit(walk, node)
+      type(walk_t), intent(inout) :: walk
+      integer(ip), intent(in) :: node
+
+      if (walk%seen(node)) return
+      walk%seen(node) = .true.
+      walk%length = walk%length + 1
+      walk%nodes(walk%length) = node
+   end subroutine visit
+
+   pure subroutine visit_neighbours(graph, node, walk)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(in) :: node
+      type(walk_t), intent(inout) :: walk
+      integer(ip) :: k
+
+      do k = graph%xadj(node), graph%xadj(node + 1) - 1
+         call visit(walk, graph%adjncy(k))
+      end do
+   end subroutine visit_neighbours
+
+   pure integer(ip) function degree(graph, node)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(in) :: node
+
+      degree = graph%xadj(node + 1) - graph%xadj(node)
+   end function degree
+
+end module atrito_ordering

@@ -1,0 +1,169 @@
+!> The profile (skyline) of a symmetric matrix, and what factoring it will cost.
+!>
+!> Equations are numbered 1..n; the last n_kept of them are kept: they are the contact unknowns, which the factorisation does
+!> not eliminate and onto which it condenses the rest (the Schur complement). Column j of the upper triangle is stored from row
+!> first(j) down to the diagonal; its height is j - first(j) + 1.
+module atrito_profile
+   use atrito_kinds, only: ip, lp, wp
+   implicit none (type, external)
+   private
+   public :: profile_t, begin_profile, add_to_profile, close_profile
+   public :: profile_length, half_bandwidth, largest_height, mean_height, first_coupled_row
+   public :: skyline_flops, banded_flops, skyline_bytes, banded_bytes
+   public :: BAND_BLOCK
+
+   type :: profile_t
+      integer(ip) :: n = 0                      !< number of equations
+      integer(ip) :: n_kept = 0                 !< the last n_kept equations are kept
+      integer(ip), allocatable :: first(:)      !< (n) row of the first entry of column j, 1 <= first(j) <= j
+   end type profile_t
+
+   !> Columns that the banded storage eliminates at a time from the kept block; it pads the band by as many rows.
+   integer(ip), parameter :: BAND_BLOCK = 32_ip
+
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
+   integer(lp), parameter :: INDEX_BYTES = storage_size(1_ip)/8 + storage_size(1_lp)/8
+
+contains
+
+   !> Begins with a diagonal matrix.
+   pure subroutine begin_profile(profile, n, n_kept)
+      type(profile_t), intent(out) :: profile
+      integer(ip), intent(in) :: n              !< number of equations, >= 0
+      integer(ip), intent(in) :: n_kept         !< kept equations, 0 <= n_kept <= n
+      integer(ip) :: j
+
+      profile%n = n
+      profile%n_kept = n_kept
+      allocate (profile%first(n))
+      do j = 1, n
+         profile%first(j) = j
+      end do
+   end subroutine begin_profile
+
+   !> Makes room for an element matrix.
+   pure subroutine add_to_profile(profile, equations)
+      type(profile_t), intent(inout) :: profile
+      integer(ip), intent(in) :: equations(:)   !< equation numbers of the element in any order; 0 = prescribed, skipped
+      integer(ip) :: k, lowest
+
+      lowest = huge(lowest)
+      do k = 1, size(equations, kind=ip)
+         if (equations(k) > 0) lowest = min(lowest, equations(k))
+      end do
+      do k = 1, size(equations, kind=ip)
+         if (equations(k) > 0) profile%first(equations(k)) = min(profile%first(equations(k)), lowest)
+      end do
+   end subroutine add_to_profile
+
+   !> Ends with the kept block full, as the Schur complement is.
+   pure subroutine close_profile(profile)
+      type(profile_t), intent(inout) :: profile
+      integer(ip) :: j, n_interior
+
+      n_interior = profile%n - profile%n_kept
+      do j = n_interior + 1, profile%n
+         profile%first(j) = min(profile%first(j), n_interior + 1)
+      end do
+   end subroutine close_profile
+
+   !> Entries within the profile, diagonals included.
+   pure integer(lp) function profile_length(profile)
+      type(profile_t), intent(in) :: profile
+      integer(ip) :: j
+
+      profile_length = 0
+      do j = 1, profile%n
+         profile_length = profile_length + int(j - profile%first(j) + 1, lp)
+      end do
+   end function profile_length
+
+   !> Half bandwidth of the interior block (kept equations left out), the diagonal not counted.
+   pure integer(ip) function half_bandwidth(profile)
+      type(profile_t), intent(in) :: profile
+      integer(ip) :: j
+
+      half_bandwidth = 0
+      do j = 1, profile%n - profile%n_kept
+         half_bandwidth = max(half_bandwidth, j - profile%first(j))
+      end do
+   end function half_bandwidth
+
+   !> Greatest height of a column; 0 without equations.
+   pure integer(ip) function largest_height(profile)
+      type(profile_t), intent(in) :: profile
+      integer(ip) :: j
+
+      largest_height = 0
+      do j = 1, profile%n
+         largest_height = max(largest_height, j - profile%first(j) + 1)
+      end do
+   end function largest_height
+
+   !> Mean height of the columns; 0 without equations.
+   pure real(wp) function mean_height(profile)
+      type(profile_t), intent(in) :: profile
+
+      mean_height = real(profile_length(profile), wp)/real(max(profile%n, 1_ip), wp)
+   end function mean_height
+
+   !> First interior row that the kept equations reach; n_interior + 1 when they reach none.
+   pure integer(ip) function first_coupled_row(profile) result(row)
+      type(profile_t), intent(in) :: profile
+      integer(ip) :: j
+
+      row = profile%n - profile%n_kept + 1
+      do j = row, profile%n
+         row = min(row, profile%first(j))
+      end do
+   end function first_coupled_row
+
+   !> Predicted floating-point operations of the skyline factorisation with its Schur complement. Exact where first(j) grows
+   !> with j, an upper bound elsewhere.
+   pure real(wp) function skyline_flops(profile) result(flops)
+      type(profile_t), intent(in) :: profile
+      real(wp) :: height, kept_before
+      integer(ip) :: j, n_interior
+
+      n_interior = profile%n - profile%n_kept
+      flops = 0.0_wp
+      do j = 1, profile%n
+         height = real(min(j - 1, n_interior) - profile%first(j) + 1, wp)
+         kept_before = real(max(j - n_interior - 1, 0_ip), wp)
+         flops = flops + height*(height + 3.0_wp + 2.0_wp*kept_before)
+      end do
+   end function skyline_flops
+
+   !> Predicted floating-point operations of the banded factorisation with its Schur complement.
+   pure real(wp) function banded_flops(profile) result(flops)
+      type(profile_t), intent(in) :: profile
+      real(wp) :: n_interior, n_kept, rows, band
+
+      n_kept = real(profile%n_kept, wp)
+      n_interior = real(profile%n, wp) - n_kept
+      band = real(half_bandwidth(profile), wp)
+      rows = n_interior + 1.0_wp - real(first_coupled_row(profile), wp)
+      flops = n_interior*band*(band + 3.0_wp) + rows*n_kept*(2.0_wp*band + 1.0_wp + n_kept)
+   end function banded_flops
+
+   !> Memory of the skyline storage [bytes].
+   pure integer(lp) function skyline_bytes(profile) result(bytes)
+      type(profile_t), intent(in) :: profile
+
+      bytes = REAL_BYTES*(profile_length(profile) + int(profile%n - profile%n_kept, lp)) + INDEX_BYTES*int(profile%n, lp)
+   end function skyline_bytes
+
+   !> Memory of the banded storage [bytes].
+   pure integer(lp) function banded_bytes(profile) result(bytes)
+      type(profile_t), intent(in) :: profile
+      integer(lp) :: n_interior, n_kept, rows, band_rows
+
+      n_kept = int(profile%n_kept, lp)
+      n_interior = int(profile%n, lp) - n_kept
+      band_rows = int(half_bandwidth(profile), lp) + 1_lp
+      if (n_kept > 0_lp) band_rows = band_rows + int(BAND_BLOCK, lp)
+      rows = n_interior + 1_lp - int(first_coupled_row(profile), lp)
+      bytes = REAL_BYTES*(band_rows*n_interior + (rows + n_kept)*n_kept)
+   end function banded_bytes
+
+end module atrito_profile

@@ -1,0 +1,28 @@
+!> The solvers for the bodies by kind.
+module atrito_solver_choice
+   use atrito_banded, only: banded_t
+   use atrito_skyline, only: skyline_t
+   use atrito_storage, only: storage_t
+   implicit none (type, external)
+   private
+   public :: new_storage, STORAGE_SKYLINE, STORAGE_BANDED
+
+   integer, parameter :: STORAGE_SKYLINE = 1
+   integer, parameter :: STORAGE_BANDED = 2
+
+contains
+
+   !> An empty storage of a kind; not allocated when the kind is none of STORAGE_*.
+   subroutine new_storage(kind, storage)
+      integer, intent(in) :: kind                                !< one of STORAGE_*
+      class(storage_t), allocatable, intent(out) :: storage
+
+      select case (kind)
+      case (STORAGE_SKYLINE)
+         allocate (skyline_t :: storage)
+      case (STORAGE_BANDED)
+         allocate (banded_t :: storage)
+      end select
+   end subroutine new_storage
+
+end module atrito_solver_choice

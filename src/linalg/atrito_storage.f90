@@ -1,0 +1,159 @@
+!> What the body solvers have in common: a symmetric positive definite matrix with kept equations.
+!>
+!> The last n_kept equations (contact, index c) are kept, the others (interior, index i) are eliminated:
+!>
+!>     S = K_cc - K_ci K_ii^-1 K_ic                                                (condensation, docs/theory)
+!>
+!> Use: create, add every element matrix, factor; then get_schur, and for every load reduce, find x_c, expand. Without kept
+!> equations reduce followed by expand solves K x = f.
+module atrito_storage
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_profile, only: profile_t
+   use atrito_status, only: status_t, set_status, STATUS_SINGULAR
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: storage_t, pivot_report_t, note_pivot, set_pivot_status
+
+   !> What the pivots of a factorisation tell.
+   type :: pivot_report_t
+      real(wp) :: digits_lost = 0.0_wp      !< log10 of the worst ratio of original diagonal to pivot, 0..16
+      integer(ip) :: worst_equation = 0     !< its equation, or the one that failed; 0 when nothing was eliminated
+      integer(ip) :: sign_changes = 0       !< negative pivots (banded stops at the first)
+      real(wp) :: smallest_pivot = 0.0_wp   !< [of the matrix]
+      real(wp) :: largest_pivot = 0.0_wp    !< [of the matrix]
+   end type pivot_report_t
+
+   type, abstract :: storage_t
+      integer(ip) :: n = 0                  !< equations
+      integer(ip) :: n_kept = 0             !< the last n_kept are kept
+      type(pivot_report_t) :: report        !< of the last call of factor
+   contains
+      procedure(create_storage), deferred :: create
+      procedure(add_matrix), deferred :: add
+      procedure(factor_interior), deferred :: factor
+      procedure(get_schur_complement), deferred :: get_schur
+      procedure(reduce_load), deferred :: reduce
+      procedure(expand_solution), deferred :: expand
+      procedure(count_bytes), deferred :: memory_bytes
+      procedure(get_name), nopass, deferred :: name
+   end type storage_t
+
+   abstract interface
+
+      !> Makes room for a zero matrix of the profile. status: STATUS_INTERNAL when the memory is too small.
+      subroutine create_storage(self, profile, status)
+         import :: storage_t, profile_t, status_t
+         class(storage_t), intent(inout) :: self
+         type(profile_t), intent(in) :: profile           !< closed
+         type(status_t), intent(out) :: status
+      end subroutine create_storage
+
+      !> Adds an element matrix.
+      subroutine add_matrix(self, equations, matrix)
+         import :: storage_t, ip, wp
+         class(storage_t), intent(inout) :: self
+         integer(ip), intent(in) :: equations(:)          !< equation numbers; 0 = prescribed, skipped
+         real(wp), intent(in) :: matrix(:, :)             !< symmetric, (size(equations), size(equations))
+      end subroutine add_matrix
+
+      !> Factors K_ii and forms S, in place. status: STATUS_SINGULAR when K_ii is singular or indefinite; `report` then names
+      !> the equation, and the matrix is lost.
+      subroutine factor_interior(self, status)
+         import :: storage_t, status_t
+         class(storage_t), intent(inout) :: self
+         type(status_t), intent(out) :: status
+      end subroutine factor_interior
+
+      !> The Schur complement, both triangles; after factor.
+      subroutine get_schur_complement(self, schur)
+         import :: storage_t, wp
+         class(storage_t), intent(in) :: self
+         real(wp), intent(out) :: schur(:, :)             !< (n_kept, n_kept)
+      end subroutine get_schur_complement
+
+      !> f_c <- f_c - K_ci K_ii^-1 f_i; f_i <- the half-solved part that expand wants. After factor.
+      subroutine reduce_load(self, f)
+         import :: storage_t, wp
+         class(storage_t), intent(in) :: self
+         real(wp), intent(inout), contiguous :: f(:, :)   !< (n, loads)
+      end subroutine reduce_load
+
+      !> x_i <- K_ii^-1 (f_i - K_ic x_c), with f_i as reduce left it and x_c given.
+      subroutine expand_solution(self, x)
+         import :: storage_t, wp
+         class(storage_t), intent(in) :: self
+         real(wp), intent(inout), contiguous :: x(:, :)   !< (n, loads): f_i above, x_c below
+      end subroutine expand_solution
+
+      !> Memory held [bytes].
+      pure integer(lp) function count_bytes(self)
+         import :: storage_t, lp
+         class(storage_t), intent(in) :: self
+      end function count_bytes
+
+      !> 'skyline', 'banded', ...
+      pure function get_name() result(name)
+         character(len=:), allocatable :: name
+      end function get_name
+
+   end interface
+
+   !> A pivot that lost 15 digits is round-off alone.
+   real(wp), parameter :: SMALLEST_RATIO = 1e-15_wp
+   !> Digits of a double: the loss reported for a zero pivot.
+   real(wp), parameter :: ALL_DIGITS = 16.0_wp
+
+contains
+
+   !> Enters a pivot into the report. `usable` is false for a pivot that must not be divided by: one that is round-off, at most
+   !> max(n eps, 1e-15) of its original diagonal. A pivot clearly below zero is counted and can be used.
+   pure subroutine note_pivot(report, equation, n, original, pivot, usable)
+      type(pivot_report_t), intent(inout) :: report
+      integer(ip), intent(in) :: equation          !< 1..n
+      integer(ip), intent(in) :: n                 !< order of the matrix
+      real(wp), intent(in) :: original             !< diagonal before the elimination
+      real(wp), intent(in) :: pivot                !< diagonal after it
+      logical, intent(out) :: usable
+      real(wp) :: tolerance, lost
+
+      tolerance = max(real(n, wp)*EPS_MACH, SMALLEST_RATIO)
+      usable = abs(pivot) > tolerance*abs(original)
+      lost = ALL_DIGITS
+      if (usable) lost = max(log10(abs(original/pivot) + tiny(pivot)), 0.0_wp)
+      if (report%worst_equation == 0) then
+         report%smallest_pivot = pivot
+         report%largest_pivot = pivot
+      end if
+      report%smallest_pivot = min(report%smallest_pivot, pivot)
+      report%largest_pivot = max(report%largest_pivot, pivot)
+      if (usable .and. pivot < 0.0_wp) report%sign_changes = report%sign_changes + 1
+      if (is_worse()) report%worst_equation = equation
+      report%digits_lost = max(report%digits_lost, lost)
+
+   contains
+
+      !> The first negative pivot is the one to name; until then the one that lost most.
+      pure logical function is_worse()
+         is_worse = report%worst_equation == 0 .or. lost > report%digits_lost
+         if (report%sign_changes > 0) is_worse = usable .and. pivot < 0.0_wp .and. report%sign_changes == 1
+      end function is_worse
+
+   end subroutine note_pivot
+
+   !> The status of a factorisation that stopped (`stopped`) or went on over negative pivots.
+   pure subroutine set_pivot_status(report, stopped, status)
+      type(pivot_report_t), intent(in) :: report
+      logical, intent(in) :: stopped
+      type(status_t), intent(out) :: status
+
+      if (report%sign_changes > 0) then
+         call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: negative pivot at equation ' &
+                         //to_text(report%worst_equation))
+      else if (stopped) then
+         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: no pivot left at equation ' &
+                         //to_text(report%worst_equation))
+      end if
+   end subroutine set_pivot_status
+
+end module atrito_storage

@@ -1,0 +1,50 @@
+!> A four-sided block of elements, mapped bilinearly from the unit square.
+module atrito_block
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: graded_lines, block_nodes
+
+contains
+
+   !> Lines 0..1 of one direction with n elements: equal, or each longer than the one before by a constant factor such that
+   !> the last is `grade` times the first.
+   pure function graded_lines(n, grade) result(t)
+      integer(ip), intent(in) :: n        !< elements, >= 1
+      real(wp), intent(in) :: grade       !< last over first element length, > 0
+      real(wp) :: t(0:n), ratio
+      integer(ip) :: i
+
+      ratio = 1.0_wp
+      if (n > 1) ratio = grade**(1.0_wp/real(n - 1, wp))
+      if (ratio == 1.0_wp) then
+         t = [(real(i, wp)/real(n, wp), i=0, n)]
+         return
+      end if
+      t(0) = 0.0_wp
+      do i = 1, n
+         t(i) = t(i - 1) + ratio**(i - 1)
+      end do
+      t = t/t(n)
+   end function graded_lines
+
+   !> Nodes of a block, row by row from BOTTOM (corner 1 to 2) to TOP (corner 4 to 3).
+   pure function block_nodes(corners, tx, ty) result(x)
+      real(wp), intent(in) :: corners(2, 4)          !< [L], counter-clockwise
+      real(wp), intent(in) :: tx(0:), ty(0:)         !< lines 0..1 along and across
+      real(wp) :: x(2, size(tx)*size(ty))
+      real(wp) :: s, t
+      integer(ip) :: i, j, k
+
+      k = 0
+      do j = 0, size(ty, kind=ip) - 1
+         do i = 0, size(tx, kind=ip) - 1
+            k = k + 1
+            s = tx(i)
+            t = ty(j)
+            x(:, k) = (1 - t)*((1 - s)*corners(:, 1) + s*corners(:, 2)) + t*((1 - s)*corners(:, 4) + s*corners(:, 3))
+         end do
+      end do
+   end function block_nodes
+
+end module atrito_block

@@ -1,0 +1,192 @@
+!> Bodies: the connected components of the elements, their equations and their rigid motions.
+module atrito_bodies
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_dense, only: null_space
+   use atrito_ordering, only: graph_t, build_graph, connected_components, order_contact_last
+   implicit none (type, external)
+   private
+   public :: body_t, bodies_t, find_bodies, number_equations, find_rigid_modes, element_equations, mode_at
+
+   type :: body_t
+      character(len=:), allocatable :: name
+      integer(ip), allocatable :: elements(:)
+      integer(ip), allocatable :: nodes(:)     !< after number_equations in the order of their equations
+      integer(ip) :: n = 0                     !< equations
+      integer(ip) :: n_kept = 0                !< the last ones: the free dofs of the contact nodes
+      real(wp) :: centre(2) = 0.0_wp           !< [L], middle of the nodes
+      real(wp) :: size = 1.0_wp                !< [L], largest distance from the centre
+      real(wp), allocatable :: modes(:, :)     !< (3, n_modes): translations along 1 and 2, rotation about the centre at `size`
+   end type body_t
+
+   type :: bodies_t
+      integer(ip) :: n = 0
+      type(body_t), allocatable :: list(:)
+      integer(ip), allocatable :: of_node(:), of_element(:) !< body of a node (0: in no element) and of an element
+      integer(ip), allocatable :: equation(:, :)            !< (2, n_nodes): number within the body; 0 prescribed or unused
+   end type bodies_t
+
+   !> A prescribed combination smaller than this, relative to the largest, does not hold the body.
+   real(wp), parameter :: HELD_TOLERANCE = 1.0e-10_wp
+   !> Entries of a mode below this are round-off.
+   real(wp), parameter :: MODE_ROUND_OFF = 1.0e-14_wp
+
+contains
+
+   !> Finds the connected components of the elements.
+   subroutine find_bodies(mesh, bodies)
+      type(mesh_t), intent(in) :: mesh
+      type(bodies_t), intent(out) :: bodies
+      type(graph_t) :: graph
+      integer(ip), allocatable :: component(:), number(:)
+      integer(ip) :: n_components, e, i
+
+      allocate (component(mesh%n_nodes))
+      call build_graph(mesh%n_nodes, mesh%nodes, graph)
+      call connected_components(graph, component, n_components)
+      allocate (number(n_components), bodies%of_node(mesh%n_nodes), bodies%of_element(mesh%n_elements), source=0_ip)
+      do e = 1, mesh%n_elements
+         i = component(mesh%nodes(1, e))
+         if (number(i) == 0) then
+            bodies%n = bodies%n + 1
+            number(i) = bodies%n
+         end if
+         bodies%of_element(e) = number(i)
+      end do
+      bodies%of_node = number(component)
+      allocate (bodies%list(bodies%n), bodies%equation(2, mesh%n_nodes))
+      bodies%equation = 0
+      do i = 1, bodies%n
+         bodies%list(i)%elements = pack([(e, e=1, mesh%n_elements)], bodies%of_element == i)
+         bodies%list(i)%nodes = pack([(e, e=1, mesh%n_nodes)], bodies%of_node == i)
+         call measure_body(mesh, bodies%list(i))
+      end do
+   end subroutine find_bodies
+
+   pure subroutine measure_body(mesh, body)
+      type(mesh_t), intent(in) :: mesh
+      type(body_t), intent(inout) :: body
+      real(wp) :: low(2), high(2)
+
+      low = minval(mesh%x(:, body%nodes), dim=2)
+      high = maxval(mesh%x(:, body%nodes), dim=2)
+      body%centre = 0.5_wp*low + 0.5_wp*high
+      body%size = 0.5_wp*norm2(high - low)
+   end subroutine measure_body
+
+   !> Numbers the equations of a body so that the profile is small and the contact nodes come last, in their chain order.
+   subroutine number_equations(mesh, bodies, i_body, held, contact_nodes)
+      type(mesh_t), intent(in) :: mesh
+      type(bodies_t), intent(inout) :: bodies
+      integer(ip), intent(in) :: i_body
+      logical, intent(in) :: held(:, :)             !< (2, n_nodes): prescribed dofs
+      integer(ip), intent(in) :: contact_nodes(:)   !< of this body, each once
+      integer(ip), allocatable :: local(:), connectivity(:, :), order(:)
+      type(graph_t) :: graph
+      integer(ip) :: i, dof, node
+
+      associate (body => bodies%list(i_body))
+         allocate (local(mesh%n_nodes), source=0_ip)
+         local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
+         allocate (connectivity(size(mesh%nodes, 1), size(body%elements)))
+         do i = 1, size(body%elements, kind=ip)
+            connectivity(:, i) = 0
+            connectivity(:mesh%shape(body%elements(i)), i) = &
+               local(mesh%nodes(:mesh%shape(body%elements(i)), body%elements(i)))
+         end do
+         call build_graph(size(body%nodes, kind=ip), connectivity, graph)
+         allocate (order(size(body%nodes)))
+         call order_contact_last(graph, local(contact_nodes), order)
+         body%nodes = body%nodes(order)
+         body%n = 0
+         body%n_kept = 0
+         do i = 1, size(body%nodes, kind=ip)
+            node = body%nodes(i)
+            do dof = 1, 2
+               bodies%equation(dof, node) = 0
+               if (held(dof, node)) cycle
+               body%n = body%n + 1
+               bodies%equation(dof, node) = body%n
+               if (i > size(body%nodes) - size(contact_nodes)) body%n_kept = body%n_kept + 1
+            end do
+         end do
+      end associate
+   end subroutine number_equations
+
+   !> The rigid motions that the supports of a body leave free: the null space of the prescribed dofs' motions.
+   subroutine find_rigid_modes(mesh, body, held)
+      type(mesh_t), intent(in) :: mesh
+      type(body_t), intent(inout) :: body
+      logical, intent(in) :: held(:, :)             !< (2, n_nodes)
+      real(wp), allocatable :: rows(:, :)
+      real(wp) :: unit_mode(3)
+      integer(ip) :: i, j, dof, k, n_held, info
+
+      n_held = count(held(:, body%nodes), kind=ip)
+      allocate (rows(n_held, 3))
+      k = 0
+      do i = 1, size(body%nodes, kind=ip)
+         do dof = 1, 2
+            if (.not. held(dof, body%nodes(i))) cycle
+            k = k + 1
+            do j = 1, 3
+               unit_mode = 0.0_wp
+               unit_mode(j) = 1.0_wp
+               rows(k, j) = mode_at(body, unit_mode, mesh%x(:, body%nodes(i)), dof)
+            end do
+         end do
+      end do
+      call null_space(rows, HELD_TOLERANCE, body%modes, info)
+      call simplify_modes(body%modes)
+   end subroutine find_rigid_modes
+
+   !> The same space in its simplest basis (reduced by columns, round-off cleared), so that a motion can be named.
+   pure subroutine simplify_modes(modes)
+      real(wp), intent(inout) :: modes(:, :)        !< (3, n)
+      real(wp) :: column(3)
+      integer(ip) :: row, j, k, pivot
+
+      k = 0
+      do row = 1, 3
+         if (k == size(modes, 2)) exit
+         pivot = k + maxloc(abs(modes(row, k + 1:)), dim=1, kind=ip)
+         if (abs(modes(row, pivot)) < HELD_TOLERANCE) cycle
+         k = k + 1
+         column = modes(:, pivot)/modes(row, pivot)
+         modes(:, pivot) = modes(:, k)
+         modes(:, k) = column
+         do j = 1, size(modes, 2, kind=ip)
+            if (j /= k) modes(:, j) = modes(:, j) - column*modes(row, j)
+         end do
+      end do
+      where (abs(modes) < MODE_ROUND_OFF) modes = 0.0_wp
+      do j = 1, size(modes, 2, kind=ip)
+         modes(:, j) = modes(:, j)/maxval(abs(modes(:, j)))
+      end do
+   end subroutine simplify_modes
+
+   !> Displacement of a rigid mode at a place, along a dof; dimensionless.
+   pure real(wp) function mode_at(body, mode, x, dof) result(u)
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: mode(3)               !< a column of body%modes
+      real(wp), intent(in) :: x(2)                  !< [L]
+      integer(ip), intent(in) :: dof                !< 1 or 2
+
+      if (dof == 1) then
+         u = mode(1) - mode(3)*(x(2) - body%centre(2))/body%size
+      else
+         u = mode(2) + mode(3)*(x(1) - body%centre(1))/body%size
+      end if
+   end function mode_at
+
+   !> Equation numbers of an element's dofs (u1, u2 of its first node, of its second, ...); 0 prescribed.
+   pure function element_equations(mesh, bodies, element) result(equations)
+      type(mesh_t), intent(in) :: mesh
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: element
+      integer(ip) :: equations(2*mesh%shape(element))
+
+      equations = reshape(bodies%equation(:, mesh%nodes(:mesh%shape(element), element)), [2*mesh%shape(element)])
+   end function element_equations
+
+end module atrito_bodies

@@ -1,0 +1,198 @@
+!> Faces of elements: which lie on the outline, and chains of them.
+module atrito_faces
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t, face_end, opposite_face_count, FACES
+   implicit none (type, external)
+   private
+   public :: face_list_t, node_elements_t, chain_report_t
+   public :: list_node_elements, is_outer_face, outer_faces, order_chain, face_length, face_normal, add_face
+
+   !> A list of element faces.
+   type :: face_list_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: element(:), face(:)
+   end type face_list_t
+
+   !> The elements round each node: list(first(i) : first(i+1)-1).
+   type :: node_elements_t
+      integer(ip), allocatable :: first(:), list(:)
+   end type node_elements_t
+
+   !> What keeps a list of faces from being one chain; 0 where nothing does.
+   type :: chain_report_t
+      integer(ip) :: loose_face = 0      !< a face that does not continue the chain
+      integer(ip) :: branch_node = 0     !< a node at which two faces begin
+   end type chain_report_t
+
+contains
+
+   !> Lists the elements round each node, in linear time.
+   pure function list_node_elements(mesh) result(around)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t) :: around
+      integer(ip), allocatable :: next(:)
+      integer(ip) :: e, k, node
+
+      allocate (around%first(mesh%n_nodes + 1), source=0_ip)
+      do e = 1, mesh%n_elements
+         do k = 1, mesh%shape(e)
+            node = mesh%nodes(k, e)
+            around%first(node + 1) = around%first(node + 1) + 1
+         end do
+      end do
+      around%first(1) = 1
+      do node = 1, mesh%n_nodes
+         around%first(node + 1) = around%first(node + 1) + around%first(node)
+      end do
+      next = around%first
+      allocate (around%list(around%first(mesh%n_nodes + 1) - 1))
+      do e = 1, mesh%n_elements
+         do k = 1, mesh%shape(e)
+            node = mesh%nodes(k, e)
+            around%list(next(node)) = e
+            next(node) = next(node) + 1
+         end do
+      end do
+   end function list_node_elements
+
+   !> True when no other element shares the face.
+   pure logical function is_outer_face(mesh, around, element, face)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: element, face     !< face 1..4
+      integer(ip) :: node
+
+      node = mesh%nodes(face, element)
+      is_outer_face = opposite_face_count(mesh, element, face, around%list(around%first(node):around%first(node + 1) - 1)) == 0
+   end function is_outer_face
+
+   !> All outer faces of some elements.
+   pure function outer_faces(mesh, around, elements) result(faces_found)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: elements(:)
+      type(face_list_t) :: faces_found
+      integer(ip) :: i, face
+
+      do i = 1, size(elements, kind=ip)
+         do face = 1, FACES
+            if (is_outer_face(mesh, around, elements(i), face)) call add_face(faces_found, elements(i), face)
+         end do
+      end do
+   end function outer_faces
+
+   !> Adds a face to a list; one that is there already is kept once.
+   pure subroutine add_face(list, element, face)
+      type(face_list_t), intent(inout) :: list
+      integer(ip), intent(in) :: element, face
+      integer(ip), allocatable :: longer(:)
+
+      if (.not. allocated(list%element)) allocate (list%element(16), list%face(16), source=0_ip)
+      if (list%n == size(list%element)) then
+         allocate (longer(2*list%n), source=0_ip)
+         longer(:list%n) = list%element
+         call move_alloc(longer, list%element)
+         allocate (longer(2*list%n), source=0_ip)
+         longer(:list%n) = list%face
+         call move_alloc(longer, list%face)
+      end if
+      list%n = list%n + 1
+      list%element(list%n) = element
+      list%face(list%n) = face
+   end subroutine add_face
+
+   !> Puts faces into the order in which one ends where the next begins, counter-clockwise round their body (an upper body's
+   !> bottom from left to right); repeated faces are dropped. A closed chain begins with its first face.
+   pure subroutine order_chain(mesh, list, report)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(inout) :: list
+      type(chain_report_t), intent(out) :: report
+      integer(ip), allocatable :: begins(:), ends(:), order(:)
+      integer(ip) :: i, k, node
+
+      call drop_repeated(mesh, list)
+      allocate (begins(mesh%n_nodes), ends(mesh%n_nodes), source=0_ip)
+      do i = 1, list%n
+         node = first_node(mesh, list, i)
+         if (begins(node) /= 0) report%branch_node = node
+         begins(node) = i
+         ends(last_node(mesh, list, i)) = i
+      end do
+      if (list%n == 0 .or. report%branch_node /= 0) return
+      allocate (order(list%n))
+      k = 1
+      do i = 1, list%n
+         if (ends(first_node(mesh, list, i)) == 0) k = i
+      end do
+      do i = 1, list%n
+         order(i) = k
+         k = begins(last_node(mesh, list, k))
+         if (k == 0 .or. k == order(1)) exit
+      end do
+      if (i < list%n) report%loose_face = first_missing(order(:i), list%n)
+      if (report%loose_face /= 0) return
+      list%element = list%element(order)
+      list%face = list%face(order)
+   end subroutine order_chain
+
+   pure subroutine drop_repeated(mesh, list)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(inout) :: list
+      logical, allocatable :: seen(:, :), keep(:)
+      integer(ip) :: i
+
+      if (.not. allocated(list%element)) allocate (list%element(0), list%face(0))
+      allocate (seen(FACES, mesh%n_elements), keep(list%n), source=.false.)
+      do i = 1, list%n
+         keep(i) = .not. seen(list%face(i), list%element(i))
+         seen(list%face(i), list%element(i)) = .true.
+      end do
+      list%element = pack(list%element(:list%n), keep)
+      list%face = pack(list%face(:list%n), keep)
+      list%n = size(list%element, kind=ip)
+   end subroutine drop_repeated
+
+   pure integer(ip) function first_missing(order, n)
+      integer(ip), intent(in) :: order(:), n
+
+      do first_missing = 1, n
+         if (all(order /= first_missing)) return
+      end do
+      first_missing = 0
+   end function first_missing
+
+   pure integer(ip) function first_node(mesh, list, i)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: list
+      integer(ip), intent(in) :: i
+
+      first_node = mesh%nodes(list%face(i), list%element(i))
+   end function first_node
+
+   pure integer(ip) function last_node(mesh, list, i)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: list
+      integer(ip), intent(in) :: i
+
+      last_node = mesh%nodes(face_end(list%face(i)), list%element(i))
+   end function last_node
+
+   !> Length [L] of the straight line between a face's corners.
+   pure real(wp) function face_length(mesh, element, face)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face
+
+      face_length = norm2(mesh%x(:, mesh%nodes(face_end(face), element)) - mesh%x(:, mesh%nodes(face, element)))
+   end function face_length
+
+   !> Outward unit normal of a straight face: the direction of travel turned by -90 degrees.
+   pure function face_normal(mesh, element, face) result(n)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face
+      real(wp) :: n(2), d(2)
+
+      d = mesh%x(:, mesh%nodes(face_end(face), element)) - mesh%x(:, mesh%nodes(face, element))
+      n = [d(2), -d(1)]/norm2(d)
+   end function face_normal
+
+end module atrito_faces

@@ -1,0 +1,82 @@
+!> From the user's numbers (any positive integers) to places in an array: a hash table that doubles.
+module atrito_id_map
+   use atrito_kinds, only: ip, lp
+   implicit none (type, external)
+   private
+   public :: id_map_t, add_id, find_id
+
+   type :: id_map_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: key(:), place(:)   !< key 0: free
+   end type id_map_t
+
+contains
+
+   !> Keeps id -> place. An id that is there already keeps its place and `known` is true.
+   pure subroutine add_id(map, id, place, known)
+      type(id_map_t), intent(inout) :: map
+      integer(ip), intent(in) :: id       !< > 0
+      integer(ip), intent(in) :: place    !< > 0
+      logical, intent(out) :: known
+      integer(ip) :: slot
+
+      if (.not. allocated(map%key)) call make_table(map, 64_ip)
+      if (2*map%n >= size(map%key)) call grow_table(map)
+      slot = find_slot(map, id)
+      known = map%key(slot) == id
+      if (known) return
+      map%key(slot) = id
+      map%place(slot) = place
+      map%n = map%n + 1
+   end subroutine add_id
+
+   !> Place of an id; 0 when it is not there.
+   pure integer(ip) function find_id(map, id) result(place)
+      type(id_map_t), intent(in) :: map
+      integer(ip), intent(in) :: id
+      integer(ip) :: slot
+
+      place = 0
+      if (map%n == 0 .or. id <= 0) return
+      slot = find_slot(map, id)
+      if (map%key(slot) == id) place = map%place(slot)
+   end function find_id
+
+   pure subroutine make_table(map, length)
+      type(id_map_t), intent(inout) :: map
+      integer(ip), intent(in) :: length   !< a power of two
+
+      allocate (map%key(0:length - 1), map%place(0:length - 1), source=0_ip)
+   end subroutine make_table
+
+   pure subroutine grow_table(map)
+      type(id_map_t), intent(inout) :: map
+      type(id_map_t) :: larger
+      integer(ip) :: i, slot
+
+      call make_table(larger, 2*size(map%key, kind=ip))
+      do i = 0, size(map%key, kind=ip) - 1
+         if (map%key(i) == 0) cycle
+         slot = find_slot(larger, map%key(i))
+         larger%key(slot) = map%key(i)
+         larger%place(slot) = map%place(i)
+      end do
+      call move_alloc(larger%key, map%key)
+      call move_alloc(larger%place, map%place)
+   end subroutine grow_table
+
+   !> The slot of an id, or the free slot where it would go (linear probing after a multiplicative hash).
+   pure integer(ip) function find_slot(map, id) result(slot)
+      type(id_map_t), intent(in) :: map
+      integer(ip), intent(in) :: id
+      integer(lp), parameter :: FACTOR = 2654435769_lp
+      integer(lp) :: mask
+
+      mask = size(map%key, kind=lp) - 1_lp
+      slot = int(iand(shiftr(int(id, lp)*FACTOR, 7), mask), ip)
+      do while (map%key(slot) /= 0 .and. map%key(slot) /= id)
+         slot = int(iand(int(slot, lp) + 1_lp, mask), ip)
+      end do
+   end function find_slot
+
+end module atrito_id_map

@@ -1,0 +1,184 @@
+!> The mesh: nodes, quadrilateral elements and their topology.
+module atrito_mesh
+   use atrito_kinds, only: ip, wp
+   use atrito_id_map, only: id_map_t, add_id, find_id
+   implicit none (type, external)
+   private
+   public :: mesh_t, add_node, add_element, find_node, find_element, trim_mesh, face_nodes, face_end, opposite_face_count
+   public :: Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS, FACES, element_coordinates, signed_area
+
+   integer(ip), parameter :: Q1_NODES = 4, Q2_NODES = 9    !< nodes of an element; also the name of its shape
+   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2
+   integer(ip), parameter :: FACES = 4
+
+   type :: mesh_t
+      integer(ip) :: n_nodes = 0, n_elements = 0
+      integer(ip), allocatable :: node_id(:)        !< the user's numbers
+      real(wp), allocatable :: x(:, :)              !< coordinates [L], (2, n_nodes)
+      integer(ip), allocatable :: element_id(:)     !< the user's numbers
+      integer(ip), allocatable :: shape(:)          !< Q1_NODES or Q2_NODES
+      integer(ip), allocatable :: state(:)          !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), allocatable :: nodes(:, :)       !< (Q2_NODES, n_elements): corners counter-clockwise, mid-sides, centre; 0 beyond
+      type(id_map_t) :: node_map, element_map
+   end type mesh_t
+
+contains
+
+   !> Adds a node. known: the id was there already, and nothing is changed.
+   pure subroutine add_node(mesh, id, x, known)
+      type(mesh_t), intent(inout) :: mesh
+      integer(ip), intent(in) :: id                 !< > 0
+      real(wp), intent(in) :: x(2)
+      logical, intent(out) :: known
+
+      call add_id(mesh%node_map, id, mesh%n_nodes + 1, known)
+      if (known) return
+      if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(64), mesh%x(2, 64))
+      if (mesh%n_nodes == size(mesh%node_id)) call resize_nodes(mesh, 2*mesh%n_nodes)
+      mesh%n_nodes = mesh%n_nodes + 1
+      mesh%node_id(mesh%n_nodes) = id
+      mesh%x(:, mesh%n_nodes) = x
+   end subroutine add_node
+
+   !> Adds an element. known: the id was there already, and nothing is changed.
+   pure subroutine add_element(mesh, id, state, nodes, known)
+      type(mesh_t), intent(inout) :: mesh
+      integer(ip), intent(in) :: id                 !< > 0
+      integer(ip), intent(in) :: state              !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: nodes(:)           !< places of its nodes: 4 or 9
+      logical, intent(out) :: known
+      integer(ip) :: e
+
+      call add_id(mesh%element_map, id, mesh%n_elements + 1, known)
+      if (known) return
+      if (.not. allocated(mesh%element_id)) then
+         allocate (mesh%element_id(64), mesh%shape(64), mesh%state(64), mesh%nodes(Q2_NODES, 64))
+      end if
+      if (mesh%n_elements == size(mesh%element_id)) call resize_elements(mesh, 2*mesh%n_elements)
+      e = mesh%n_elements + 1
+      mesh%n_elements = e
+      mesh%element_id(e) = id
+      mesh%state(e) = state
+      mesh%shape(e) = size(nodes, kind=ip)
+      mesh%nodes(:, e) = 0
+      mesh%nodes(:size(nodes), e) = nodes
+   end subroutine add_element
+
+   !> Gives back the room that was kept for growing; to be called when the mesh is complete.
+   pure subroutine trim_mesh(mesh)
+      type(mesh_t), intent(inout) :: mesh
+
+      if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
+      if (.not. allocated(mesh%element_id)) then
+         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(Q2_NODES, 0))
+      end if
+      call resize_nodes(mesh, mesh%n_nodes)
+      call resize_elements(mesh, mesh%n_elements)
+   end subroutine trim_mesh
+
+   pure subroutine resize_nodes(mesh, length)
+      type(mesh_t), intent(inout) :: mesh
+      integer(ip), intent(in) :: length
+      real(wp), allocatable :: x(:, :)
+
+      call resize(mesh%node_id, mesh%n_nodes, length)
+      allocate (x(2, length))
+      x(:, :mesh%n_nodes) = mesh%x(:, :mesh%n_nodes)
+      call move_alloc(x, mesh%x)
+   end subroutine resize_nodes
+
+   pure subroutine resize_elements(mesh, length)
+      type(mesh_t), intent(inout) :: mesh
+      integer(ip), intent(in) :: length
+      integer(ip), allocatable :: nodes(:, :)
+
+      call resize(mesh%element_id, mesh%n_elements, length)
+      call resize(mesh%shape, mesh%n_elements, length)
+      call resize(mesh%state, mesh%n_elements, length)
+      allocate (nodes(Q2_NODES, length))
+      nodes(:, :mesh%n_elements) = mesh%nodes(:, :mesh%n_elements)
+      call move_alloc(nodes, mesh%nodes)
+   end subroutine resize_elements
+
+   pure subroutine resize(list, used, length)
+      integer(ip), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(in) :: used, length
+      integer(ip), allocatable :: longer(:)
+
+      allocate (longer(length))
+      longer(:used) = list(:used)
+      call move_alloc(longer, list)
+   end subroutine resize
+
+   !> Place of a node by the user's number; 0 when there is none.
+   pure integer(ip) function find_node(mesh, id)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: id
+
+      find_node = find_id(mesh%node_map, id)
+   end function find_node
+
+   !> Place of an element by the user's number; 0 when there is none.
+   pure integer(ip) function find_element(mesh, id)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: id
+
+      find_element = find_id(mesh%element_map, id)
+   end function find_element
+
+   !> Nodes of a face in the direction of travel (counter-clockwise round the element): 2 for Q1; first, last, middle for Q2.
+   pure function face_nodes(mesh, element, face) result(nodes)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face      !< face 1..4
+      integer(ip), allocatable :: nodes(:)
+
+      nodes = [mesh%nodes(face, element), mesh%nodes(face_end(face), element)]
+      if (mesh%shape(element) == Q2_NODES) nodes = [nodes, mesh%nodes(FACES + face, element)]
+   end function face_nodes
+
+   !> Local corner at which a face ends; it begins at the corner of its own number.
+   pure integer(ip) function face_end(face)
+      integer(ip), intent(in) :: face
+
+      face_end = mod(face, FACES) + 1
+   end function face_end
+
+   !> How many of the elements' faces join the same two corners (2 inside the mesh, 1 on its outline).
+   pure integer(ip) function opposite_face_count(mesh, element, face, elements_of_node) result(n)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face
+      integer(ip), intent(in) :: elements_of_node(:) !< the elements at the face's first node
+      integer(ip) :: i, other, a, b
+
+      a = mesh%nodes(face, element)
+      b = mesh%nodes(face_end(face), element)
+      n = 0
+      do i = 1, size(elements_of_node, kind=ip)
+         do other = 1, FACES
+            if (mesh%nodes(other, elements_of_node(i)) == b .and. &
+                mesh%nodes(face_end(other), elements_of_node(i)) == a) n = n + 1
+         end do
+      end do
+   end function opposite_face_count
+
+   !> Coordinates [L] of an element's nodes, (2, shape).
+   pure function element_coordinates(mesh, element) result(x)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      real(wp) :: x(2, mesh%shape(element))
+
+      x = mesh%x(:, mesh%nodes(:mesh%shape(element), element))
+   end function element_coordinates
+
+   !> Signed area [L^2] of the quadrilateral of an element's corners, positive when they run counter-clockwise.
+   pure real(wp) function signed_area(mesh, element) result(area)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      real(wp) :: d(2), e(2)
+
+      d = mesh%x(:, mesh%nodes(3, element)) - mesh%x(:, mesh%nodes(1, element))
+      e = mesh%x(:, mesh%nodes(4, element)) - mesh%x(:, mesh%nodes(2, element))
+      area = 0.5_wp*(d(1)*e(2) - d(2)*e(1))
+   end function signed_area
+
+end module atrito_mesh
