@@ -1,0 +1,117 @@
+!> Solves the box problem by full steps on the active set: all points change at once.
+!>
+!> Full steps end in a few solves almost always. When a state comes back, after MOST_FULL_STEPS, or when a body is free under
+!> the load, the finite dual steps take over (atrito_dual_steps).
+module atrito_active_set
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, closing_slack, &
+                                 FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_dual_steps, only: take_dual_steps
+   use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: box_outcome_t, solve_box
+
+   integer(ip), parameter :: MOST_FULL_STEPS = 20
+   real(wp), parameter :: OPENS = 1.0e-13_wp      !< tension over the largest pressure that opens a point
+   real(wp), parameter :: SLIPS = 1.0e-12_wp      !< excess over the friction bound that lets a point slip
+
+   type :: box_outcome_t
+      logical :: solved = .false.
+      logical :: moves = .false.                  !< no equilibrium: a free motion under the load
+      real(wp), allocatable :: motion(:)          !< (k) that motion
+      real(wp) :: condition = 1.0_wp
+      integer(ip) :: dependent = 0                !< unknown whose row depends on others
+      logical :: used_dual_steps = .false.
+   end type box_outcome_t
+
+contains
+
+   !> Solves from the given state (state%state; fixed unknowns are put at their bounds). Every linear solve is recorded.
+   subroutine solve_box(problem, bounds, state, history, outcome, status)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+      type(solve_history_t), intent(inout) :: history
+      type(box_outcome_t), intent(out) :: outcome
+      type(status_t), intent(out) :: status
+      type(equality_solution_t) :: solution
+      integer(lp) :: seen(MOST_FULL_STEPS)
+      integer(ip) :: step, changes
+
+      do step = 1, MOST_FULL_STEPS
+         seen(step) = state_code(state)
+         if (any(seen(:step - 1) == seen(step))) exit
+         call put_at_bounds(bounds, state)
+         call solve_free_set(problem, bounds%d, state, solution, status)
+         outcome%dependent = solution%dependent
+         outcome%condition = solution%condition
+         if (.not. is_ok(status)) return
+         call record_solve(history, problem, bounds, state)
+         if (solution%moves) exit
+         call change_all(problem, bounds, state, changes)
+         outcome%solved = changes == 0
+         if (outcome%solved) return
+      end do
+      outcome%used_dual_steps = .true.
+      call take_dual_steps(problem, bounds, state, history, solution, outcome%solved, status)
+      outcome%dependent = solution%dependent
+      outcome%condition = solution%condition
+      outcome%moves = solution%moves
+      if (solution%moves) outcome%motion = solution%motion
+   end subroutine solve_box
+
+   !> Fixed unknowns take the values of their bounds.
+   pure subroutine put_at_bounds(bounds, state)
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+
+      where (state%state == AT_LOWER) state%q = bounds%lower
+      where (state%state == AT_UPPER) state%q = bounds%upper
+      where (state%state == FROZEN) state%q = 0.0_wp
+   end subroutine put_at_bounds
+
+   !> The full step: every unknown that breaks its condition changes.
+   subroutine change_all(problem, bounds, state, changes)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+      integer(ip), intent(out) :: changes
+      real(wp) :: slack, largest_pressure, slip_slack
+      integer(ip) :: i, old
+
+      slack = closing_slack(problem, state)
+      largest_pressure = maxval([abs(state%q(:problem%n_normal))/problem%weight(:problem%n_normal), 0.0_wp])
+      changes = 0
+      do i = 1, problem%m
+         old = state%state(i)
+         select case (old)
+         case (FREE)
+            if (i <= problem%n_normal) then
+               if (state%q(i)/problem%weight(i) < -OPENS*largest_pressure) state%state(i) = AT_LOWER
+            else if (abs(state%q(i)) > bounds%upper(i)*(1 + SLIPS)) then
+               state%state(i) = merge(AT_UPPER, AT_LOWER, state%q(i) > 0.0_wp)
+            end if
+         case (AT_LOWER, AT_UPPER)
+            ! a slipping point sticks again when its slip falls below the sticking one by more than round-off
+            slip_slack = slack + SLIPS*abs(bounds%d(i)*state%q(i))
+            if (old == AT_LOWER .and. state%r(i) > slip_slack) state%state(i) = FREE
+            if (old == AT_UPPER .and. state%r(i) < -slip_slack) state%state(i) = FREE
+         end select
+         if (state%state(i) /= old) changes = changes + 1
+      end do
+   end subroutine change_all
+
+   !> A number that tells states apart (FNV-1a).
+   pure integer(lp) function state_code(state) result(code)
+      type(box_state_t), intent(in) :: state
+      integer(ip) :: i
+
+      code = 1469598103_lp
+      do i = 1, size(state%state, kind=ip)
+         code = iand(ieor(code, int(state%state(i), lp))*16777619_lp, int(z'7fffffffff', lp))
+      end do
+   end function state_code
+
+end module atrito_active_set

@@ -1,0 +1,121 @@
+!> The nonlocal average S_rho of the paper on the quadrature points of one contact pair: P = W p.
+module atrito_average
+   use atrito_kinds, only: ip, wp
+   use atrito_friction_law, only: KERNEL_LINE
+   implicit none (type, external)
+   private
+   public :: average_t, identity_average, build_average, append_average, apply_average
+
+   !> 1 / integral of exp(1/(r^2-1)) over (-1,1): the constant c of the kernel, times rho.
+   real(wp), parameter :: KERNEL_CONSTANT = 2.252283621_wp
+
+   !> W by rows: entries(first(j) : first(j+1)-1) stand in the columns of the same places.
+   type :: average_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: first(:), column(:)
+      real(wp), allocatable :: entry(:)
+      logical :: is_identity = .true.
+   end type average_t
+
+contains
+
+   !> W = 1: the local law.
+   pure function identity_average(n) result(w)
+      integer(ip), intent(in) :: n
+      type(average_t) :: w
+      integer(ip) :: j
+
+      w%n = n
+      w%first = [(j, j=1, n + 1)]
+      w%column = [(j, j=1, n)]
+      allocate (w%entry(n), source=1.0_wp)
+   end function identity_average
+
+   !> W_jk = omega_rho(|x_j - x_k|) l_k, with rows that sum to one (KERNEL_POINTS) or with the constant of the whole line
+   !> (KERNEL_LINE). The identity when rho is at most the least spacing of the points.
+   pure function build_average(x, length, rho, kernel) result(w)
+      real(wp), intent(in) :: x(:, :)      !< (2, n) [L]
+      real(wp), intent(in) :: length(:)    !< quadrature weights [L]
+      real(wp), intent(in) :: rho          !< [L], >= 0
+      integer(ip), intent(in) :: kernel
+      type(average_t) :: w
+      real(wp) :: row(size(length))
+      integer(ip) :: j, k, n, filled
+      logical :: near(size(length))
+
+      n = size(length, kind=ip)
+      if (rho <= least_spacing(x)) then
+         w = identity_average(n)
+         return
+      end if
+      w%n = n
+      w%is_identity = .false.
+      allocate (w%first(n + 1), w%column(0), w%entry(0))
+      w%first(1) = 1
+      do j = 1, n
+         do k = 1, n
+            row(k) = kernel_value(norm2(x(:, k) - x(:, j))/rho)*length(k)
+         end do
+         if (kernel == KERNEL_LINE) then
+            row = row*(KERNEL_CONSTANT/rho)
+         else
+            row = row/sum(row)
+         end if
+         near = row > 0.0_wp
+         filled = count(near, kind=ip)
+         w%column = [w%column, pack([(k, k=1, n)], near)]
+         w%entry = [w%entry, pack(row, near)]
+         w%first(j + 1) = w%first(j) + filled
+      end do
+   end function build_average
+
+   !> exp(rho^2/(r^2 - rho^2)) at q = r/rho, zero from q = 1 on.
+   pure real(wp) function kernel_value(q)
+      real(wp), intent(in) :: q
+
+      kernel_value = 0.0_wp
+      if (q < 1.0_wp) kernel_value = exp(1.0_wp/((q - 1.0_wp)*(q + 1.0_wp)))
+   end function kernel_value
+
+   !> The least distance [L] of two points that follow each other.
+   pure real(wp) function least_spacing(x)
+      real(wp), intent(in) :: x(:, :)
+      integer(ip) :: j
+
+      least_spacing = huge(least_spacing)
+      do j = 2, size(x, 2, kind=ip)
+         least_spacing = min(least_spacing, norm2(x(:, j) - x(:, j - 1)))
+      end do
+   end function least_spacing
+
+   !> Adds the points of one more pair, which are averaged among themselves.
+   pure subroutine append_average(w, more)
+      type(average_t), intent(inout) :: w
+      type(average_t), intent(in) :: more
+      integer(ip) :: entries
+
+      if (.not. allocated(w%first)) then
+         w = more
+         return
+      end if
+      entries = w%first(w%n + 1) - 1
+      w%first = [w%first, more%first(2:) + entries]
+      w%column = [w%column, more%column + w%n]
+      w%entry = [w%entry, more%entry]
+      w%is_identity = w%is_identity .and. more%is_identity
+      w%n = w%n + more%n
+   end subroutine append_average
+
+   !> P = W p.
+   pure function apply_average(w, p) result(average)
+      type(average_t), intent(in) :: w
+      real(wp), intent(in) :: p(:)
+      real(wp) :: average(size(p))
+      integer(ip) :: j
+
+      do j = 1, w%n
+         average(j) = dot_product(w%entry(w%first(j):w%first(j + 1) - 1), p(w%column(w%first(j):w%first(j + 1) - 1)))
+      end do
+   end function apply_average
+
+end module atrito_average

@@ -1,0 +1,144 @@
+!> The contact line of a scene: all points of all pairs, their laws, and where their unknown forces stand.
+module atrito_contact_line
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_friction_law, only: friction_law_t, stick_compliance, friction_stress, FRICTION_NONE
+   use atrito_average, only: average_t, apply_average
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, FROZEN
+   implicit none (type, external)
+   private
+   public :: contact_line_t, number_unknowns, pressure_of, shear_force_of, friction_bound, normal_bounds, set_friction_bounds
+
+   !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
+   !> displacement less the distance, and its slip, are known numbers.
+   type :: contact_line_t
+      integer(ip) :: n = 0
+      real(wp), allocatable :: weight(:)              !< [L^2]
+      real(wp), allocatable :: delta(:)               !< [L^3/F]
+      type(friction_law_t), allocatable :: law(:)
+      type(average_t) :: average
+      integer(ip), allocatable :: normal(:)           !< unknown of the normal force; 0: none
+      integer(ip), allocatable :: tangential(:)       !< unknown of the tangential force; 0: none
+      real(wp), allocatable :: known_overlap(:)       !< u_n - s [L] where normal is 0
+      real(wp), allocatable :: known_slip(:)          !< u_T [L] where tangential is 0 for prescribed dofs
+      integer(ip), allocatable :: point(:)            !< (unknowns) point of each
+      logical :: has_friction = .false.
+   end type contact_line_t
+
+contains
+
+   !> Numbers the unknowns: normal ones first, in the order of the points; tangential ones where there is friction.
+   pure subroutine number_unknowns(line, normal_row, tangential_row)
+      type(contact_line_t), intent(inout) :: line
+      logical, intent(in) :: normal_row(:), tangential_row(:)  !< (n) the point has a row
+      integer(ip) :: j, m
+
+      allocate (line%normal(line%n), line%tangential(line%n), source=0_ip)
+      allocate (line%point(0))
+      line%has_friction = any(line%law%kind /= FRICTION_NONE)
+      m = 0
+      do j = 1, line%n
+         if (.not. normal_row(j)) cycle
+         m = m + 1
+         line%normal(j) = m
+         line%point = [line%point, j]
+      end do
+      do j = 1, line%n
+         if (.not. tangential_row(j) .or. line%law(j)%kind == FRICTION_NONE) cycle
+         m = m + 1
+         line%tangential(j) = m
+         line%point = [line%point, j]
+      end do
+   end subroutine number_unknowns
+
+   !> Pressure p [F/L^2] at the points from the forces q.
+   pure function pressure_of(line, q) result(p)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: q(:)
+      real(wp) :: p(line%n)
+      integer(ip) :: j
+
+      do j = 1, line%n
+         if (line%normal(j) > 0) then
+            p(j) = q(line%normal(j))/line%weight(j)
+         else if (line%known_overlap(j) > 0.0_wp .and. line%delta(j) > 0.0_wp) then
+            p(j) = line%known_overlap(j)/line%delta(j)
+         else
+            p(j) = 0.0_wp
+         end if
+      end do
+   end function pressure_of
+
+   !> Friction stress t [F/L^2] at the points (it acts on the master along T).
+   pure function shear_force_of(line, q, tau) result(t)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: q(:), tau(:)
+      real(wp) :: t(line%n)
+      integer(ip) :: j
+
+      do j = 1, line%n
+         if (line%tangential(j) > 0) then
+            t(j) = q(line%tangential(j))/line%weight(j)
+         else if (line%law(j)%kind /= FRICTION_NONE) then
+            t(j) = friction_stress(line%law(j), tau(j), line%known_slip(j))
+         else
+            t(j) = 0.0_wp
+         end if
+      end do
+   end function shear_force_of
+
+   !> The friction bound tau = nu S_rho(p) [F/L^2] at the points; tensions within an iteration count as none.
+   pure function friction_bound(line, p) result(tau)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: p(:)
+      real(wp) :: tau(line%n)
+
+      tau = line%law%nu*apply_average(line%average, max(p, 0.0_wp))
+   end function friction_bound
+
+   !> Bounds and compliances of the normal forces, and all points closed, none with friction.
+   pure subroutine normal_bounds(line, problem, bounds, state)
+      type(contact_line_t), intent(in) :: line
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(out) :: bounds
+      type(box_state_t), intent(out) :: state
+      integer(ip) :: i
+
+      allocate (bounds%lower(problem%m), bounds%d(problem%m), source=0.0_wp)
+      allocate (bounds%upper(problem%m), source=HUGE_REAL)
+      allocate (state%state(problem%m), source=FREE)
+      allocate (state%q(problem%m), state%a(problem%k), state%r(problem%m), source=0.0_wp)
+      do i = 1, problem%n_normal
+         bounds%d(i) = line%delta(line%point(i))/line%weight(line%point(i))
+      end do
+      state%state(problem%n_normal + 1:) = FROZEN
+   end subroutine normal_bounds
+
+   !> Bounds and compliances of the tangential forces for a friction bound. Points that had none begin stuck; points that have
+   !> none now take no part. The bound HUGE_REAL is none at all: stuck whatever the force.
+   pure subroutine set_friction_bounds(line, problem, tau, bounds, state)
+      type(contact_line_t), intent(in) :: line
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]
+      type(box_bounds_t), intent(inout) :: bounds
+      type(box_state_t), intent(inout) :: state
+      integer(ip) :: i, j
+
+      do i = problem%n_normal + 1, problem%m
+         j = line%point(i)
+         bounds%d(i) = 0.0_wp
+         if (tau(j) >= HUGE_REAL) then
+            bounds%upper(i) = HUGE_REAL
+            state%state(i) = FREE
+         else if (tau(j) == 0.0_wp) then
+            bounds%upper(i) = 0.0_wp
+            state%state(i) = FROZEN
+         else
+            bounds%upper(i) = tau(j)*line%weight(j)
+            bounds%d(i) = stick_compliance(line%law(j), tau(j))/line%weight(j)
+            if (state%state(i) == FROZEN) state%state(i) = FREE
+         end if
+         bounds%lower(i) = -bounds%upper(i)
+      end do
+   end subroutine set_friction_bounds
+
+end module atrito_contact_line

@@ -1,0 +1,238 @@
+!> The finite dual method of Goldfarb and Idnani (1983) for the box problem.
+!>
+!> It goes from one exact solution of a relaxed problem (some bounds of free unknowns broken, all multipliers right) to the next,
+!> and the dual value rises at every step, so no state comes back:
+!>   (i)   release every fixed unknown whose multiplier r has the wrong sign, until none has;
+!>   (ii)  take the free unknown that breaks its bound most and drive it to the bound, everything else changing linearly; the
+!>         first fixed unknown whose multiplier reaches zero on the way is released, and the drive goes on;
+!>   (iii) when that leaves a body free, move along its motion until a multiplier reaches zero and release that unknown; when none
+!>         does, there is no equilibrium.
+module atrito_dual_steps
+   use atrito_kinds, only: ip, wp
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, closing_slack, &
+                                 FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: take_dual_steps
+
+   !> State of the unknown that is being driven to its bound: fixed, its multiplier not yet judged.
+   integer(ip), parameter :: DRIVEN = 4
+   real(wp), parameter :: BREAKS = 1.0e-13_wp        !< a bound is broken by more than this of the largest force
+   real(wp), parameter :: LEAST_RATE = 1.0e-14_wp    !< of a multiplier along a motion, relative to the largest
+   integer(ip), parameter :: SOLVES_PER_UNKNOWN = 6
+
+contains
+
+   !> Goes on from state%state until all conditions hold (solved), there is no equilibrium (solution%moves), or too many solves.
+   subroutine take_dual_steps(problem, bounds, state, history, solution, solved, status)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+      type(solve_history_t), intent(inout) :: history
+      type(equality_solution_t), intent(out) :: solution
+      logical, intent(out) :: solved
+      type(status_t), intent(out) :: status
+      integer(ip) :: left, worst, bound
+
+      solved = .false.
+      left = SOLVES_PER_UNKNOWN*problem%m + 50
+      call release_until_right(problem, bounds, state, history, solution, left, status)
+      do while (is_ok(status) .and. left > 0 .and. .not. solution%moves)
+         call find_worst(problem, bounds, state, worst, bound)
+         if (worst == 0) then
+            solved = .true.
+            return
+         end if
+         call drive_to_bound(problem, bounds, worst, bound, state, history, solution, left, status)
+      end do
+   end subroutine take_dual_steps
+
+   !> (i) and, where a body is free, (iii).
+   subroutine release_until_right(problem, bounds, state, history, solution, left, status)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+      type(solve_history_t), intent(inout) :: history
+      type(equality_solution_t), intent(out) :: solution
+      integer(ip), intent(inout) :: left
+      type(status_t), intent(out) :: status
+      real(wp) :: slack, t
+      integer(ip) :: i, released, first
+
+      do while (left > 0)
+         where (state%state == AT_LOWER) state%q = bounds%lower
+         where (state%state == AT_UPPER) state%q = bounds%upper
+         where (state%state == FROZEN) state%q = 0.0_wp
+         call solve_and_record(problem, bounds, state, history, solution, left, status)
+         if (.not. is_ok(status)) return
+         slack = closing_slack(problem, state)
+         released = 0
+         do i = 1, problem%m
+            if (sign_of(state%state(i))*state%r(i) >= -slack) cycle
+            state%state(i) = FREE
+            released = released + 1
+         end do
+         if (released > 0) cycle
+         if (.not. solution%moves) return
+         call find_first_reached(problem, state, solution%motion, first, t)
+         if (first == 0) return
+         state%state(first) = FREE
+         solution%moves = .false.
+      end do
+   end subroutine release_until_right
+
+   !> (ii) and (iii) for one unknown.
+   subroutine drive_to_bound(problem, bounds, i, bound, state, history, solution, left, status)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      integer(ip), intent(in) :: i                   !< free, beyond its bound
+      integer(ip), intent(in) :: bound               !< AT_LOWER or AT_UPPER
+      type(box_state_t), intent(inout) :: state
+      type(solve_history_t), intent(inout) :: history
+      type(equality_solution_t), intent(out) :: solution
+      integer(ip), intent(inout) :: left
+      type(status_t), intent(out) :: status
+      type(box_state_t) :: target
+      real(wp) :: t, motion(problem%k)
+      integer(ip) :: first
+
+      state%state(i) = DRIVEN
+      do while (left > 0)
+         target = state
+         target%q(i) = merge(bounds%lower(i), bounds%upper(i), bound == AT_LOWER)
+         call solve_and_record(problem, bounds, target, history, solution, left, status)
+         if (.not. is_ok(status)) return
+         if (solution%moves) then
+            motion = opening_motion(problem, i, bound, solution%motion)
+            call find_first_reached(problem, state, motion, first, t)
+            if (first == 0) return
+            state%a = state%a + t*motion
+            state%r = state%r + t*matmul(problem%g, motion)
+            solution%moves = .false.
+         else
+            call first_crossing(state, target, first, t)
+            if (first == 0) then
+               state = target
+               state%state(i) = bound
+               return
+            end if
+            state%q = state%q + t*(target%q - state%q)
+            state%a = state%a + t*(target%a - state%a)
+            state%r = state%r + t*(target%r - state%r)
+         end if
+         state%state(first) = FREE
+      end do
+   end subroutine drive_to_bound
+
+   subroutine solve_and_record(problem, bounds, state, history, solution, left, status)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+      type(solve_history_t), intent(inout) :: history
+      type(equality_solution_t), intent(out) :: solution
+      integer(ip), intent(inout) :: left
+      type(status_t), intent(out) :: status
+
+      call solve_free_set(problem, bounds%d, state, solution, status)
+      left = left - 1
+      if (is_ok(status)) call record_solve(history, problem, bounds, state)
+   end subroutine solve_and_record
+
+   !> The free unknown that breaks a bound most, as a force, and that bound; 0 when none does.
+   pure subroutine find_worst(problem, bounds, state, worst, bound)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(out) :: worst, bound
+      real(wp) :: most, excess
+      integer(ip) :: i
+
+      worst = 0
+      bound = AT_LOWER
+      most = 0.0_wp
+      if (problem%m > 0) most = BREAKS*maxval(abs(state%q))
+      do i = 1, problem%m
+         if (state%state(i) /= FREE) cycle
+         excess = max(bounds%lower(i) - state%q(i), state%q(i) - bounds%upper(i))
+         if (excess <= most) cycle
+         most = excess
+         worst = i
+         bound = merge(AT_LOWER, AT_UPPER, state%q(i) < bounds%lower(i))
+      end do
+   end subroutine find_worst
+
+   !> +1 when r must be >= 0, -1 when it must be <= 0, 0 when it does not matter.
+   pure elemental real(wp) function sign_of(state)
+      integer(ip), intent(in) :: state
+
+      select case (state)
+      case (AT_LOWER)
+         sign_of = -1.0_wp
+      case (AT_UPPER)
+         sign_of = 1.0_wp
+      case default
+         sign_of = 0.0_wp
+      end select
+   end function sign_of
+
+   !> The first fixed unknown whose multiplier changes sign on the way from state to target, and where (0 <= t <= 1).
+   pure subroutine first_crossing(state, target, first, t)
+      type(box_state_t), intent(in) :: state, target
+      integer(ip), intent(out) :: first
+      real(wp), intent(out) :: t
+      real(wp) :: before, after, here
+      integer(ip) :: i
+
+      first = 0
+      t = 1.0_wp
+      do i = 1, size(state%state, kind=ip)
+         before = sign_of(state%state(i))*state%r(i)
+         after = sign_of(state%state(i))*target%r(i)
+         if (after >= 0.0_wp) cycle
+         before = max(before, 0.0_wp)
+         here = before/(before - after)
+         if (here < t) then
+            t = here
+            first = i
+         end if
+      end do
+   end subroutine first_crossing
+
+   !> The motion, in the direction that gives the driven unknown's multiplier its sign.
+   pure function opening_motion(problem, i, bound, motion) result(directed)
+      type(box_problem_t), intent(in) :: problem
+      integer(ip), intent(in) :: i, bound
+      real(wp), intent(in) :: motion(:)
+      real(wp) :: directed(size(motion))
+      real(wp) :: rate
+
+      rate = dot_product(problem%g(i, :), motion)
+      directed = motion
+      if (sign_of(bound)*rate < 0.0_wp) directed = -motion
+   end function opening_motion
+
+   !> The first fixed unknown whose multiplier reaches zero along a motion, and the distance to it; 0 when none does.
+   pure subroutine find_first_reached(problem, state, motion, first, distance)
+      type(box_problem_t), intent(in) :: problem
+      type(box_state_t), intent(in) :: state
+      real(wp), intent(in) :: motion(:)              !< (k)
+      integer(ip), intent(out) :: first
+      real(wp), intent(out) :: distance
+      real(wp) :: rate(problem%m), here
+      integer(ip) :: i
+
+      first = 0
+      distance = huge(distance)
+      rate = matmul(problem%g, motion)
+      do i = 1, problem%m
+         if (sign_of(state%state(i))*rate(i) >= -LEAST_RATE*maxval(abs(rate))) cycle
+         here = max(-state%r(i)/rate(i), 0.0_wp)
+         if (here >= distance) cycle
+         first = i
+         distance = here
+      end do
+   end subroutine find_first_reached
+
+end module atrito_dual_steps

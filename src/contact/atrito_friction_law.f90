@@ -1,0 +1,58 @@
+!> The friction laws at a point, equation (5) with phi of the paper and Coulomb's with a stick slope.
+!>
+!> Both are t = min(|u_T| / c, tau) sign(u_T), with the bound tau and the stick compliance c: eps / tau for the law of Oden and
+!> Pires, 1 / k for Coulomb's. c = 0 is exact stick.
+module atrito_friction_law
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: friction_law_t, stick_compliance, sticking_slip, friction_stress
+   public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
+
+   integer(ip), parameter :: FRICTION_NONE = 0, FRICTION_LOCAL = 1, FRICTION_NONLOCAL = 2
+   integer(ip), parameter :: KERNEL_POINTS = 1, KERNEL_LINE = 2
+
+   type :: friction_law_t
+      integer(ip) :: kind = FRICTION_NONE
+      real(wp) :: nu = 0.0_wp              !< coefficient of friction
+      real(wp) :: eps = 0.0_wp             !< NONLOCAL [L]
+      real(wp) :: compliance = 0.0_wp      !< LOCAL: 1 / k [L^3/F]
+   end type friction_law_t
+
+contains
+
+   !> c [L^3/F] of a sticking point.
+   pure elemental real(wp) function stick_compliance(law, tau) result(c)
+      type(friction_law_t), intent(in) :: law
+      real(wp), intent(in) :: tau          !< bound [F/L^2], > 0
+
+      c = law%compliance
+      if (law%kind == FRICTION_NONLOCAL) c = law%eps/tau
+   end function stick_compliance
+
+   !> The largest |u_T| [L] of a sticking point.
+   pure elemental real(wp) function sticking_slip(law, tau) result(u)
+      type(friction_law_t), intent(in) :: law
+      real(wp), intent(in) :: tau
+
+      u = law%compliance*tau
+      if (law%kind == FRICTION_NONLOCAL) u = law%eps
+   end function sticking_slip
+
+   !> t [F/L^2] at a known slip; a point of exact stick that does not move has none of its own.
+   pure elemental real(wp) function friction_stress(law, tau, slip) result(t)
+      type(friction_law_t), intent(in) :: law
+      real(wp), intent(in) :: tau, slip    !< [F/L^2], [L]
+      real(wp) :: limit
+
+      limit = sticking_slip(law, tau)
+      if (slip == 0.0_wp .or. tau <= 0.0_wp) then
+         t = 0.0_wp
+      else if (abs(slip) >= limit) then
+         t = sign(tau, slip)
+      else
+         t = tau*(slip/limit)
+      end if
+   end function friction_stress
+
+end module atrito_friction_law

@@ -1,0 +1,112 @@
+!> The next friction bound of the outer loop, from the bounds that went in and those that came out.
+module atrito_accelerator
+   use atrito_dense, only: least_squares
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: accelerator_t, picard_t, anderson_t
+
+   !> Fixed point x = g(x) of a map with values >= 0.
+   type, abstract :: accelerator_t
+   contains
+      procedure(reset_accelerator), deferred :: reset
+      procedure(next_iterate), deferred :: update
+   end type accelerator_t
+
+   abstract interface
+      !> Forgets what went before.
+      subroutine reset_accelerator(self)
+         import :: accelerator_t
+         class(accelerator_t), intent(inout) :: self
+      end subroutine reset_accelerator
+
+      !> The next x, >= 0.
+      subroutine next_iterate(self, x, g, next)
+         import :: accelerator_t, wp
+         class(accelerator_t), intent(inout) :: self
+         real(wp), intent(in) :: x(:), g(:)           !< x and its image
+         real(wp), intent(out) :: next(:)
+      end subroutine next_iterate
+   end interface
+
+   !> x <- x + relaxation (g - x), the paper's.
+   type, extends(accelerator_t) :: picard_t
+      real(wp) :: relaxation = 1.0_wp
+   contains
+      procedure :: reset => reset_picard
+      procedure :: update => update_picard
+   end type picard_t
+
+   integer(ip), parameter :: MEMORY = 5
+
+   !> Anderson's mixing of the last differences (1965), type II, memory 5: the combination of the last residuals that is least.
+   type, extends(accelerator_t) :: anderson_t
+      real(wp) :: mixing = 1.0_wp
+      integer(ip) :: held = 0                         !< differences held
+      real(wp), allocatable :: dx(:, :), df(:, :)     !< (n, MEMORY)
+      real(wp), allocatable :: last_x(:), last_f(:)
+   contains
+      procedure :: reset => reset_anderson
+      procedure :: update => update_anderson
+   end type anderson_t
+
+contains
+
+   subroutine reset_picard(self)
+      class(picard_t), intent(inout) :: self
+
+      if (self%relaxation <= 0.0_wp) self%relaxation = 1.0_wp
+   end subroutine reset_picard
+
+   subroutine update_picard(self, x, g, next)
+      class(picard_t), intent(inout) :: self
+      real(wp), intent(in) :: x(:), g(:)
+      real(wp), intent(out) :: next(:)
+
+      next = x + self%relaxation*(g - x)
+      if (self%relaxation == 1.0_wp) next = g
+   end subroutine update_picard
+
+   subroutine reset_anderson(self)
+      class(anderson_t), intent(inout) :: self
+
+      self%held = 0
+      if (allocated(self%last_x)) deallocate (self%last_x, self%last_f)
+   end subroutine reset_anderson
+
+   subroutine update_anderson(self, x, g, next)
+      class(anderson_t), intent(inout) :: self
+      real(wp), intent(in) :: x(:), g(:)
+      real(wp), intent(out) :: next(:)
+      real(wp), parameter :: DEPENDENT = 1.0e-10_wp   !< differences closer than this do not count twice
+      real(wp) :: f(size(x))
+      real(wp), allocatable :: gamma(:)
+      integer(ip) :: rank, info
+
+      f = g - x
+      if (allocated(self%last_x)) call hold(self, x - self%last_x, f - self%last_f)
+      self%last_x = x
+      self%last_f = f
+      next = x + self%mixing*f
+      if (self%held > 0) then
+         allocate (gamma(self%held))
+         call least_squares(self%df(:, :self%held), f, gamma, DEPENDENT, rank, info)
+         if (info == 0) next = next - matmul(self%dx(:, :self%held) + self%mixing*self%df(:, :self%held), gamma)
+      end if
+      next = max(next, 0.0_wp)
+   end subroutine update_anderson
+
+   !> Holds one more difference; the oldest goes.
+   subroutine hold(self, dx, df)
+      class(anderson_t), intent(inout) :: self
+      real(wp), intent(in) :: dx(:), df(:)
+
+      if (.not. allocated(self%dx)) allocate (self%dx(size(dx), MEMORY), self%df(size(dx), MEMORY), source=0.0_wp)
+      self%held = min(self%held + 1, MEMORY)
+      self%dx(:, 2:) = self%dx(:, :MEMORY - 1)
+      self%df(:, 2:) = self%df(:, :MEMORY - 1)
+      self%dx(:, 1) = dx
+      self%df(:, 1) = df
+   end subroutine hold
+
+end module atrito_accelerator

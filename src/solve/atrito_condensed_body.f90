@@ -1,0 +1,245 @@
+!> A body reduced to its contact degrees of freedom.
+!>
+!> With the Schur complement S of the interior and the reduced load f_c, a body held by its supports moves at its contact dofs by
+!> u = F (f_c - B' q), F = S^-1. A floating one has F = (S + alpha Q Q')^-1 with the orthonormal rigid motions Q, and moves by
+!> that and any rigid motion Z a; the forces on it balance, Z' (f - B' q) = 0, so F is as good as any generalised inverse.
+module atrito_condensed_body
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_assembly, only: fem_t, body_profile, assemble_body
+   use atrito_bodies, only: mode_at
+   use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
+   use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, skyline_bytes, banded_bytes
+   use atrito_results, only: body_result_t
+   use atrito_solver_choice, only: new_storage, STORAGE_SKYLINE, STORAGE_BANDED
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_storage, only: storage_t
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, expand_body, motion_text
+
+   type :: condensed_body_t
+      class(storage_t), allocatable :: storage
+      real(wp), allocatable :: factor(:, :)        !< (n_kept, n_kept) Cholesky factor of S or S + alpha Q Q'
+      real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
+   end type condensed_body_t
+
+   !> Floating point operations that LAPACK's band routines do in the time of one of the skyline's.
+   real(wp), parameter :: BAND_SPEED = 3.0_wp
+
+contains
+
+   !> Chooses the storage of a body by its predicted cost, unless one is asked for, and says why.
+   subroutine choose_storage(profile, asked, kind, result)
+      type(profile_t), intent(in) :: profile
+      integer, intent(in) :: asked                 !< STORAGE_* or 0 for the choice
+      integer, intent(out) :: kind
+      type(body_result_t), intent(inout) :: result
+      real(wp) :: skyline, banded
+
+      skyline = skyline_flops(profile)
+      banded = banded_flops(profile)/BAND_SPEED
+      if (asked /= 0) then
+         kind = asked
+         result%reason = 'asked for'
+      else if (skyline <= banded) then
+         kind = STORAGE_SKYLINE
+         result%reason = 'predicted cost '//ratio_text(banded, skyline)//' of banded'
+      else
+         kind = STORAGE_BANDED
+         result%reason = 'predicted cost '//ratio_text(skyline, banded)//' of skyline'
+      end if
+      result%storage = trim(merge('skyline', 'banded ', kind == STORAGE_SKYLINE))
+      result%profile = profile_length(profile)
+      result%half_bandwidth = half_bandwidth(profile)
+      result%memory = merge(skyline_bytes(profile), banded_bytes(profile), kind == STORAGE_SKYLINE) &
+                      + 8_lp*int(profile%n_kept, lp)**2
+   end subroutine choose_storage
+
+   function ratio_text(other, own) result(text)
+      real(wp), intent(in) :: other, own
+      character(len=:), allocatable :: text
+
+      text = to_text(own/max(other, tiny(other)), 2)
+   end function ratio_text
+
+   !> Assembles, factors and condenses a body. status: STATUS_SINGULAR with the body, node and motion in words.
+   subroutine condense_body(fem, i_body, asked, body, result, status)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      integer, intent(in) :: asked                 !< STORAGE_* or 0
+      type(condensed_body_t), intent(out) :: body
+      type(body_result_t), intent(inout) :: result
+      type(status_t), intent(out) :: status
+      type(profile_t) :: profile
+      integer :: kind
+
+      if (fem%bodies%list(i_body)%n_kept == 0 .and. size(fem%bodies%list(i_body)%modes, 2) > 0) then
+         call set_status(status, STATUS_SINGULAR, motion_text(fem, i_body, fem%bodies%list(i_body)%modes(:, 1)) &
+                         //'; no support and no contact pair holds it')
+         return
+      end if
+      call body_profile(fem, i_body, profile)
+      call choose_storage(profile, asked, kind, result)
+      call new_storage(kind, body%storage)
+      call body%storage%create(profile, status)
+      if (.not. is_ok(status)) return
+      call assemble_body(fem, i_body, body%storage)
+      call body%storage%factor(status)
+      call report_pivots(fem, i_body, body%storage, result)
+      if (.not. is_ok(status)) then
+         call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': '//status%text//', node ' &
+                         //to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
+                         //': a part of the body can move by itself there (elements joined at one node only, or distorted)')
+         return
+      end if
+      call factor_contact(fem, i_body, body, status)
+   end subroutine condense_body
+
+   subroutine report_pivots(fem, i_body, storage, result)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      class(storage_t), intent(in) :: storage
+      type(body_result_t), intent(inout) :: result
+      integer(ip) :: i, dof
+
+      result%digits_lost = storage%report%digits_lost
+      result%sign_changes = storage%report%sign_changes
+      if (storage%report%worst_equation == 0) return
+      associate (body => fem%bodies%list(i_body))
+         do i = 1, size(body%nodes, kind=ip)
+            do dof = 1, 2
+               if (fem%bodies%equation(dof, body%nodes(i)) /= storage%report%worst_equation) cycle
+               result%worst_node = fem%mesh%node_id(body%nodes(i))
+               result%worst_dof = dof
+            end do
+         end do
+      end associate
+   end subroutine report_pivots
+
+   !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
+   subroutine factor_contact(fem, i_body, body, status)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(inout) :: body
+      type(status_t), intent(inout) :: status
+      real(wp), allocatable :: q(:, :), qs(:, :)
+      real(wp) :: alpha
+      integer(ip) :: n, i, rank, failed, info
+
+      n = fem%bodies%list(i_body)%n_kept
+      allocate (body%factor(n, n))
+      if (n == 0) return
+      call body%storage%get_schur(body%factor)
+      if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
+         alpha = sum([(body%factor(i, i)/n, i=1, n)])
+         q = modes_at_contact(fem, i_body)
+         call orthonormalise(q, rank, 1.0e-12_wp, info)
+         qs = alpha*q(:, :rank)
+         call multiply(q(:, :rank), qs, body%factor, transb=.true., beta=1.0_wp)
+      end if
+      call factor_cholesky(body%factor, failed)
+      if (failed == 0) return
+      call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name &
+                      //': its stiffness seen from the contact line is not positive')
+   end subroutine factor_contact
+
+   !> The rigid motions at the contact dofs, (n_kept, n_modes).
+   function modes_at_contact(fem, i_body) result(z)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      real(wp), allocatable :: z(:, :)
+      integer(ip) :: i, j, dof, k
+
+      associate (body => fem%bodies%list(i_body))
+         allocate (z(body%n_kept, size(body%modes, 2)))
+         do i = 1, size(body%nodes, kind=ip)
+            do dof = 1, 2
+               k = fem%bodies%equation(dof, body%nodes(i)) - (body%n - body%n_kept)
+               if (k <= 0) cycle
+               do j = 1, size(body%modes, 2, kind=ip)
+                  z(k, j) = mode_at(body, body%modes(:, j), fem%mesh%x(:, body%nodes(i)), dof)
+               end do
+            end do
+         end do
+      end associate
+   end function modes_at_contact
+
+   !> Takes the load of the free dofs, applied forces less the forces of prescribed displacements.
+   subroutine set_load(fem, i_body, f, body)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      real(wp), intent(in) :: f(:, :)              !< (2, n_nodes) [F]
+      type(condensed_body_t), intent(inout) :: body
+      integer(ip) :: i, dof, equation
+
+      associate (list => fem%bodies%list(i_body))
+         if (allocated(body%load)) deallocate (body%load)
+         allocate (body%load(list%n, 1))
+         do i = 1, size(list%nodes, kind=ip)
+            do dof = 1, 2
+               equation = fem%bodies%equation(dof, list%nodes(i))
+               if (equation > 0) body%load(equation, 1) = f(dof, list%nodes(i))
+            end do
+         end do
+      end associate
+      call body%storage%reduce(body%load)
+   end subroutine set_load
+
+   !> F times forces at the contact dofs, in place.
+   subroutine contact_response(body, x)
+      type(condensed_body_t), intent(in) :: body
+      real(wp), intent(inout), contiguous :: x(:, :) !< (n_kept, loads): forces [F] in, displacements [L] out
+
+      call solve_cholesky(body%factor, x)
+   end subroutine contact_response
+
+   !> Displacements of all free dofs from those of the contact dofs; without any, the plain solution.
+   subroutine expand_body(fem, i_body, body, u_contact, u)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(in) :: body
+      real(wp), intent(in) :: u_contact(:)         !< (n_kept) [L]
+      real(wp), intent(inout) :: u(:, :)           !< (2, n_nodes) [L]: the free dofs of this body are set
+      real(wp), allocatable :: x(:, :)
+      integer(ip) :: i, dof, equation
+
+      associate (list => fem%bodies%list(i_body))
+         x = body%load
+         x(list%n - list%n_kept + 1:, 1) = u_contact
+         call body%storage%expand(x)
+         do i = 1, size(list%nodes, kind=ip)
+            do dof = 1, 2
+               equation = fem%bodies%equation(dof, list%nodes(i))
+               if (equation > 0) u(dof, list%nodes(i)) = x(equation, 1)
+            end do
+         end do
+      end associate
+   end subroutine expand_body
+
+   !> A rigid motion of a body in words: 'body BLOCK (node 7 ...) is free to move along x1'.
+   function motion_text(fem, i_body, mode) result(text)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
+      character(len=:), allocatable :: text
+      real(wp), parameter :: SMALL = 1.0e-9_wp
+      real(wp) :: size_of_mode, centre(2)
+
+      size_of_mode = maxval(abs(mode))
+      associate (body => fem%bodies%list(i_body))
+         text = 'body '//body%name//' (node '//to_text(fem%mesh%node_id(body%nodes(1)))//' and all others) is free to '
+         if (abs(mode(3)) > SMALL*size_of_mode) then
+            centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
+            text = text//'rotate about ('//to_text(centre(1))//', '//to_text(centre(2))//')'
+         else if (abs(mode(2)) <= SMALL*size_of_mode) then
+            text = text//'move along x1'
+         else if (abs(mode(1)) <= SMALL*size_of_mode) then
+            text = text//'move along x2'
+         else
+            text = text//'move along ('//to_text(mode(1)/norm2(mode(:2)))//', '//to_text(mode(2)/norm2(mode(:2)))//')'
+         end if
+      end associate
+   end function motion_text
+
+end module atrito_condensed_body

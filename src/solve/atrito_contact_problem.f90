@@ -1,0 +1,296 @@
+!> The contact line of a scene and its box problem: C = B F B', G = B Z, g0 and h, summed over the bodies.
+module atrito_contact_problem
+   use atrito_kinds, only: ip, wp
+   use atrito_assembly, only: fem_t
+   use atrito_average, only: average_t, build_average, append_average
+   use atrito_bodies, only: mode_at
+   use atrito_box_problem, only: box_problem_t
+   use atrito_condensed_body, only: condensed_body_t, contact_response
+   use atrito_contact_line, only: contact_line_t, number_unknowns
+   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
+   use atrito_model, only: model_t, interaction_t
+   use atrito_points, only: contact_points_t
+   implicit none (type, external)
+   private
+   public :: build_line, build_problem, motion_body, first_motion
+
+contains
+
+   !> Points, laws and averages of all pairs, and which points have unknown forces.
+   pure subroutine build_line(model, fem, points, rows, value, line)
+      type(model_t), intent(in) :: model
+      type(fem_t), intent(in) :: fem
+      type(contact_points_t), intent(in) :: points(:)
+      type(contact_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
+      type(contact_line_t), intent(out) :: line
+      logical :: normal_row(rows%n), tangential_row(rows%n)
+      type(average_t) :: average
+      integer(ip) :: i, j, first
+
+      line%n = rows%n
+      allocate (line%weight(line%n), line%delta(line%n), line%law(line%n))
+      allocate (line%known_overlap(line%n), line%known_slip(line%n))
+      first = 0
+      do i = 1, size(points, kind=ip)
+         associate (interaction => model%interactions(model%pairs(i)%interaction), last => first + points(i)%n)
+            line%weight(first + 1:last) = points(i)%weight
+            line%delta(first + 1:last) = interaction%delta
+            line%law(first + 1:last) = law_of(interaction)
+            average = build_average(points(i)%x, points(i)%length, interaction%rho, interaction%kernel)
+            call append_average(line%average, average)
+            first = last
+         end associate
+      end do
+      do j = 1, line%n
+         normal_row(j) = has_unknown(fem, rows, j, rows%normal(:, j))
+         tangential_row(j) = has_unknown(fem, rows, j, rows%tangent(:, j))
+         line%known_overlap(j) = row_value(rows, j, rows%normal(:, j), value) - rows%gap(j)
+         line%known_slip(j) = row_value(rows, j, rows%tangent(:, j), value)
+      end do
+      call number_unknowns(line, normal_row, tangential_row)
+   end subroutine build_line
+
+   !> The law of an interaction; without a coefficient there is none, and nothing tangential is built.
+   pure type(friction_law_t) function law_of(interaction) result(law)
+      type(interaction_t), intent(in) :: interaction
+
+      if (interaction%friction == FRICTION_NONE .or. interaction%nu == 0.0_wp) return
+      law%kind = interaction%friction
+      law%nu = interaction%nu
+      law%eps = interaction%eps
+      if (interaction%friction == FRICTION_LOCAL .and. interaction%stick_slope > 0.0_wp) &
+         law%compliance = 1.0_wp/interaction%stick_slope
+   end function law_of
+
+   !> True when the row of a point has an entry on a free dof. (A matrix entry could vanish by cancellation; the row tells.)
+   pure logical function has_unknown(fem, rows, j, direction)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: direction(2)
+      integer(ip) :: k, dof
+
+      has_unknown = .false.
+      do k = 1, rows%entries(j)
+         do dof = 1, 2
+            has_unknown = has_unknown .or. (direction(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k, j)) > 0)
+         end do
+      end do
+   end function has_unknown
+
+   !> C, G, g0 and h.
+   subroutine build_problem(fem, condensed, rows, line, value, f, problem)
+      type(fem_t), intent(in) :: fem
+      type(condensed_body_t), intent(in) :: condensed(:)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
+      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
+      type(box_problem_t), intent(out) :: problem
+      integer(ip) :: i, m, b
+
+      problem%m = size(line%point, kind=ip)
+      problem%n_normal = count(line%normal > 0, kind=ip)
+      do b = 1, fem%bodies%n
+         problem%k = problem%k + size(fem%bodies%list(b)%modes, 2, kind=ip)
+      end do
+      m = problem%m
+      allocate (problem%c(m, m), problem%g(m, problem%k), problem%g0(m), problem%h(problem%k), source=0.0_wp)
+      problem%weight = line%weight(line%point)
+      do i = 1, m
+         problem%g0(i) = row_value(rows, line%point(i), direction_of(problem, rows, line, i), value)
+         if (i <= problem%n_normal) problem%g0(i) = problem%g0(i) - rows%gap(line%point(i))
+      end do
+      do b = 1, fem%bodies%n
+         call add_flexibility(fem, b, condensed(b), rows, line, problem)
+         call add_motions(fem, b, rows, line, f, problem)
+      end do
+   end subroutine build_problem
+
+   pure function direction_of(problem, rows, line, i) result(d)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: i
+      real(wp) :: d(2)
+
+      if (i <= problem%n_normal) then
+         d = rows%normal(:, line%point(i))
+      else
+         d = rows%tangent(:, line%point(i))
+      end if
+   end function direction_of
+
+   !> Adds B F B' of one body to C, and B F f_c to g0.
+   subroutine add_flexibility(fem, i_body, condensed, rows, line, problem)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(in) :: condensed
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(box_problem_t), intent(inout) :: problem
+      real(wp), allocatable :: moved(:, :)
+      integer(ip) :: j, n, m
+      integer(ip) :: dofs(2*(size(rows%node, 1)))
+      real(wp) :: coefficients(size(dofs))
+
+      n = fem%bodies%list(i_body)%n_kept
+      m = problem%m
+      if (n == 0) return
+      allocate (moved(n, m + 1), source=0.0_wp)
+      do j = 1, m
+         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
+         call scatter(dofs, coefficients, moved(:, j))
+      end do
+      moved(:, m + 1) = condensed%load(size(condensed%load, 1) - n + 1:, 1)
+      call contact_response(condensed, moved)
+      do j = 1, m
+         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
+         call gather(dofs, coefficients, moved, problem%c(j, :), problem%g0(j))
+      end do
+   end subroutine add_flexibility
+
+   !> The entries of a row on the contact dofs of a body; dof 0 beyond them.
+   pure subroutine row_entries(fem, i_body, rows, point, direction, dofs, coefficients)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body, point
+      type(contact_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: direction(2)
+      integer(ip), intent(out) :: dofs(:)
+      real(wp), intent(out) :: coefficients(:)
+      integer(ip) :: k, dof, n, node
+
+      dofs = 0
+      coefficients = 0.0_wp
+      n = 0
+      do k = 1, rows%entries(point)
+         node = rows%node(k, point)
+         if (fem%bodies%of_node(node) /= i_body) cycle
+         do dof = 1, 2
+            if (fem%bodies%equation(dof, node) == 0 .or. direction(dof) == 0.0_wp) cycle
+            n = n + 1
+            dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_kept)
+            coefficients(n) = rows%coefficient(k, point)*direction(dof)
+         end do
+      end do
+   end subroutine row_entries
+
+   pure subroutine scatter(dofs, coefficients, column)
+      integer(ip), intent(in) :: dofs(:)
+      real(wp), intent(in) :: coefficients(:)
+      real(wp), intent(inout) :: column(:)
+      integer(ip) :: k
+
+      do k = 1, size(dofs, kind=ip)
+         if (dofs(k) > 0) column(dofs(k)) = column(dofs(k)) + coefficients(k)
+      end do
+   end subroutine scatter
+
+   pure subroutine gather(dofs, coefficients, moved, c_row, g0)
+      integer(ip), intent(in) :: dofs(:)
+      real(wp), intent(in) :: coefficients(:), moved(:, :)
+      real(wp), intent(inout) :: c_row(:), g0
+      integer(ip) :: k
+
+      do k = 1, size(dofs, kind=ip)
+         if (dofs(k) == 0) cycle
+         c_row = c_row + coefficients(k)*moved(dofs(k), :size(c_row))
+         g0 = g0 + coefficients(k)*moved(dofs(k), size(moved, 2))
+      end do
+   end subroutine gather
+
+   !> Adds the rigid motions of one body: G = B Z, h = Z' f.
+   subroutine add_motions(fem, i_body, rows, line, f, problem)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: f(:, :)
+      type(box_problem_t), intent(inout) :: problem
+      real(wp) :: direction(2), z
+      integer(ip) :: i, j, k, column, dof, node
+
+      associate (body => fem%bodies%list(i_body))
+         do j = 1, size(body%modes, 2, kind=ip)
+            column = first_motion(fem, i_body) + j - 1
+            do i = 1, problem%m
+               direction = direction_of(problem, rows, line, i)
+               do k = 1, rows%entries(line%point(i))
+                  node = rows%node(k, line%point(i))
+                  if (fem%bodies%of_node(node) /= i_body) cycle
+                  do dof = 1, 2
+                     if (fem%bodies%equation(dof, node) == 0) cycle
+                     z = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
+                     problem%g(i, column) = problem%g(i, column) + rows%coefficient(k, line%point(i))*direction(dof)*z
+                  end do
+               end do
+            end do
+            problem%h(column) = work_of_load(fem, i_body, body%modes(:, j), f)
+         end do
+      end associate
+      call clear_round_off(problem%g)
+   end subroutine add_motions
+
+   !> Motions are of size one: what is below rounding of that is no motion.
+   pure subroutine clear_round_off(g)
+      real(wp), intent(inout) :: g(:, :)
+      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
+
+      where (abs(g) < ROUND_OFF) g = 0.0_wp
+   end subroutine clear_round_off
+
+   pure real(wp) function work_of_load(fem, i_body, mode, f) result(work)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      real(wp), intent(in) :: mode(3), f(:, :)
+      integer(ip) :: i, dof, node
+
+      work = 0.0_wp
+      associate (body => fem%bodies%list(i_body))
+         do i = 1, size(body%nodes, kind=ip)
+            node = body%nodes(i)
+            do dof = 1, 2
+               if (fem%bodies%equation(dof, node) > 0) work = work + f(dof, node)*mode_at(body, mode, fem%mesh%x(:, node), dof)
+            end do
+         end do
+      end associate
+   end function work_of_load
+
+   !> Column of the first rigid motion of a body.
+   pure integer(ip) function first_motion(fem, i_body) result(column)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      integer(ip) :: b
+
+      column = 1
+      do b = 1, i_body - 1
+         column = column + size(fem%bodies%list(b)%modes, 2, kind=ip)
+      end do
+   end function first_motion
+
+   !> The body that moves most in a motion of amplitudes a, and its motion as translations and rotation.
+   pure subroutine motion_body(fem, a, i_body, mode)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: a(:)
+      integer(ip), intent(out) :: i_body
+      real(wp), intent(out) :: mode(3)
+      real(wp) :: own(3), most
+      integer(ip) :: b, first, n
+
+      i_body = 1
+      mode = 0.0_wp
+      most = -1.0_wp
+      do b = 1, fem%bodies%n
+         first = first_motion(fem, b)
+         n = size(fem%bodies%list(b)%modes, 2, kind=ip)
+         own = matmul(fem%bodies%list(b)%modes, a(first:first + n - 1))
+         if (norm2(own) <= most) cycle
+         most = norm2(own)
+         i_body = b
+         mode = own
+      end do
+   end subroutine motion_body
+
+end module atrito_contact_problem

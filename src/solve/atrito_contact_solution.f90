@@ -1,0 +1,71 @@
+!> What the outer loop works on and what it finds: the contact line's state, its stresses, and the verdict.
+module atrito_contact_solution
+   use atrito_active_set, only: box_outcome_t, solve_box
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, set_friction_bounds
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_solve_history, only: solve_history_t
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: contact_solution_t, outer_controls_t, solve_with_bound, stop_level, relative_residual
+
+   type :: outer_controls_t
+      integer(ip) :: method = 1                       !< METHOD_* of the model
+      real(wp) :: tolerance = 1.0e-8_wp
+      integer(ip) :: max_iterations = 100
+      real(wp) :: relaxation = 1.0_wp
+   end type outer_controls_t
+
+   type :: contact_solution_t
+      type(box_bounds_t) :: bounds
+      type(box_state_t) :: state
+      type(solve_history_t) :: history
+      type(box_outcome_t) :: inner                    !< of the last inner problem
+      real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
+      logical :: converged = .false.
+      character(len=:), allocatable :: verdict        !< why not
+      real(wp) :: residual = 0.0_wp                   !< |nu S_rho(p) - tau| / |tau|
+      real(wp) :: contraction = 0.0_wp                !< largest measured rate of the last Picard-like steps
+   end type contact_solution_t
+
+contains
+
+   !> Solves the inner problem for a frozen friction bound, from the present state. Image: nu S_rho of the pressure found.
+   subroutine solve_with_bound(problem, line, tau, solution, image, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]; HUGE_REAL: no bound
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), intent(out) :: image(:)               !< (n) [F/L^2]
+      type(status_t), intent(out) :: status
+
+      solution%tau = tau
+      call set_friction_bounds(line, problem, tau, solution%bounds, solution%state)
+      call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status)
+      if (.not. is_ok(status)) return
+      solution%p = pressure_of(line, solution%state%q)
+      solution%t = shear_force_of(line, solution%state%q, tau)
+      image = friction_bound(line, solution%p)
+   end subroutine solve_with_bound
+
+   !> |image - tau| / |tau|, in the largest norm; 0 when both vanish.
+   pure real(wp) function relative_residual(tau, image) result(residual)
+      real(wp), intent(in) :: tau(:), image(:)
+      real(wp) :: scale
+
+      residual = 0.0_wp
+      if (size(tau) == 0) return
+      scale = max(maxval(abs(tau)), maxval(abs(image)))
+      if (scale > 0.0_wp) residual = maxval(abs(image/scale - tau/scale))
+   end function relative_residual
+
+   !> The residual at which the outer loop stops: the tolerance, or what the matrix allows.
+   pure real(wp) function stop_level(tolerance, solution) result(level)
+      real(wp), intent(in) :: tolerance
+      type(contact_solution_t), intent(in) :: solution
+
+      level = max(tolerance, EPS_MACH*solution%inner%condition)
+   end function stop_level
+
+end module atrito_contact_solution

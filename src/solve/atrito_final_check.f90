@@ -1,0 +1,200 @@
+!> The check at the end of every run, made afresh from the displacements and the stresses that are written: equilibrium of the
+!> full bodies, balance of the forces on them, and the contact law at every point.
+module atrito_final_check
+   use atrito_assembly, only: fem_t, internal_forces
+   use atrito_average, only: apply_average
+   use atrito_bodies, only: mode_at
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_results, only: results_t
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: check_equilibrium, check_balance, check_law, equilibrium_t
+
+   !> The outcome for the full bodies.
+   type :: equilibrium_t
+      real(wp) :: residual = 0.0_wp            !< max-norm of the free rows of K u_e + B'q - f [F]
+      real(wp) :: largest_force = 0.0_wp       !< largest nodal force, applied, contact or reaction [F]
+      real(wp) :: round_off = 0.0_wp           !< largest sum |K||u_e| [F]
+      real(wp) :: energy = 0.0_wp              !< strain energy [F L]
+      logical :: holds = .false.
+   end type equilibrium_t
+
+   real(wp), parameter :: FORCE_TOLERANCE = 1.0e-7_wp    !< of the largest nodal force
+   real(wp), parameter :: ROUND_OFFS = 100.0_wp          !< times eps |K||u_e|
+   real(wp), parameter :: BALANCE_TOLERANCE = 1.0e-8_wp  !< of the sum of the forces on a body
+   real(wp), parameter :: PLACE_TOLERANCE = 1.0e-7_wp    !< of the largest displacement: gaps and slips against the field
+   real(wp), parameter :: SIGN_TOLERANCE = 1.0e-9_wp     !< of the largest pressure or displacement
+
+contains
+
+   !> K u_e - f + B'q of all elements, assembled again: reactions at the prescribed dofs, residual at the free ones.
+   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)           !< u_e, without rigid motions, (2, n_nodes) [L]
+      real(wp), intent(in) :: f(:, :)           !< applied forces (2, n_nodes) [F]
+      real(wp), intent(in) :: contact(:, :)     !< B'q (2, n_nodes) [F]
+      logical, intent(in) :: held(:, :)
+      real(wp), intent(out) :: reaction(:, :)   !< (2, n_nodes) [F]; 0 at free dofs
+      type(equilibrium_t), intent(out) :: equilibrium
+      real(wp) :: force(2, fem%mesh%n_nodes), size_of_force(2, fem%mesh%n_nodes)
+      integer(ip) :: b
+
+      force = 0.0_wp
+      size_of_force = 0.0_wp
+      do b = 1, fem%bodies%n
+         call internal_forces(fem, b, u, force, size_of_force, equilibrium%energy)
+      end do
+      force = force - f + contact
+      reaction = merge(force, 0.0_wp, held)
+      equilibrium%residual = maxval(abs(force), mask=.not. held)
+      equilibrium%largest_force = max(maxval(abs(f)), maxval(abs(contact)), maxval(abs(reaction)))
+      equilibrium%round_off = maxval(size_of_force)
+      equilibrium%holds = equilibrium%residual <= FORCE_TOLERANCE*equilibrium%largest_force &
+                          + ROUND_OFFS*EPS_MACH*equilibrium%round_off
+   end subroutine check_equilibrium
+
+   !> Z'(f - B'q) of every rigid motion, relative to the forces; the worst.
+   pure real(wp) function check_balance(fem, f, contact) result(worst)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: f(:, :), contact(:, :) !< (2, n_nodes) [F]
+      real(wp) :: work, scale, z
+      integer(ip) :: b, j, i, dof, node
+
+      worst = 0.0_wp
+      do b = 1, fem%bodies%n
+         associate (body => fem%bodies%list(b))
+            do j = 1, size(body%modes, 2, kind=ip)
+               work = 0.0_wp
+               scale = 0.0_wp
+               do i = 1, size(body%nodes, kind=ip)
+                  node = body%nodes(i)
+                  do dof = 1, 2
+                     if (fem%bodies%equation(dof, node) == 0) cycle
+                     z = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
+                     work = work + z*(f(dof, node) - contact(dof, node))
+                     scale = scale + abs(f(dof, node)) + abs(contact(dof, node))
+                  end do
+               end do
+               if (scale > 0.0_wp) worst = max(worst, abs(work)/scale)
+            end do
+         end associate
+      end do
+   end function check_balance
+
+   !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
+   !> and, where it does not, the verdict.
+   subroutine check_law(rows, line, tolerance, results)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tolerance          !< that the outer loop stopped at
+      type(results_t), intent(inout) :: results
+      real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n)
+      real(wp) :: pressure_scale, place_scale
+      integer(ip) :: j
+      character(len=:), allocatable :: wrong
+
+      if (line%n == 0) return
+      call gather_fields(results, p, gap, slip, t)
+      tau = line%law%nu*apply_average(line%average, p)
+      pressure_scale = maxval(p)
+      place_scale = max(maxval(abs(results%u)), maxval(abs(rows%gap)), maxval(abs(gap)))
+      do j = 1, line%n
+         wrong = ''
+         call judge_place(rows, results, j, gap(j), slip(j), place_scale, line%tangential(j) > 0, wrong)
+         call judge_normal(p(j), gap(j), line%delta(j), pressure_scale, place_scale, wrong)
+         call judge_friction(line, j, t(j), tau(j), slip(j), maxval(tau), place_scale, tolerance, wrong)
+         if (len(wrong) == 0) cycle
+         results%law_holds = .false.
+         results%verdict = 'the contact law does not hold at x = ('//to_text(point_x(results, j, 1_ip))//', ' &
+                           //to_text(point_x(results, j, 2_ip))//'): '//wrong
+         return
+      end do
+   end subroutine check_law
+
+   pure subroutine gather_fields(results, p, gap, slip, t)
+      type(results_t), intent(in) :: results
+      real(wp), intent(out) :: p(:), gap(:), slip(:), t(:)
+      integer(ip) :: i, first
+
+      first = 0
+      do i = 1, size(results%contact, kind=ip)
+         associate (c => results%contact(i), last => first + results%contact(i)%n)
+            p(first + 1:last) = c%pressure
+            gap(first + 1:last) = c%gap
+            slip(first + 1:last) = c%slip
+            t(first + 1:last) = -c%shear
+            first = last
+         end associate
+      end do
+   end subroutine gather_fields
+
+   pure real(wp) function point_x(results, j, axis) result(x)
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: j, axis
+      integer(ip) :: i, k
+
+      k = j
+      x = 0.0_wp
+      do i = 1, size(results%contact, kind=ip)
+         if (k <= results%contact(i)%n) then
+            x = results%contact(i)%x(axis, k)
+            return
+         end if
+         k = k - results%contact(i)%n
+      end do
+   end function point_x
+
+   !> Gap and slip must be those of the displacement field.
+   pure subroutine judge_place(rows, results, j, gap, slip, scale, has_tangential, wrong)
+      type(contact_rows_t), intent(in) :: rows
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: gap, slip, scale
+      logical, intent(in) :: has_tangential
+      character(len=:), allocatable, intent(inout) :: wrong
+
+      if (abs(rows%gap(j) - row_value(rows, j, rows%normal(:, j), results%u) - gap) > PLACE_TOLERANCE*scale) &
+         wrong = 'the gap is not that of the displacements'
+      if (.not. has_tangential) return
+      if (abs(row_value(rows, j, rows%tangent(:, j), results%u) - slip) > PLACE_TOLERANCE*scale) &
+         wrong = 'the slip is not that of the displacements'
+   end subroutine judge_place
+
+   pure subroutine judge_normal(p, gap, delta, pressure_scale, place_scale, wrong)
+      real(wp), intent(in) :: p, gap, delta, pressure_scale, place_scale
+      character(len=:), allocatable, intent(inout) :: wrong
+
+      if (p < 0.0_wp) wrong = 'tension '//to_text(p)
+      if (p > 0.0_wp .and. abs(gap + delta*p) > SIGN_TOLERANCE*max(place_scale, delta*pressure_scale)) &
+         wrong = 'pressure '//to_text(p)//' at gap '//to_text(gap)
+      if (p == 0.0_wp .and. gap < -SIGN_TOLERANCE*place_scale) wrong = 'penetration '//to_text(-gap)//' without pressure'
+   end subroutine judge_normal
+
+   pure subroutine judge_friction(line, j, t, tau, slip, tau_scale, place_scale, tolerance, wrong)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: t, tau, slip, tau_scale, place_scale, tolerance
+      character(len=:), allocatable, intent(inout) :: wrong
+      real(wp) :: allowed, limit
+
+      if (line%law(j)%kind == FRICTION_NONE) then
+         if (t /= 0.0_wp) wrong = 'shear without friction'
+         return
+      end if
+      allowed = 10*tolerance*tau_scale
+      limit = sticking_slip(line%law(j), tau)
+      if (abs(t) > tau + allowed) wrong = 'shear '//to_text(abs(t))//' beyond the friction bound '//to_text(tau)
+      if (abs(slip) > limit*(1 + 10*tolerance) + SIGN_TOLERANCE*place_scale) then
+         if (abs(t - sign(tau, slip)) > allowed) wrong = 'slip without full friction against it'
+      else if (limit > SIGN_TOLERANCE*place_scale) then
+         ! the law is steep here: compare the stress within what the slip leaves open
+         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale)/limit) &
+            wrong = 'shear off the friction law'
+      end if
+   end subroutine judge_friction
+
+end module atrito_final_check

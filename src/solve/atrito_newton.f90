@@ -1,0 +1,292 @@
+!> Newton's method on the forces and the rigid motions together, friction bound and all.
+!>
+!> Unknowns: q of closed, sticking and slipping points, a. Rows: r = 0 for closed and sticking points (with D = eps/(w tau(q)) for
+!> the law of Oden and Pires), q = +-w tau(q) for slipping ones, G' q = h. The bound tau = nu W p is differentiated, so the matrix
+!> is not symmetric. States change after each step as in the full steps of the active set.
+module atrito_newton
+   use atrito_box_problem, only: box_problem_t, closing_slack, residual, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, stop_level
+   use atrito_dense, only: solve_lu
+   use atrito_friction_law, only: stick_compliance, FRICTION_NONLOCAL
+   use atrito_kinds, only: ip, wp
+   use atrito_solve_history, only: record_solve, begin_outer, end_outer
+   implicit none (type, external)
+   private
+   public :: iterate_newton
+
+contains
+
+   !> Iterates from the present state until nothing changes, or max_iterations. solution%converged says how it ended; a singular
+   !> Jacobian ends it.
+   subroutine iterate_newton(problem, line, controls, solution)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), allocatable :: jacobian(:, :), rhs(:), dtau(:, :)
+      integer(ip), allocatable :: active(:)
+      integer(ip) :: iteration, info, changes, i
+      real(wp) :: change, largest_force
+
+      dtau = bound_derivative(problem, line)
+      solution%converged = .false.
+      do iteration = 1, controls%max_iterations
+         call begin_outer(solution%history)
+         solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
+         call update_compliances(problem, line, solution)
+         active = pack([(i, i=1, problem%m)], is_active(problem, solution%state%state))
+         call build_system(problem, line, solution, dtau, active, jacobian, rhs)
+         call solve_lu(jacobian, rhs, info)
+         if (info /= 0) then
+            solution%verdict = 'NEWTON met a singular matrix'
+            return
+         end if
+         change = maxval(abs([rhs(:size(active)), 0.0_wp]))
+         call apply_step(problem, active, rhs, solution)
+         largest_force = maxval(abs([scaled_forces(problem, active, solution), 0.0_wp]))
+         solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
+         call update_compliances(problem, line, solution)
+         solution%state%r = residual(problem, solution%bounds%d, solution%state)
+         call record_solve(solution%history, problem, solution%bounds, solution%state)
+         call change_states(problem, line, solution, changes)
+         if (largest_force > 0.0_wp) change = change/largest_force
+         call end_outer(solution%history, change)
+         solution%residual = change
+         if (changes == 0 .and. change <= stop_level(controls%tolerance, solution)) then
+            solution%converged = .true.
+            exit
+         end if
+      end do
+      if (.not. solution%converged) solution%verdict = 'NEWTON did not converge'
+      call put_slipping_at_bounds(problem, line, solution)
+      solution%p = pressure_of(line, solution%state%q)
+      solution%t = shear_force_of(line, solution%state%q, solution%tau)
+   end subroutine iterate_newton
+
+   !> Open points have no row; slipping ones have.
+   pure elemental logical function is_row(state, tangential)
+      integer(ip), intent(in) :: state
+      logical, intent(in) :: tangential
+
+      is_row = state == FREE .or. (tangential .and. (state == AT_LOWER .or. state == AT_UPPER))
+   end function is_row
+
+   pure function is_active(problem, state) result(active)
+      type(box_problem_t), intent(in) :: problem
+      integer(ip), intent(in) :: state(:)
+      logical :: active(size(state))
+      integer(ip) :: i
+
+      active = [(is_row(state(i), i > problem%n_normal), i=1, size(state, kind=ip))]
+   end function is_active
+
+   !> d tau_j / d q_k = nu W_jk / w_k for the normal unknowns, (n points, n_normal).
+   pure function bound_derivative(problem, line) result(dtau)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      real(wp) :: dtau(line%n, problem%n_normal)
+      integer(ip) :: j, k, i
+
+      dtau = 0.0_wp
+      do j = 1, line%n
+         do k = line%average%first(j), line%average%first(j + 1) - 1
+            i = line%normal(line%average%column(k))
+            if (i > 0) dtau(j, i) = line%law(j)%nu*line%average%entry(k)/problem%weight(i)
+         end do
+      end do
+   end function bound_derivative
+
+   !> D of the tangential unknowns for the present bound; points without any take no part, points that get one begin stuck.
+   pure subroutine update_compliances(problem, line, solution)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(inout) :: solution
+      integer(ip) :: i, j
+
+      do i = problem%n_normal + 1, problem%m
+         j = line%point(i)
+         solution%bounds%upper(i) = solution%tau(j)*line%weight(j)
+         solution%bounds%lower(i) = -solution%bounds%upper(i)
+         if (solution%tau(j) <= 0.0_wp) then
+            solution%state%state(i) = FROZEN
+            solution%state%q(i) = 0.0_wp
+         else
+            if (solution%state%state(i) == FROZEN) solution%state%state(i) = FREE
+            solution%bounds%d(i) = stick_compliance(line%law(j), solution%tau(j))/line%weight(j)
+         end if
+      end do
+   end subroutine update_compliances
+
+   !> The linear system for the changes, scaled: forces by 1/sqrt(C_ii + D_ii), motions to unit columns.
+   pure subroutine build_system(problem, line, solution, dtau, active, jacobian, rhs)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: dtau(:, :)
+      integer(ip), intent(in) :: active(:)
+      real(wp), allocatable, intent(out) :: jacobian(:, :), rhs(:)
+      real(wp) :: scale(size(active)), motion_scale(problem%k), r(problem%m)
+      integer(ip) :: n, row, column, i
+
+      n = size(active, kind=ip)
+      allocate (jacobian(n + problem%k, n + problem%k), rhs(n + problem%k), source=0.0_wp)
+      scale = force_scale(problem, solution, active)
+      motion_scale = scale_of_motions(problem, active, scale)
+      r = problem%g0 - matmul(problem%c, solution%state%q) - solution%bounds%d*solution%state%q &
+          + matmul(problem%g, solution%state%a)
+      do row = 1, n
+         i = active(row)
+         if (solution%state%state(i) == FREE) then
+            call stick_row(problem, line, solution, dtau, active, row, jacobian(row, :n))
+            jacobian(row, :n) = jacobian(row, :n)*scale*scale(row)
+            jacobian(row, n + 1:) = -problem%g(i, :)*scale(row)*motion_scale
+            rhs(row) = r(i)*scale(row)
+         else
+            call slip_row(problem, line, solution, dtau, active, row, jacobian(row, :n), rhs(row))
+            jacobian(row, :n) = jacobian(row, :n)*scale/scale(row)
+            rhs(row) = rhs(row)/scale(row)
+         end if
+      end do
+      do column = 1, n
+         jacobian(n + 1:, column) = problem%g(active(column), :)*scale(column)*motion_scale
+      end do
+      rhs(n + 1:) = (problem%h - matmul(transpose(problem%g), solution%state%q))*motion_scale
+   end subroutine build_system
+
+   pure function force_scale(problem, solution, active) result(scale)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in) :: active(:)
+      real(wp) :: scale(size(active))
+      integer(ip) :: i
+
+      scale = [(1.0_wp/sqrt(problem%c(active(i), active(i)) + solution%bounds%d(active(i))), i=1, size(active, kind=ip))]
+   end function force_scale
+
+   pure function scale_of_motions(problem, active, scale) result(motion_scale)
+      type(box_problem_t), intent(in) :: problem
+      integer(ip), intent(in) :: active(:)
+      real(wp), intent(in) :: scale(:)
+      real(wp) :: motion_scale(problem%k)
+      integer(ip) :: j
+
+      do j = 1, problem%k
+         motion_scale(j) = maxval([abs(problem%g(active, j))*scale, 0.0_wp])
+         if (motion_scale(j) > 0.0_wp) motion_scale(j) = 1.0_wp/motion_scale(j)
+      end do
+   end function scale_of_motions
+
+   !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
+   pure subroutine stick_row(problem, line, solution, dtau, active, row, jacobian)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: dtau(:, :)
+      integer(ip), intent(in) :: active(:), row
+      real(wp), intent(inout) :: jacobian(:)
+      integer(ip) :: i, j, column
+
+      i = active(row)
+      j = line%point(i)
+      jacobian = problem%c(i, active)
+      jacobian(row) = jacobian(row) + solution%bounds%d(i)
+      if (i <= problem%n_normal .or. line%law(j)%kind /= FRICTION_NONLOCAL) return
+      do column = 1, size(active, kind=ip)
+         if (active(column) > problem%n_normal) exit
+         jacobian(column) = jacobian(column) - solution%state%q(i)*solution%bounds%d(i)/solution%tau(j)*dtau(j, active(column))
+      end do
+   end subroutine stick_row
+
+   !> q - sign w tau(q) = 0 of a slipping point.
+   pure subroutine slip_row(problem, line, solution, dtau, active, row, jacobian, rhs)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: dtau(:, :)
+      integer(ip), intent(in) :: active(:), row
+      real(wp), intent(inout) :: jacobian(:)
+      real(wp), intent(out) :: rhs
+      real(wp) :: direction
+      integer(ip) :: i, j, column
+
+      i = active(row)
+      j = line%point(i)
+      direction = merge(1.0_wp, -1.0_wp, solution%state%state(i) == AT_UPPER)
+      jacobian(row) = 1.0_wp
+      do column = 1, size(active, kind=ip)
+         if (active(column) > problem%n_normal) exit
+         jacobian(column) = jacobian(column) - direction*line%weight(j)*dtau(j, active(column))
+      end do
+      rhs = direction*line%weight(j)*solution%tau(j) - solution%state%q(i)
+   end subroutine slip_row
+
+   pure subroutine apply_step(problem, active, step, solution)
+      type(box_problem_t), intent(in) :: problem
+      integer(ip), intent(in) :: active(:)
+      real(wp), intent(in) :: step(:)
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp) :: scale(size(active))
+
+      scale = force_scale(problem, solution, active)
+      solution%state%q(active) = solution%state%q(active) + step(:size(active))*scale
+      solution%state%a = solution%state%a + step(size(active) + 1:)*scale_of_motions(problem, active, scale)
+   end subroutine apply_step
+
+   pure function scaled_forces(problem, active, solution) result(forces)
+      type(box_problem_t), intent(in) :: problem
+      integer(ip), intent(in) :: active(:)
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: forces(size(active))
+
+      forces = solution%state%q(active)/force_scale(problem, solution, active)
+   end function scaled_forces
+
+   !> The full step on the states, with the bounds of the present pressure.
+   subroutine change_states(problem, line, solution, changes)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(inout) :: solution
+      integer(ip), intent(out) :: changes
+      real(wp), parameter :: OPENS = 1.0e-13_wp, SLIPS = 1.0e-12_wp
+      real(wp) :: slack, largest_pressure, direction
+      integer(ip) :: i, old
+
+      slack = closing_slack(problem, solution%state)
+      largest_pressure = maxval([abs(pressure_of(line, solution%state%q)), 0.0_wp])
+      changes = 0
+      associate (state => solution%state%state, q => solution%state%q, r => solution%state%r)
+         do i = 1, problem%m
+            old = state(i)
+            if (i <= problem%n_normal) then
+               if (old == FREE .and. q(i)/problem%weight(i) < -OPENS*largest_pressure) then
+                  state(i) = AT_LOWER
+                  q(i) = 0.0_wp
+               else if (old == AT_LOWER .and. r(i) > slack) then
+                  state(i) = FREE
+               end if
+            else if (old == FREE) then
+               if (abs(q(i)) > solution%bounds%upper(i)*(1 + SLIPS)) state(i) = merge(AT_UPPER, AT_LOWER, q(i) > 0.0_wp)
+            else if (old /= FROZEN) then
+               direction = merge(1.0_wp, -1.0_wp, old == AT_UPPER)
+               if (direction*r(i) < -slack - SLIPS*abs(solution%bounds%d(i)*q(i))) state(i) = FREE
+            end if
+            if (state(i) /= old) changes = changes + 1
+         end do
+      end associate
+   end subroutine change_states
+
+   !> A slipping force is its bound to the last digit.
+   pure subroutine put_slipping_at_bounds(problem, line, solution)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(inout) :: solution
+      integer(ip) :: i
+
+      do i = problem%n_normal + 1, problem%m
+         if (solution%state%state(i) == AT_UPPER) solution%state%q(i) = solution%tau(line%point(i))*line%weight(line%point(i))
+         if (solution%state%state(i) == AT_LOWER) solution%state%q(i) = -solution%tau(line%point(i))*line%weight(line%point(i))
+      end do
+   end subroutine put_slipping_at_bounds
+
+end module atrito_newton

@@ -1,0 +1,71 @@
+!> Nodal forces of all loads of a step.
+module atrito_nodal_loads
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_nodes, element_coordinates
+   use atrito_element, only: pressure_load, body_load
+   use atrito_model, only: model_t, LOAD_PRESSURE
+   implicit none (type, external)
+   private
+   public :: nodal_loads
+
+contains
+
+   !> f(2, n_nodes) [F]: concentrated loads, pressures on faces, forces per volume.
+   pure function nodal_loads(model) result(f)
+      type(model_t), intent(in) :: model
+      real(wp) :: f(2, model%mesh%n_nodes)
+      integer(ip) :: i
+
+      f = 0.0_wp
+      associate (loads => model%node_loads)
+         do i = 1, loads%n
+            f(loads%dof(i), loads%node(i)) = f(loads%dof(i), loads%node(i)) + loads%value(i)
+         end do
+      end associate
+      do i = 1, model%element_loads%n
+         if (model%element_loads%kind(i) == LOAD_PRESSURE) then
+            call add_pressure(model, i, f)
+         else
+            call add_body_force(model, i, f)
+         end if
+      end do
+   end function nodal_loads
+
+   pure subroutine add_pressure(model, i, f)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i
+      real(wp), intent(inout) :: f(:, :)
+      integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: fe(:, :)
+
+      associate (loads => model%element_loads)
+         nodes = face_nodes(model%mesh, loads%element(i), loads%face(i))
+         allocate (fe(2, size(nodes)))
+         call pressure_load(model%mesh%x(:, nodes), loads%value(1, i), thickness_of(model, loads%element(i)), fe)
+      end associate
+      f(:, nodes) = f(:, nodes) + fe
+   end subroutine add_pressure
+
+   pure subroutine add_body_force(model, i, f)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i
+      real(wp), intent(inout) :: f(:, :)
+      integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: fe(:, :)
+      integer(ip) :: e
+
+      e = model%element_loads%element(i)
+      nodes = model%mesh%nodes(:model%mesh%shape(e), e)
+      allocate (fe(2, size(nodes)))
+      call body_load(element_coordinates(model%mesh, e), model%element_loads%value(:, i), thickness_of(model, e), fe)
+      f(:, nodes) = f(:, nodes) + fe
+   end subroutine add_body_force
+
+   pure real(wp) function thickness_of(model, element)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: element
+
+      thickness_of = model%sections(model%section_of(element))%thickness
+   end function thickness_of
+
+end module atrito_nodal_loads

@@ -1,0 +1,242 @@
+!> The Picard loop on the weighted normal stress: tau <- nu S_rho(p(tau)), the fixed point of the existence proof.
+module atrito_outer_loop
+   use atrito_accelerator, only: accelerator_t, picard_t, anderson_t
+   use atrito_box_problem, only: box_problem_t, FREE
+   use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, stop_level, relative_residual
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_model, only: METHOD_PICARD, METHOD_NEWTON
+   use atrito_newton, only: iterate_newton
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_solve_history, only: begin_outer, end_outer
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: solve_contact_line, FREE_MOTION
+
+   !> Text of the status when no friction bound of the loop holds a body; solution%inner%motion is the motion.
+   character(len=*), parameter :: FREE_MOTION = 'free motion'
+
+   integer(ip), parameter :: MOST_STEPS_BACK = 6
+   integer(ip), parameter :: LAST_RESORT_ITERATIONS = 400
+   real(wp), parameter :: LAST_RESORT_MIXING = 0.3_wp
+   integer(ip), parameter :: LONGEST_CYCLE = 6
+
+contains
+
+   !> Solves the contact line. Not converged: solution%converged is false and solution%verdict says why.
+   !> status: STATUS_SINGULAR with FREE_MOTION, or with dependent contact points.
+   subroutine solve_contact_line(problem, line, controls, reporter, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: tau(:)
+
+      call start(problem, line, solution, tau, status)
+      if (.not. is_ok(status)) return
+      if (.not. line%has_friction) then
+         call finish_frictionless(solution)
+         return
+      end if
+      select case (controls%method)
+      case (METHOD_PICARD)
+         call iterate_picard(problem, line, controls, reporter, tau, solution, status)
+      case (METHOD_NEWTON)
+         call newton_from(problem, line, controls, tau, solution, status)
+      case default
+         call iterate_with_fallbacks(problem, line, controls, reporter, tau, solution, status)
+      end select
+   end subroutine solve_contact_line
+
+   !> All points closed without friction. Where that leaves a body free, all closed and stuck without a bound. tau: the first
+   !> friction bound.
+   subroutine start(problem, line, solution, tau, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), allocatable, intent(out) :: tau(:)
+      type(status_t), intent(out) :: status
+      real(wp) :: none(line%n)
+
+      allocate (tau(line%n))
+      allocate (solution%history%tangential_of(problem%n_normal))
+      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
+      call normal_bounds(line, problem, solution%bounds, solution%state)
+      none = 0.0_wp
+      call solve_with_bound(problem, line, none, solution, tau, status)
+      if (.not. is_ok(status)) return
+      if (solution%inner%moves .and. line%has_friction) then
+         call normal_bounds(line, problem, solution%bounds, solution%state)
+         none = HUGE_REAL
+         call solve_with_bound(problem, line, none, solution, tau, status)
+         if (.not. is_ok(status)) return
+      end if
+      if (solution%inner%moves) call set_status(status, STATUS_SINGULAR, FREE_MOTION)
+   end subroutine start
+
+   subroutine finish_frictionless(solution)
+      type(contact_solution_t), intent(inout) :: solution
+
+      solution%converged = solution%inner%solved
+      if (.not. solution%converged) solution%verdict = 'the active set did not settle'
+   end subroutine finish_frictionless
+
+   !> The paper's loop; a cycle is told.
+   subroutine iterate_picard(problem, line, controls, reporter, tau, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      real(wp), intent(inout) :: tau(:)
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(picard_t) :: picard
+
+      picard%relaxation = controls%relaxation
+      call iterate(problem, line, controls, reporter, picard, tau, solution, status)
+   end subroutine iterate_picard
+
+   !> One inner problem, then Newton.
+   subroutine newton_from(problem, line, controls, tau, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      real(wp), intent(in) :: tau(:)
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      real(wp) :: image(line%n)
+
+      call begin_outer(solution%history)
+      call solve_with_bound(problem, line, tau, solution, image, status)
+      if (.not. is_ok(status)) return
+      call end_outer(solution%history, relative_residual(tau, image))
+      if (solution%inner%moves) then
+         call set_status(status, STATUS_SINGULAR, FREE_MOTION)
+         return
+      end if
+      call iterate_newton(problem, line, controls, solution)
+   end subroutine newton_from
+
+   !> Anderson; then Newton; then Anderson with small steps; then the honest end.
+   subroutine iterate_with_fallbacks(problem, line, controls, reporter, tau, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      real(wp), intent(inout) :: tau(:)
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(anderson_t) :: anderson
+      type(outer_controls_t) :: patient
+      real(wp) :: first_tau(size(tau))
+
+      first_tau = tau
+      call iterate(problem, line, controls, reporter, anderson, tau, solution, status)
+      if (solution%converged .or. .not. is_ok(status)) return
+      call report_progress(reporter, 'ANDERSON did not converge; NEWTON')
+      call iterate_newton(problem, line, controls, solution)
+      if (solution%converged) return
+      call report_progress(reporter, 'NEWTON did not converge; ANDERSON with small steps')
+      call anderson%reset()
+      anderson%mixing = LAST_RESORT_MIXING
+      patient = controls
+      patient%max_iterations = LAST_RESORT_ITERATIONS
+      tau = first_tau
+      call iterate(problem, line, patient, reporter, anderson, tau, solution, status)
+   end subroutine iterate_with_fallbacks
+
+   !> The loop: solve with the bound, compare with its image, next bound.
+   subroutine iterate(problem, line, controls, reporter, accelerator, tau, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      class(accelerator_t), intent(inout) :: accelerator
+      real(wp), intent(inout) :: tau(:)
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      real(wp) :: image(size(tau)), good(size(tau)), visited(size(tau), LONGEST_CYCLE), last_residual
+      logical :: has_good
+      integer(ip) :: outer, steps_back, cycle_length
+
+      has_good = .false.
+      steps_back = 0
+      solution%converged = .false.
+      last_residual = 0.0_wp
+      visited = -1.0_wp
+      call accelerator%reset()
+      do outer = 1, controls%max_iterations
+         call begin_outer(solution%history)
+         call solve_with_bound(problem, line, tau, solution, image, status)
+         if (.not. is_ok(status)) return
+         if (solution%inner%moves) then
+            if (steps_back == MOST_STEPS_BACK) then
+               call set_status(status, STATUS_SINGULAR, FREE_MOTION)
+               return
+            end if
+            steps_back = steps_back + 1
+            call accelerator%reset()
+            if (has_good) tau = 0.5_wp*(tau + good)
+            if (.not. has_good) tau = 2*tau
+            cycle
+         end if
+         if (.not. solution%inner%solved) exit
+         solution%residual = relative_residual(tau, image)
+         call end_outer(solution%history, solution%residual)
+         call tell(reporter, outer, solution)
+         if (last_residual > 0.0_wp) solution%contraction = solution%residual/last_residual
+         last_residual = solution%residual
+         solution%converged = solution%residual <= stop_level(controls%tolerance, solution)
+         if (solution%converged) return
+         good = tau
+         has_good = .true.
+         call accelerator%update(good, image, tau)
+         call find_cycle(visited, tau, solution%residual, cycle_length)
+         if (cycle_length > 1) then
+            solution%verdict = 'the loop cycles between '//to_text(cycle_length) &
+                               //' states; METHOD=ANDERSON or NEWTON may find the solution'
+            return
+         end if
+      end do
+      solution%verdict = 'the outer loop did not converge in '//to_text(controls%max_iterations)//' iterations (residual ' &
+                         //to_text(solution%residual, 3)//')'
+      if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
+   end subroutine iterate
+
+   subroutine tell(reporter, outer, solution)
+      type(reporter_t), intent(in) :: reporter
+      integer(ip), intent(in) :: outer
+      type(contact_solution_t), intent(in) :: solution
+
+      associate (record => solution%history%records(solution%history%n))
+         call report_progress(reporter, 'outer '//to_text(outer)//'  solves '//to_text(record%inner) &
+                              //'  open '//to_text(record%open)//'  stick '//to_text(record%stick) &
+                              //'  slip '//to_text(record%slip)//'  residual '//to_text(solution%residual, 3))
+      end associate
+   end subroutine tell
+
+   !> Compares the next bound with the last ones: the same again after two steps or more, while the residual stays, is a cycle.
+   pure subroutine find_cycle(visited, tau, residual, length)
+      real(wp), intent(inout) :: visited(:, :)        !< newest first
+      real(wp), intent(in) :: tau(:), residual
+      integer(ip), intent(out) :: length              !< 0: none
+      real(wp), parameter :: SAME = 1.0e-6_wp         !< of the residual
+      integer(ip) :: k
+
+      length = 0
+      do k = 2, LONGEST_CYCLE
+         if (any(visited(:, k) < 0.0_wp)) exit
+         if (relative_residual(visited(:, k), tau) < SAME*residual) then
+            length = k
+            exit
+         end if
+      end do
+      visited(:, 2:) = visited(:, :LONGEST_CYCLE - 1)
+      visited(:, 1) = tau
+   end subroutine find_cycle
+
+end module atrito_outer_loop

@@ -1,0 +1,198 @@
+!> From the contact forces back to the bodies: displacements, reactions, stresses, fields at the points.
+module atrito_recovery
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: mode_at
+   use atrito_box_problem, only: FREE
+   use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_problem, only: first_motion
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_average, only: apply_average
+   use atrito_element, only: element_stress
+   use atrito_friction_law, only: sticking_slip, FRICTION_NONE
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: element_coordinates
+   use atrito_model, only: model_t
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_shape_functions, only: gauss_count
+   implicit none (type, external)
+   private
+   public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress
+
+contains
+
+   !> B'q as nodal forces (2, n_nodes) [F]: what the contact takes from the loads, all points, prescribed dofs too.
+   pure function contact_forces(fem, rows, line, solution) result(force)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: force(2, fem%mesh%n_nodes)
+      real(wp) :: at_point(2)
+      integer(ip) :: j, k
+
+      force = 0.0_wp
+      do j = 1, rows%n
+         at_point = line%weight(j)*(solution%p(j)*rows%normal(:, j) + solution%t(j)*rows%tangent(:, j))
+         do k = 1, rows%entries(j)
+            force(:, rows%node(k, j)) = force(:, rows%node(k, j)) + rows%coefficient(k, j)*at_point
+         end do
+      end do
+   end function contact_forces
+
+   !> The displacements of one body without its rigid motion: u_e = u0 - F B'q at the contact dofs, the interior from them.
+   subroutine elastic_displacements(fem, i_body, condensed, force, u)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(in) :: condensed
+      real(wp), intent(in) :: force(:, :)            !< B'q, (2, n_nodes) [F]
+      real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]: the free dofs of this body are set
+      real(wp), allocatable :: x(:, :)
+      integer(ip) :: i, dof, k, first
+
+      associate (body => fem%bodies%list(i_body))
+         first = body%n - body%n_kept
+         x = condensed%load(first + 1:, :)
+         do i = 1, size(body%nodes, kind=ip)
+            do dof = 1, 2
+               k = fem%bodies%equation(dof, body%nodes(i)) - first
+               if (k > 0) x(k, 1) = x(k, 1) - force(dof, body%nodes(i))
+            end do
+         end do
+         call contact_response(condensed, x)
+         call expand_body(fem, i_body, condensed, x(:, 1), u)
+      end associate
+   end subroutine elastic_displacements
+
+   !> u = u_e + Z a.
+   pure subroutine add_rigid_motions(fem, a, u)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: a(:)
+      real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
+      real(wp) :: mode(3)
+      integer(ip) :: b, i, dof, first, node
+
+      do b = 1, fem%bodies%n
+         associate (body => fem%bodies%list(b))
+            if (size(body%modes, 2) == 0) cycle
+            first = first_motion(fem, b)
+            mode = matmul(body%modes, a(first:first + size(body%modes, 2, kind=ip) - 1))
+            do i = 1, size(body%nodes, kind=ip)
+               node = body%nodes(i)
+               do dof = 1, 2
+                  if (fem%bodies%equation(dof, node) == 0) cycle
+                  u(dof, node) = u(dof, node) + mode_at(body, mode, fem%mesh%x(:, node), dof)
+               end do
+            end do
+         end associate
+      end do
+   end subroutine add_rigid_motions
+
+   !> The fields of every pair at its points.
+   pure subroutine recover_contact(line, points, solution, contact)
+      type(contact_line_t), intent(in) :: line
+      type(contact_points_t), intent(in) :: points(:)
+      type(contact_solution_t), intent(in) :: solution
+      type(contact_result_t), allocatable, intent(out) :: contact(:)
+      real(wp) :: weighted(line%n)
+      integer(ip) :: i, j, k, first
+
+      allocate (contact(size(points)))
+      weighted = apply_average(line%average, max(solution%p, 0.0_wp))
+      first = 0
+      do i = 1, size(points, kind=ip)
+         associate (c => contact(i))
+            c%n = points(i)%n
+            c%s = points(i)%s
+            c%x = points(i)%x
+            c%weight = points(i)%weight
+            allocate (c%gap(c%n), c%slip(c%n), c%status(c%n), c%pressure(c%n), c%shear(c%n), c%weighted_pressure(c%n))
+            do j = 1, c%n
+               k = first + j
+               c%pressure(j) = max(solution%p(k), 0.0_wp)
+               c%weighted_pressure(j) = weighted(k)
+               c%shear(j) = -solution%t(k)
+               call place_of_point(line, solution, k, c%gap(j), c%slip(j))
+               c%status(j) = status_of(line, solution, k, c%pressure(j), c%slip(j))
+            end do
+            c%s_end = 0.0_wp
+            if (c%n > 0) c%s_end = maxval(c%s)
+            c%has_friction = any(line%law(first + 1:first + c%n)%kind /= FRICTION_NONE)
+            first = first + c%n
+         end associate
+      end do
+   end subroutine recover_contact
+
+   !> Gap and slip of a point: of an active one from its law, of a free one from the displacements.
+   pure subroutine place_of_point(line, solution, j, gap, slip)
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in) :: j
+      real(wp), intent(out) :: gap, slip             !< [L]
+      integer(ip) :: i
+
+      i = line%normal(j)
+      if (i == 0) then
+         gap = -line%known_overlap(j)
+      else if (solution%state%state(i) == FREE) then
+         gap = -line%delta(j)*solution%p(j)
+      else
+         gap = -solution%state%r(i)
+      end if
+      i = line%tangential(j)
+      slip = line%known_slip(j)
+      if (i == 0) return
+      slip = solution%bounds%d(i)*solution%state%q(i)
+      if (solution%state%state(i) /= FREE) slip = slip + solution%state%r(i)
+   end subroutine place_of_point
+
+   pure integer(ip) function status_of(line, solution, j, pressure, slip) result(status)
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: pressure, slip
+      integer(ip) :: i
+
+      status = POINT_OPEN
+      if (pressure <= 0.0_wp) return
+      status = POINT_SLIP
+      if (line%law(j)%kind == FRICTION_NONE) return
+      i = line%tangential(j)
+      if (i > 0) then
+         if (solution%state%state(i) == FREE) status = POINT_STICK
+      else
+         if (abs(slip) <= sticking_slip(line%law(j), solution%tau(j)) .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) &
+            status = POINT_STICK
+      end if
+   end function status_of
+
+   !> Stresses at the Gauss points of the requested elements.
+   subroutine recover_stress(model, fem, results)
+      type(model_t), intent(in) :: model
+      type(fem_t), intent(in) :: fem
+      type(results_t), intent(inout) :: results
+      integer(ip) :: e, k, row, n
+
+      if (.not. model%requests%stress) return
+      n = 0
+      do e = 1, fem%mesh%n_elements
+         if (model%requests%element_s(e)) n = n + gauss_count(fem%mesh%shape(e))**2
+      end do
+      allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
+      row = 0
+      do e = 1, fem%mesh%n_elements
+         if (.not. model%requests%element_s(e)) cycle
+         do k = 1, gauss_count(fem%mesh%shape(e))**2
+            row = row + 1
+            results%stress_element(row) = e
+            results%stress_point(row) = k
+            call element_stress(element_coordinates(fem%mesh, e), fem%sections(fem%section_of(e)), fem%mesh%state(e), &
+                                results%u(:, fem%mesh%nodes(:fem%mesh%shape(e), e)), k, results%stress_x(:, row), &
+                                results%stress(:, row))
+         end do
+      end do
+   end subroutine recover_stress
+
+end module atrito_recovery

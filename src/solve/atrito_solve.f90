@@ -1,0 +1,374 @@
+!> One static step, from the model to the results.
+module atrito_solve
+   use atrito_assembly, only: fem_t, body_profile, internal_forces
+   use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
+   use atrito_condensed_body, only: condensed_body_t, condense_body, choose_storage, set_load, motion_text
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_problem, only: build_line, build_problem, motion_body
+   use atrito_contact_rows, only: contact_rows_t, build_rows
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, stop_level
+   use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
+   use atrito_friction_law, only: FRICTION_NONE
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_messages, only: add_warning
+   use atrito_model, only: model_t
+   use atrito_nodal_loads, only: nodal_loads
+   use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
+   use atrito_points, only: contact_points_t
+   use atrito_profile, only: profile_t
+   use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: results_t, scene_t, iteration_t, body_result_t
+   use atrito_scene_builder, only: build_scene
+   use atrito_solve_history, only: solve_history_t
+   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
+   use atrito_strings, only: to_text, append_string
+   use atrito_timers, only: start_phase, stop_phase
+   implicit none (type, external)
+   private
+   public :: solve_options_t, solve_static, survey_scene, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED
+
+   integer, parameter :: SOLVER_AUTO = 0, SOLVER_SKYLINE = STORAGE_SKYLINE, SOLVER_BANDED = STORAGE_BANDED
+
+   type :: solve_options_t
+      integer :: storage_kind = SOLVER_AUTO
+      integer :: threads = 1
+   end type solve_options_t
+
+   !> The scene with everything that the phases of a solution share.
+   type :: scene_data_t
+      type(fem_t) :: fem
+      logical, allocatable :: held(:, :)                    !< (2, n_nodes)
+      real(wp), allocatable :: value(:, :)                  !< (2, n_nodes) prescribed displacements [L]
+      type(contact_points_t), allocatable :: points(:)
+      type(contact_rows_t) :: rows
+      type(contact_line_t) :: line
+      real(wp), allocatable :: f(:, :)                      !< (2, n_nodes) applied forces [F]
+   end type scene_data_t
+
+   real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
+   real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
+
+contains
+
+   !> What a scene needs, without solving it: for `check`, and for the listing.
+   subroutine survey_scene(model, options, scene, status)
+      type(model_t), intent(in) :: model
+      type(solve_options_t), intent(in) :: options
+      type(scene_t), intent(out) :: scene
+      type(status_t), intent(out) :: status
+      type(scene_data_t) :: data
+
+      call prepare(model, data)
+      call describe_scene(model, data, options, scene)
+   end subroutine survey_scene
+
+   !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
+   !> displacements and hard contact). results%converged and law_holds tell the rest.
+   subroutine solve_static(model, options, reporter, results, status)
+      type(model_t), intent(in) :: model
+      type(solve_options_t), intent(in) :: options
+      type(reporter_t), intent(in) :: reporter
+      type(results_t), intent(out) :: results
+      type(status_t), intent(out) :: status
+      type(scene_data_t) :: data
+      type(condensed_body_t), allocatable :: condensed(:)
+      type(box_problem_t) :: problem
+      type(contact_solution_t) :: solution
+      type(outer_controls_t) :: controls
+
+      call start_phase('order')
+      call prepare(model, data)
+      call describe_scene(model, data, options, results%scene)
+      call stop_phase('order')
+      call check_known_points(data, status)
+      if (.not. is_ok(status)) return
+      call condense_all(data, options, reporter, condensed, results, status)
+      if (.not. is_ok(status)) return
+      call start_phase('iterate')
+      call build_problem(data%fem, condensed, data%rows, data%line, data%value, data%f, problem)
+      controls = outer_controls_t(model%controls%method, model%controls%tolerance, model%controls%max_iterations, &
+                                  model%controls%relaxation)
+      call solve_contact_line(problem, data%line, controls, reporter, solution, status)
+      call stop_phase('iterate')
+      if (.not. is_ok(status)) then
+         call explain_failure(data, problem, solution, status)
+         return
+      end if
+      call start_phase('recover')
+      call recover(model, data, condensed, solution, results)
+      call stop_phase('recover')
+      call start_phase('check')
+      call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
+      call stop_phase('check')
+      call warn(model, solution, results)
+   end subroutine solve_static
+
+   subroutine prepare(model, data)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(out) :: data
+
+      call build_scene(model, data%fem, data%held, data%value, data%points)
+      call build_rows(data%points, data%rows)
+      call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
+      data%f = nodal_loads(model)
+   end subroutine prepare
+
+   !> Fills what `check` and the listing print of a scene.
+   subroutine describe_scene(model, data, options, scene)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      type(solve_options_t), intent(in) :: options
+      type(scene_t), intent(out) :: scene
+      type(profile_t) :: profile
+      integer(ip) :: b
+      integer :: kind
+
+      allocate (scene%bodies(data%fem%bodies%n))
+      do b = 1, data%fem%bodies%n
+         associate (body => data%fem%bodies%list(b), result => scene%bodies(b))
+            result%name = body%name
+            result%n_nodes = size(body%nodes, kind=ip)
+            result%n_elements = size(body%elements, kind=ip)
+            result%n_equations = body%n
+            result%n_contact_equations = body%n_kept
+            result%n_free_motions = size(body%modes, 2, kind=ip)
+            call body_profile(data%fem, b, profile)
+            call choose_storage(profile, options%storage_kind, kind, result)
+            scene%n_dofs = scene%n_dofs + body%n
+            scene%n_rigid = scene%n_rigid + result%n_free_motions
+            scene%memory = scene%memory + result%memory
+         end associate
+      end do
+      call describe_pairs(model, data, scene)
+      scene%n_normal = count(data%line%normal > 0, kind=ip)
+      scene%n_tangential = count(data%line%tangential > 0, kind=ip)
+      scene%outer_loop = data%line%has_friction
+      scene%memory = scene%memory + 3*8_lp*int(scene%n_normal + scene%n_tangential, lp)**2 &
+                     + 200_lp*int(model%mesh%n_nodes + model%mesh%n_elements, lp)
+      call list_left_out(data, scene)
+   end subroutine describe_scene
+
+   subroutine describe_pairs(model, data, scene)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(inout) :: scene
+      integer(ip) :: i
+
+      allocate (scene%pairs(size(data%points)))
+      do i = 1, size(data%points, kind=ip)
+         associate (pair => scene%pairs(i), points => data%points(i))
+            pair%slave = model%surfaces(model%pairs(i)%slave)%name
+            pair%master = model%surfaces(model%pairs(i)%master)%name
+            pair%interaction = model%interactions(model%pairs(i)%interaction)%name
+            pair%n_points = points%n
+            pair%n_left_out = points%n_left_out
+            pair%matching = points%matching
+            pair%master_is_rigid = points%rigid
+            if (points%n > 0) pair%least_gap = minval(points%gap)
+            if (points%n > 0) pair%greatest_gap = maxval(points%gap)
+         end associate
+      end do
+   end subroutine describe_pairs
+
+   !> What the scene does not need, in sentences.
+   subroutine list_left_out(data, scene)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(inout) :: scene
+
+      allocate (scene%left_out(0))
+      if (size(data%points) == 0) call append_string(scene%left_out, 'no contact pair: no contact line, one solve a body')
+      if (size(data%points) > 0 .and. .not. data%line%has_friction) &
+         call append_string(scene%left_out, 'no friction: no tangential unknowns, no outer loop')
+      if (any(data%points%rigid)) &
+         call append_string(scene%left_out, 'rigid surface: no second body and no matrix for it')
+      if (data%line%has_friction .and. data%line%average%is_identity) &
+         call append_string(scene%left_out, 'local friction: no averaging of the pressure')
+   end subroutine list_left_out
+
+   !> Hard contact cannot take an overlap of prescribed dofs.
+   pure subroutine check_known_points(data, status)
+      type(scene_data_t), intent(in) :: data
+      type(status_t), intent(out) :: status
+      integer(ip) :: j
+
+      do j = 1, data%line%n
+         if (data%line%normal(j) > 0 .or. data%line%delta(j) > 0.0_wp) cycle
+         if (data%line%known_overlap(j) <= 0.0_wp) cycle
+         call set_status(status, STATUS_DECK, 'node '//to_text(data%fem%mesh%node_id(data%rows%node(1, j))) &
+                         //' is prescribed to penetrate a hard contact by '//to_text(data%line%known_overlap(j)) &
+                         //' [L]; a penalty (PRESSURE-OVERCLOSURE=LINEAR) could take it')
+         return
+      end do
+   end subroutine check_known_points
+
+   !> Factors every body and reduces its load.
+   subroutine condense_all(data, options, reporter, condensed, results, status)
+      type(scene_data_t), intent(in) :: data
+      type(solve_options_t), intent(in) :: options
+      type(reporter_t), intent(in) :: reporter
+      type(condensed_body_t), allocatable, intent(out) :: condensed(:)
+      type(results_t), intent(inout) :: results
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: load(:, :)
+      integer(ip) :: b
+
+      call start_phase('factor')
+      allocate (condensed(data%fem%bodies%n))
+      load = free_load(data)
+      do b = 1, data%fem%bodies%n
+         call condense_body(data%fem, b, options%storage_kind, condensed(b), results%scene%bodies(b), status)
+         if (.not. is_ok(status)) exit
+         results%factorisations = results%factorisations + 1
+         call set_load(data%fem, b, load, condensed(b))
+         call report_progress(reporter, 'body '//data%fem%bodies%list(b)%name//'  dofs ' &
+                              //to_text(data%fem%bodies%list(b)%n)//'  contact dofs ' &
+                              //to_text(data%fem%bodies%list(b)%n_kept)//'  '//condensed(b)%storage%name())
+      end do
+      call stop_phase('factor')
+   end subroutine condense_all
+
+   !> Applied forces less those of the prescribed displacements.
+   function free_load(data) result(load)
+      type(scene_data_t), intent(in) :: data
+      real(wp), allocatable :: load(:, :), force(:, :), size_of_force(:, :)
+      real(wp) :: energy
+      integer(ip) :: b
+
+      load = data%f
+      if (all(data%value == 0.0_wp)) return
+      allocate (force, size_of_force, mold=load)
+      force = 0.0_wp
+      size_of_force = 0.0_wp
+      energy = 0.0_wp
+      do b = 1, data%fem%bodies%n
+         call internal_forces(data%fem, b, data%value, force, size_of_force, energy)
+      end do
+      load = load - force
+   end function free_load
+
+   !> Puts a failure of the contact line into words.
+   subroutine explain_failure(data, problem, solution, status)
+      type(scene_data_t), intent(in) :: data
+      type(box_problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      type(status_t), intent(inout) :: status
+      real(wp) :: mode(3)
+      integer(ip) :: b, node
+
+      if (status%text == FREE_MOTION) then
+         call motion_body(data%fem, solution%inner%motion, b, mode)
+         call set_status(status, STATUS_SINGULAR, motion_text(data%fem, b, mode)//' under its load: '//why_free(data))
+      else if (status%text == DEPENDENT_POINTS) then
+         node = data%rows%node(1, data%line%point(solution%inner%dependent))
+         call set_status(status, STATUS_SINGULAR, 'the contact point at node '//to_text(data%fem%mesh%node_id(node)) &
+                         //trim(merge(' (normal)    ', ' (tangential)', solution%inner%dependent <= problem%n_normal)) &
+                         //' repeats what other points ask: two pairs share it, or the slave is finer than its own dofs')
+      end if
+   end subroutine explain_failure
+
+   pure function why_free(data) result(text)
+      type(scene_data_t), intent(in) :: data
+      character(len=:), allocatable :: text
+
+      if (data%line%has_friction) then
+         text = 'the contact opens or slides beyond friction (tangential force above nu times normal force), and no support' &
+                //' holds it'
+      else if (data%line%n > 0) then
+         text = 'the load does not press it on the contact, and no support holds it'
+      else
+         text = 'no support holds it'
+      end if
+   end function why_free
+
+   !> Displacements, reactions, stresses, contact fields, energies and balances.
+   subroutine recover(model, data, condensed, solution, results)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      type(condensed_body_t), intent(in) :: condensed(:)
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+      real(wp), allocatable :: contact(:, :)
+      type(equilibrium_t) :: equilibrium
+      real(wp) :: imbalance
+      integer(ip) :: b
+
+      contact = contact_forces(data%fem, data%rows, data%line, solution)
+      results%u = data%value
+      do b = 1, data%fem%bodies%n
+         call elastic_displacements(data%fem, b, condensed(b), contact, results%u)
+      end do
+      allocate (results%reaction, mold=results%u)
+      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium)
+      imbalance = check_balance(data%fem, data%f, contact)
+      call add_rigid_motions(data%fem, solution%state%a, results%u)
+      results%prescribed = data%held
+      results%converged = solution%converged
+      results%law_holds = equilibrium%holds .and. imbalance <= 1.0e-8_wp
+      if (equilibrium%largest_force > 0.0_wp) results%equilibrium_residual = equilibrium%residual/equilibrium%largest_force
+      if (.not. results%law_holds) results%verdict = 'the bodies are not in equilibrium: residual ' &
+                                                     //to_text(results%equilibrium_residual, 3)//', imbalance ' &
+                                                     //to_text(imbalance, 3)
+      if (.not. solution%converged) results%verdict = solution%verdict
+      results%strain_energy = equilibrium%energy
+      results%external_work = sum(data%f*results%u) + sum(results%reaction*results%u)
+      call recover_contact(data%line, data%points, solution, results%contact)
+      call recover_stress(model, data%fem, results)
+      call balance_forces(data, contact, results)
+      call copy_history(solution, results)
+   end subroutine recover
+
+   pure subroutine balance_forces(data, contact, results)
+      type(scene_data_t), intent(in) :: data
+      real(wp), intent(in) :: contact(:, :)
+      type(results_t), intent(inout) :: results
+
+      associate (x => data%fem%mesh%x, balance => results%balance)
+         balance%applied = sum(data%f, dim=2)
+         balance%reactions = sum(results%reaction, dim=2)
+         balance%applied_moment = sum(x(1, :)*data%f(2, :) - x(2, :)*data%f(1, :))
+         balance%reaction_moment = sum(x(1, :)*results%reaction(2, :) - x(2, :)*results%reaction(1, :))
+         balance%rigid = sum(contact, dim=2)
+      end associate
+   end subroutine balance_forces
+
+   pure subroutine copy_history(solution, results)
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+      integer(ip) :: i
+
+      allocate (results%iterations(solution%history%n))
+      do i = 1, solution%history%n
+         associate (r => solution%history%records(i))
+            results%iterations(i) = iteration_t(r%outer, r%inner, r%change_displacement, r%change_pressure, r%change_friction, &
+                                                r%open, r%stick, r%slip, r%residual)
+         end associate
+      end do
+      results%outer_iterations = solution%history%outer
+      results%linear_solves = max(solution%history%n, 1_ip)
+      results%contraction = solution%contraction
+   end subroutine copy_history
+
+   !> What a careful user should know of a solution.
+   subroutine warn(model, solution, results)
+      type(model_t), intent(in) :: model
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(in) :: results
+      integer(ip) :: b
+      real(wp) :: nu
+
+      do b = 1, size(results%scene%bodies, kind=ip)
+         associate (body => results%scene%bodies(b))
+            if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
+               //to_text(body%worst_node)//' dof '//to_text(body%worst_dof)//' lost '//to_text(body%digits_lost, 3) &
+               //' digits: a very slender body, or one that is barely held there')
+         end associate
+      end do
+      nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
+      if (nu >= LARGE_FRICTION) call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu) &
+         //': there may be other solutions than the one found (measured contraction of the outer loop ' &
+         //to_text(solution%contraction, 3)//')')
+   end subroutine warn
+
+end module atrito_solve
