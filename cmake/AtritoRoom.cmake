@@ -7,7 +7,8 @@
 include_guard()
 
 set(ATRITO_WARNINGS -Wall -Wextra -Wimplicit-interface -Wimplicit-procedure -Wunused-parameter
-   -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals)
+   -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals
+   -Wno-function-elimination)
 
 add_library(atrito_options INTERFACE)
 target_compile_options(atrito_options INTERFACE

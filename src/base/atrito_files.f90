@@ -3,7 +3,8 @@
 !> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_associated
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_intptr_t, c_null_char, c_null_funptr, &
+                                          c_null_ptr, c_ptr, c_size_t
    use atrito_kinds, only: ip
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
@@ -16,12 +17,15 @@ module atrito_files
    type :: file_set_t
       character(len=:), allocatable :: folder
       type(string_t), allocatable :: names(:)          !< final names, without folder
+      logical :: is_new = .false.                      !< the folder was not there before
    end type file_set_t
 
-   !> A text file being written through a buffer.
+   !> A text file being written through a buffer. The run-time library of gfortran does not tell when a full disk keeps a file
+   !> from being written, C does: hence fopen, fwrite and fclose.
    type :: text_file_t
-      integer :: unit = 0
+      type(c_ptr) :: stream = c_null_ptr
       character(len=:), allocatable :: path            !< temporary path
+      character(len=:), allocatable :: final_path      !< for messages
       character(len=:), allocatable :: buffer
       integer :: used = 0
       type(status_t) :: status                         !< first failure; later calls do nothing
@@ -54,6 +58,29 @@ module atrito_files
          import :: c_int, c_ptr
          type(c_ptr), value :: folder
       end function c_closedir
+      integer(c_int) function c_rmdir(path) bind(C, name='rmdir')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_rmdir
+      type(c_ptr) function c_fopen(path, mode) bind(C, name='fopen')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+      end function c_fopen
+      integer(c_size_t) function c_fwrite(text, size, n, stream) bind(C, name='fwrite')
+         import :: c_char, c_ptr, c_size_t
+         character(kind=c_char), intent(in) :: text(*)
+         integer(c_size_t), value :: size, n
+         type(c_ptr), value :: stream
+      end function c_fwrite
+      integer(c_int) function c_fclose(stream) bind(C, name='fclose')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fclose
+      type(c_funptr) function c_signal(number, handler) bind(C, name='signal')
+         import :: c_funptr, c_int
+         integer(c_int), value :: number
+         type(c_funptr), value :: handler
+      end function c_signal
    end interface
 
 contains
@@ -128,23 +155,33 @@ contains
 
       set%folder = folder
       allocate (set%names(0))
+      set%is_new = .not. is_folder(folder)
       call make_folder(folder, status)
+      call ignore_size_limit()
    end subroutine begin_files
+
+   !> A limit on the size of files (ulimit -f) shall come back from fwrite, as a full disk does, and not end the program.
+   subroutine ignore_size_limit()
+      integer(c_int), parameter :: SIGXFSZ = 25_c_int             ! Linux and BSD
+      integer(c_intptr_t), parameter :: SIG_IGN = 1_c_intptr_t
+      type(c_funptr) :: previous
+
+      previous = c_signal(SIGXFSZ, transfer(SIG_IGN, c_null_funptr))
+   end subroutine ignore_size_limit
 
    !> Opens a file of the set under its temporary name. A failure is kept in the file until close_text.
    subroutine open_text(set, name, file)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name
       type(text_file_t), intent(out) :: file
-      character(len=256) :: reason
-      integer :: ios
 
       call append_string(set%names, name)
-      file%path = set%folder//'/'//name//TEMPORARY
+      file%final_path = set%folder//'/'//name
+      file%path = file%final_path//TEMPORARY
       allocate (character(len=BUFFER_LENGTH) :: file%buffer)
-      open (newunit=file%unit, file=file%path, access='stream', form='unformatted', status='replace', action='write', &
-            iostat=ios, iomsg=reason)
-      if (ios /= 0) call set_status(file%status, STATUS_FILE, set%folder//'/'//name//': cannot be written: '//trim(reason))
+      call remove_file(file%path)
+      file%stream = c_fopen(file%path//c_null_char, 'wb'//c_null_char)
+      if (.not. c_associated(file%stream)) call set_status(file%status, STATUS_FILE, file%final_path//': cannot be written')
    end subroutine open_text
 
    !> Writes a line.
@@ -173,27 +210,29 @@ contains
    subroutine put_text(file, text)
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: text
-      character(len=256) :: reason
-      integer :: ios
+      integer(c_size_t) :: written, length
 
-      if (.not. is_ok(file%status) .or. len(text) == 0) return
-      write (file%unit, iostat=ios, iomsg=reason) text
-      if (ios /= 0) call set_status(file%status, STATUS_FILE, file%path//': cannot be written: '//trim(reason))
+      length = len(text, kind=c_size_t)
+      if (.not. is_ok(file%status) .or. length == 0) return
+      written = c_fwrite(text, 1_c_size_t, length, file%stream)
+      if (written /= length) call fail_to_write(file)
    end subroutine put_text
+
+   subroutine fail_to_write(file)
+      type(text_file_t), intent(inout) :: file
+
+      call set_status(file%status, STATUS_FILE, file%final_path//': cannot be written completely; is the disk full?')
+   end subroutine fail_to_write
 
    !> Completes a file. status: STATUS_FILE when any part of it could not be written.
    subroutine close_text(file, status)
       type(text_file_t), intent(inout) :: file
       type(status_t), intent(out) :: status
-      character(len=256) :: reason
-      integer :: ios
 
-      if (is_ok(file%status)) then
-         call flush_buffer(file)
-         flush (file%unit, iostat=ios, iomsg=reason)
-         if (ios /= 0) call set_status(file%status, STATUS_FILE, file%path//': cannot be written: '//trim(reason))
-         close (file%unit, iostat=ios, iomsg=reason)
-         if (ios /= 0) call set_status(file%status, STATUS_FILE, file%path//': cannot be written: '//trim(reason))
+      call flush_buffer(file)
+      if (c_associated(file%stream)) then
+         if (c_fclose(file%stream) /= 0_c_int .and. is_ok(file%status)) call fail_to_write(file)
+         file%stream = c_null_ptr
       end if
       status = file%status
    end subroutine close_text
@@ -206,6 +245,14 @@ contains
       type(status_t), intent(out) :: status
       integer :: i
 
+      ! the one obstacle to a renaming that can be seen before: nothing is replaced unless all can be
+      do i = 1, size(set%names)
+         if (is_folder(set%folder//'/'//set%names(i)%s)) then
+            call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written, it is a folder')
+            call discard_files(set)
+            return
+         end if
+      end do
       do i = 1, size(set%names)
          if (c_rename(set%folder//'/'//set%names(i)%s//TEMPORARY//c_null_char, &
                       set%folder//'/'//set%names(i)%s//c_null_char) /= 0_c_int) then
@@ -230,15 +277,17 @@ contains
       end do
    end function is_in
 
-   !> Removes what was written under temporary names.
+   !> Removes what was written under temporary names, and the folder where it was made for them.
    subroutine discard_files(set)
       type(file_set_t), intent(in) :: set
       integer :: i
+      integer(c_int) :: ignored
 
       if (.not. allocated(set%names)) return
       do i = 1, size(set%names)
          call remove_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
       end do
+      if (set%is_new) ignored = c_rmdir(set%folder//c_null_char)   ! fails on one that is not empty, as it should
    end subroutine discard_files
 
 end module atrito_files

@@ -15,8 +15,9 @@ contains
    subroutine report_progress(reporter, text)
       type(reporter_t), intent(in) :: reporter
       character(len=*), intent(in) :: text
+      integer :: ignored
 
-      if (.not. reporter%quiet) write (error_unit, '(a)') text
+      if (.not. reporter%quiet) write (error_unit, '(a)', iostat=ignored) text
    end subroutine report_progress
 
 end module atrito_reporter

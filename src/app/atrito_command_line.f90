@@ -1,0 +1,419 @@
+!> The command line, docs/user/running.md: what is to be done, with which options.
+module atrito_command_line
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, append_string, nearest_names, to_text
+   use atrito_numbers, only: read_integer, read_real, NUMBER_OK
+   use atrito_files, only: file_exists
+   use atrito_messages, only: message_t, SEVERITY_ERROR
+   use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
+   use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
+   implicit none (type, external)
+   private
+   public :: command_t, parse_command, fetch_arguments
+   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_OPTIONS, TASK_VERSION
+   public :: SOLVERS
+
+   integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
+   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4
+   integer, parameter :: TASK_OPTIONS = 5           !< --help
+   integer, parameter :: TASK_VERSION = 6           !< --version
+
+   character(len=7), parameter :: COMMANDS(5) = ['check  ', 'compare', 'study  ', 'sweep  ', 'help   ']
+   character(len=7), parameter :: SOLVERS(4) = ['auto   ', 'skyline', 'banded ', 'sparse ']
+   integer, parameter :: MOST_THREADS = 1024
+
+   !> What the user asks for.
+   type :: command_t
+      integer :: task = TASK_USAGE
+      type(string_t), allocatable :: names(:)       !< deck; the two paths to compare; the words behind `help`
+      character(len=:), allocatable :: folder       !< -o; not allocated: the default
+      type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
+      character(len=7) :: solver = 'auto'           !< one of SOLVERS
+      integer(ip) :: threads = 1
+      integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
+      logical :: quiet = .false.
+      real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
+   end type command_t
+
+   !> An option: which tasks know it and whether it is built.
+   type :: option_t
+      character(len=9) :: name
+      logical :: has_value
+      logical :: for_task(TASK_HELP)                !< run, check, compare, help
+      logical :: is_built
+   end type option_t
+
+   logical, parameter :: Y = .true., N = .false.
+   type(option_t), parameter :: OPTIONS(14) = [ &
+      option_t('-o       ', Y, [Y, N, N, N], Y), &
+      option_t('--set    ', Y, [Y, Y, N, N], Y), &
+      option_t('--solver ', Y, [Y, Y, N, N], Y), &
+      option_t('--threads', Y, [Y, Y, N, N], Y), &
+      option_t('--digits ', Y, [Y, N, N, N], Y), &
+      option_t('--quiet  ', N, [Y, Y, Y, N], Y), &
+      option_t('--rtol   ', Y, [N, N, Y, N], Y), &
+      option_t('--atol   ', Y, [N, N, Y, N], Y), &
+      option_t('--refine ', Y, [Y, Y, N, N], N), &
+      option_t('--plot   ', N, [Y, N, N, N], N), &
+      option_t('--levels ', Y, [N, N, N, N], N), &
+      option_t('--vary   ', Y, [N, N, N, N], N), &
+      option_t('--help   ', N, [Y, Y, Y, Y], Y), &
+      option_t('--version', N, [Y, Y, Y, Y], Y)]
+
+   !> An option as it was given.
+   type :: given_t
+      integer :: option = 0                         !< place in OPTIONS
+      character(len=:), allocatable :: value
+   end type given_t
+
+contains
+
+   !> The arguments of the program.
+   subroutine fetch_arguments(arguments)
+      type(string_t), allocatable, intent(out) :: arguments(:)
+      integer :: i, length
+
+      allocate (arguments(command_argument_count()))
+      do i = 1, size(arguments)
+         call get_command_argument(i, length=length)
+         allocate (character(len=length) :: arguments(i)%s)
+         if (length > 0) call get_command_argument(i, arguments(i)%s)
+      end do
+   end subroutine fetch_arguments
+
+   !> Understands the arguments. ok is false when they are wrong, and error says how.
+   subroutine parse_command(arguments, command, ok, error)
+      type(string_t), intent(in) :: arguments(:)
+      type(command_t), intent(out) :: command
+      logical, intent(out) :: ok
+      type(message_t), intent(out) :: error
+      type(given_t), allocatable :: given(:)
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (command%settings(0), command%names(0))
+      call sort_arguments(arguments, names, given, ok, error)
+      if (.not. ok) return
+      if (any(OPTIONS(given%option)%name == '--help')) command%task = TASK_OPTIONS
+      if (any(OPTIONS(given%option)%name == '--version')) command%task = TASK_VERSION
+      if (command%task /= TASK_USAGE .or. size(arguments) == 0) return
+      call find_task(names, command, ok, error)
+      do i = 1, size(given)
+         if (ok) call take_option(given(i), command, ok, error)
+      end do
+   end subroutine parse_command
+
+   !> Sorts arguments into names and options with their values.
+   subroutine sort_arguments(arguments, names, given, ok, error)
+      type(string_t), intent(in) :: arguments(:)
+      type(string_t), allocatable, intent(out) :: names(:)
+      type(given_t), allocatable, intent(out) :: given(:)
+      logical, intent(out) :: ok
+      type(message_t), intent(inout) :: error
+      type(given_t) :: one
+      logical :: only_names
+      integer :: i
+
+      allocate (names(0), given(0))
+      ok = .true.
+      only_names = .false.
+      i = 1
+      do while (i <= size(arguments) .and. ok)
+         associate (argument => arguments(i)%s)
+            if (argument == '--' .and. .not. only_names) then
+               only_names = .true.
+            else if (only_names .or. len(argument) < 2 .or. index(argument, '-') /= 1) then
+               call append_string(names, argument)
+            else
+               call read_option(arguments, i, one, ok, error)
+               given = [given, one]
+            end if
+         end associate
+         i = i + 1
+      end do
+   end subroutine sort_arguments
+
+   !> Reads the option at place i: `--name value`, `--name=value` or `--name`.
+   subroutine read_option(arguments, i, given, ok, error)
+      type(string_t), intent(in) :: arguments(:)
+      integer, intent(inout) :: i                   !< the last argument that belongs to it
+      type(given_t), intent(out) :: given
+      logical, intent(out) :: ok
+      type(message_t), intent(inout) :: error
+      character(len=:), allocatable :: name
+      integer :: equals
+
+      equals = index(arguments(i)%s, '=')
+      name = arguments(i)%s
+      if (equals > 0) name = arguments(i)%s(:equals - 1)
+      if (name == '-h') name = '--help'
+      given%option = find_option(name)
+      ok = given%option > 0
+      if (.not. ok) then
+         error = wrong('unknown option '//name, nearest=nearest_names(name, option_names(), 3))
+      else if (.not. OPTIONS(given%option)%has_value) then
+         ok = equals == 0
+         if (.not. ok) error = wrong(name//' takes no value')
+      else if (equals > 0) then
+         given%value = arguments(i)%s(equals + 1:)
+      else
+         ok = i < size(arguments)
+         if (ok) ok = index(arguments(i + 1)%s, '--') /= 1
+         if (.not. ok) error = wrong(name//' needs a value', expected=value_text(name))
+         if (ok) given%value = arguments(i + 1)%s
+         i = i + 1
+      end if
+      if (ok) then
+         if (.not. OPTIONS(given%option)%is_built) then
+            ok = .false.
+            error = wrong(name//' is not built yet in this version')
+         end if
+      end if
+   end subroutine read_option
+
+   pure integer function find_option(name) result(i)
+      character(len=*), intent(in) :: name
+
+      do i = 1, size(OPTIONS)
+         if (OPTIONS(i)%name == name) return
+      end do
+      i = 0
+   end function find_option
+
+   pure function option_names() result(names)
+      type(string_t), allocatable :: names(:)
+
+      names = string_list(OPTIONS%name)
+   end function option_names
+
+   pure function string_list(words) result(list)
+      character(len=*), intent(in) :: words(:)
+      type(string_t), allocatable :: list(:)
+      integer :: i
+
+      allocate (list(size(words)))
+      do i = 1, size(words)
+         list(i)%s = trim(words(i))
+      end do
+   end function string_list
+
+   !> An error of the command line.
+   function wrong(text, expected, nearest) result(error)
+      character(len=*), intent(in) :: text
+      character(len=*), intent(in), optional :: expected
+      type(string_t), intent(in), optional :: nearest(:)
+      type(message_t) :: error
+
+      error%severity = SEVERITY_ERROR
+      error%id = 'E-COMMAND'
+      error%file = 'atrito'
+      error%text = text
+      if (present(expected)) error%expected = expected
+      if (present(nearest)) error%nearest = nearest
+   end function wrong
+
+   !> The first name says what is to be done; the others are its objects.
+   subroutine find_task(names, command, ok, error)
+      type(string_t), intent(in) :: names(:)
+      type(command_t), intent(inout) :: command
+      logical, intent(out) :: ok
+      type(message_t), intent(inout) :: error
+      integer :: task
+
+      ok = .false.
+      if (size(names) == 0) then
+         error = wrong('there is no deck', expected='atrito DECK.inp [options]')
+         return
+      end if
+      task = task_of(names(1)%s)
+      if (task == 0) then
+         error = wrong(names(1)%s//' is not built yet in this version')
+         return
+      end if
+      command%task = task
+      command%names = names(merge(1, 2, task == TASK_RUN):)
+      select case (task)
+      case (TASK_RUN)
+         call check_deck(command%names, 'atrito DECK.inp [options]', ok, error)
+      case (TASK_CHECK)
+         call check_deck(command%names, 'atrito check DECK.inp', ok, error)
+      case (TASK_COMPARE)
+         ok = size(command%names) == 2
+         if (.not. ok) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
+                                     expected='atrito compare A B [--rtol R] [--atol A]')
+      case (TASK_HELP)
+         ok = .true.
+      end select
+   end subroutine find_task
+
+   !> 0: a command that is not built.
+   pure integer function task_of(name) result(task)
+      character(len=*), intent(in) :: name
+
+      select case (name)
+      case ('check')
+         task = TASK_CHECK
+      case ('compare')
+         task = TASK_COMPARE
+      case ('help')
+         task = TASK_HELP
+      case ('study', 'sweep')
+         task = 0
+      case default
+         task = TASK_RUN
+      end select
+   end function task_of
+
+   !> One deck; a word that is no file but nearly a command is a misspelt command.
+   subroutine check_deck(names, expected, ok, error)
+      type(string_t), intent(in) :: names(:)
+      character(len=*), intent(in) :: expected
+      logical, intent(out) :: ok
+      type(message_t), intent(inout) :: error
+      type(string_t), allocatable :: near(:)
+
+      ok = .false.
+      if (size(names) == 0) then
+         error = wrong('there is no deck', expected=expected)
+         return
+      end if
+      near = nearest_names(names(1)%s, string_list(COMMANDS), 2)
+      if (scan(names(1)%s, './') == 0 .and. size(near) > 0 .and. .not. file_exists(names(1)%s)) then
+         error = wrong('unknown command '//names(1)%s, nearest=near)
+      else if (size(names) > 1) then
+         error = wrong('one deck at a time; '//names(2)%s//' is too much', expected=expected)
+      else if (len_trim(names(1)%s) == 0) then
+         error = wrong('the name of the deck is empty', expected=expected)
+      else
+         ok = .true.
+      end if
+   end subroutine check_deck
+
+   !> Puts an option where it belongs.
+   subroutine take_option(given, command, ok, error)
+      type(given_t), intent(in) :: given
+      type(command_t), intent(inout) :: command
+      logical, intent(out) :: ok
+      type(message_t), intent(inout) :: error
+      character(len=:), allocatable :: name
+
+      name = trim(OPTIONS(given%option)%name)
+      ok = OPTIONS(given%option)%for_task(command%task)
+      if (.not. ok) then
+         error = wrong(name//' is no option of '//task_text(command%task))
+         return
+      end if
+      select case (name)
+      case ('-o')
+         command%folder = without_slash(given%value)
+         ok = len(command%folder) > 0
+      case ('--set')
+         call append_string(command%settings, given%value)
+         ok = index(given%value, '=') > 1
+      case ('--solver')
+         call take_solver(given%value, command, ok, error)
+         return
+      case ('--threads')
+         call take_integer(given%value, 1, MOST_THREADS, command%threads, ok)
+      case ('--digits')
+         call take_integer(given%value, LEAST_DIGITS, MOST_DIGITS, command%digits, ok)
+      case ('--rtol')
+         call take_real(given%value, 1.0_wp, command%rtol, ok)
+      case ('--atol')
+         call take_real(given%value, huge(1.0_wp), command%atol, ok)
+      case ('--quiet')
+         command%quiet = .true.
+      end select
+      if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(name))
+   end subroutine take_option
+
+   pure function task_text(task) result(text)
+      integer, intent(in) :: task
+      character(len=:), allocatable :: text
+      character(len=14), parameter :: NAMES(4) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ']
+
+      text = trim(NAMES(task))
+   end function task_text
+
+   !> What the value of an option may be.
+   pure function value_text(name) result(text)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: text
+
+      select case (name)
+      case ('-o')
+         text = 'a folder; it is made where it is missing'
+      case ('--set')
+         text = 'NAME=VALUE, VALUE an expression of numbers'
+      case ('--solver')
+         text = 'auto, skyline or banded'
+      case ('--threads')
+         text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
+      case ('--digits')
+         text = 'a whole number, '//to_text(int(LEAST_DIGITS, ip))//' to '//to_text(int(MOST_DIGITS, ip))
+      case ('--rtol')
+         text = 'a number, 0 to 1'
+      case ('--atol')
+         text = 'a number, not negative'
+      case default
+         text = 'a value'
+      end select
+   end function value_text
+
+   subroutine take_solver(value, command, ok, error)
+      character(len=*), intent(in) :: value
+      type(command_t), intent(inout) :: command
+      logical, intent(out) :: ok
+      type(message_t), intent(inout) :: error
+
+      ok = .false.
+      if (value == 'sparse') then
+         error = wrong('--solver sparse is not built yet in this version', expected=value_text('--solver'))
+      else if (.not. any(SOLVERS == value)) then
+         error = wrong('unknown solver '//value, expected=value_text('--solver'), &
+                       nearest=nearest_names(value, string_list(SOLVERS), 2))
+      else
+         command%solver = value
+         ok = .true.
+      end if
+   end subroutine take_solver
+
+   subroutine take_integer(text, least, most, value, ok)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: least, most
+      integer(ip), intent(inout) :: value
+      logical, intent(out) :: ok
+      integer(ip) :: found
+      integer :: outcome
+
+      call read_integer(text, found, outcome)
+      ok = outcome == NUMBER_OK .and. found >= least .and. found <= most
+      if (ok) value = found
+   end subroutine take_integer
+
+   subroutine take_real(text, most, value, ok)
+      character(len=*), intent(in) :: text
+      real(wp), intent(in) :: most
+      real(wp), intent(inout) :: value
+      logical, intent(out) :: ok
+      real(wp) :: found
+      integer :: outcome
+
+      call read_real(text, found, outcome)
+      ok = outcome == NUMBER_OK .and. found >= 0.0_wp .and. found <= most
+      if (ok) value = found
+   end subroutine take_real
+
+   !> A folder without the slash at its end.
+   pure function without_slash(path) result(folder)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: folder
+
+      folder = path
+      do while (len(folder) > 1)
+         if (folder(len(folder):) /= '/') exit
+         folder = folder(:len(folder) - 1)
+      end do
+   end function without_slash
+
+end module atrito_command_line

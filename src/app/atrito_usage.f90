@@ -1,0 +1,73 @@
+!> How the program is called, for `atrito` alone and `atrito --help`.
+module atrito_usage
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_page, only: page_t, begin_page, add_line, add_blank
+   implicit none (type, external)
+   private
+   public :: compose_usage, compose_options
+
+contains
+
+   !> The short form.
+   subroutine compose_usage(page)
+      type(page_t), intent(out) :: page
+
+      call begin_page(page, 80)
+      call add_line(page, 'usage: atrito DECK.inp [options]')
+      call add_line(page, '       atrito check DECK.inp | compare A B | help [KEYWORD]')
+      call add_line(page, '       atrito --help | --version')
+   end subroutine compose_usage
+
+   !> The long form: every command, option and exit code (docs/user/running.md).
+   subroutine compose_options(page)
+      type(page_t), intent(out) :: page
+
+      call begin_page(page, 100)
+      call add_line(page, PROGRAM_NAME//' '//PROGRAM_VERSION//': contact with friction between elastic bodies')
+      call add_blank(page)
+      call add_commands(page)
+      call add_blank(page)
+      call add_options(page)
+      call add_blank(page)
+      call add_exit_codes(page)
+   end subroutine compose_options
+
+   subroutine add_commands(page)
+      type(page_t), intent(inout) :: page
+
+      call add_line(page, 'atrito DECK.inp [options]   solve the deck and write tables')
+      call add_line(page, 'atrito check DECK.inp       read and check everything, tell what the scene needs, solve nothing')
+      call add_line(page, 'atrito compare A B          compare two tables, or two folders of them')
+      call add_line(page, 'atrito help [KEYWORD]       reference of the deck language; `atrito help all`: the whole of it')
+      call add_line(page, 'atrito --help | --version')
+   end subroutine add_commands
+
+   subroutine add_options(page)
+      type(page_t), intent(inout) :: page
+
+      call add_line(page, 'options of a run (check knows --set, --solver, --threads, --quiet)')
+      call add_line(page, '  -o DIR             folder of the tables, made if missing; default ./output/<name of the deck>')
+      call add_line(page, '  --set NAME=VALUE   value of a *PARAMETER of the deck; may be repeated')
+      call add_line(page, '  --solver NAME      auto (default), skyline or banded')
+      call add_line(page, '  --threads N        default 1')
+      call add_line(page, '  --digits N         significant digits of the tables, 6 to 17, default 10')
+      call add_line(page, '  --quiet            no progress, no notes, no summary; only warnings and errors')
+      call add_line(page, 'options of compare')
+      call add_line(page, '  --rtol R           relative to the largest value of the column, default 1e-6')
+      call add_line(page, '  --atol A           absolute, default 0')
+   end subroutine add_options
+
+   subroutine add_exit_codes(page)
+      type(page_t), intent(inout) :: page
+
+      call add_line(page, 'exit codes')
+      call add_line(page, '  0  solved, checked, all tables written; compare: the same')
+      call add_line(page, '  1  wrong command line; compare: different')
+      call add_line(page, '  2  errors in the deck, all of them listed; nothing computed')
+      call add_line(page, '  3  not converged, or the final check failed: the last iterate is written and marked')
+      call add_line(page, '  4  singular or indefinite system')
+      call add_line(page, '  5  a file cannot be read or written')
+      call add_line(page, '  9  internal error')
+   end subroutine add_exit_codes
+
+end module atrito_usage

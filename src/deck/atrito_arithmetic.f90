@@ -1,0 +1,103 @@
+!> Arithmetic that says when a result does not fit into a double, instead of raising an exception.
+module atrito_arithmetic
+   use atrito_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely
+   public :: ARITHMETIC_OK, ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION, ARITHMETIC_UNDEFINED
+
+   integer, parameter :: ARITHMETIC_OK = 0
+   integer, parameter :: ARITHMETIC_OVERFLOW = 1
+   integer, parameter :: ARITHMETIC_ZERO_DIVISION = 2
+   integer, parameter :: ARITHMETIC_UNDEFINED = 3      !< e.g. a root of a negative number
+
+   integer, parameter :: LARGEST_EXPONENT = maxexponent(1.0_wp)
+   !> exp of more than this overflows; a little less than log(huge), for the rounding of the argument.
+   real(wp), parameter :: LARGEST_ARGUMENT = 709.78_wp
+
+contains
+
+   pure subroutine add_safely(a, b, sum, outcome)
+      real(wp), intent(in) :: a, b
+      real(wp), intent(out) :: sum
+      integer, intent(out) :: outcome
+
+      sum = 0.0_wp
+      outcome = ARITHMETIC_OVERFLOW
+      if (abs(0.5_wp*a + 0.5_wp*b) > 0.5_wp*huge(sum)) return
+      sum = a + b
+      outcome = ARITHMETIC_OK
+   end subroutine add_safely
+
+   pure subroutine multiply_safely(a, b, product, outcome)
+      real(wp), intent(in) :: a, b
+      real(wp), intent(out) :: product
+      integer, intent(out) :: outcome
+      integer :: power_of_two
+
+      product = fraction(a)*fraction(b)
+      power_of_two = exponent(a) + exponent(b) + exponent(product)
+      if (product /= 0.0_wp .and. power_of_two > LARGEST_EXPONENT) then
+         product = 0.0_wp
+         outcome = ARITHMETIC_OVERFLOW
+      else
+         product = a*b
+         outcome = ARITHMETIC_OK
+      end if
+   end subroutine multiply_safely
+
+   pure subroutine divide_safely(a, b, quotient, outcome)
+      real(wp), intent(in) :: a, b
+      real(wp), intent(out) :: quotient
+      integer, intent(out) :: outcome
+      integer :: power_of_two
+
+      quotient = 0.0_wp
+      outcome = ARITHMETIC_ZERO_DIVISION
+      if (b == 0.0_wp) return
+      quotient = fraction(a)/fraction(b)
+      power_of_two = exponent(a) - exponent(b) + exponent(quotient)
+      if (quotient /= 0.0_wp .and. power_of_two > LARGEST_EXPONENT) then
+         quotient = 0.0_wp
+         outcome = ARITHMETIC_OVERFLOW
+      else
+         quotient = a/b
+         outcome = ARITHMETIC_OK
+      end if
+   end subroutine divide_safely
+
+   !> a**b; of a negative number only a whole power exists.
+   pure subroutine raise_safely(a, b, power, outcome)
+      real(wp), intent(in) :: a, b
+      real(wp), intent(out) :: power
+      integer, intent(out) :: outcome
+      real(wp) :: argument
+
+      power = 0.0_wp
+      if (a == 0.0_wp) then
+         outcome = merge(ARITHMETIC_ZERO_DIVISION, ARITHMETIC_OK, b < 0.0_wp)
+         if (b == 0.0_wp) power = 1.0_wp
+         return
+      end if
+      outcome = ARITHMETIC_UNDEFINED
+      if (a < 0.0_wp .and. aint(b) /= b) return
+      call multiply_safely(b, log(abs(a)), argument, outcome)
+      if (outcome == ARITHMETIC_OK .and. argument > LARGEST_ARGUMENT) outcome = ARITHMETIC_OVERFLOW
+      if (outcome /= ARITHMETIC_OK) return
+      power = abs(a)**b
+      if (a < 0.0_wp .and. mod(b, 2.0_wp) /= 0.0_wp) power = -power
+   end subroutine raise_safely
+
+   pure subroutine exponential_safely(a, power, outcome)
+      real(wp), intent(in) :: a
+      real(wp), intent(out) :: power
+      integer, intent(out) :: outcome
+
+      power = 0.0_wp
+      outcome = ARITHMETIC_OVERFLOW
+      if (a > LARGEST_ARGUMENT) return
+      power = exp(a)
+      outcome = ARITHMETIC_OK
+   end subroutine exponential_safely
+
+end module atrito_arithmetic

@@ -1,0 +1,320 @@
+!> Data lines of a card against the forms that its keyword allows: how many, how many items, which words.
+module atrito_card_data
+   use atrito_kinds, only: ip
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, is_empty_token, line_item, last_item
+   use atrito_diagnostics, only: report_error, report_note
+   use atrito_items, only: has_option, option_word
+   use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_WORD
+   use atrito_keyword_table, only: find_choice, choice_names
+   use atrito_keyword_text, only: form_text, item_text, choices_text
+   use atrito_strings, only: string_t, append_string, same_name, to_text
+   implicit none (type, external)
+   private
+   public :: check_data
+
+   !> The forms that apply to a card, and what was found of each.
+   type :: tally_t
+      integer, allocatable :: forms(:)                 !< indices in the forms of the keyword
+      integer, allocatable :: n_lines(:)               !< lines of each
+      integer :: n_words = 0                           !< forms told by their leading word
+      logical :: faulty = .false.
+      logical :: noted = .false.                       !< a note is given once a card
+   end type tally_t
+
+contains
+
+   !> Checks the data lines of a card; lines(:)%ok tells the outcome.
+   subroutine check_data(deck, card)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(in) :: card
+      type(tally_t) :: tally
+      integer(ip) :: i
+      integer :: f
+
+      ! which forms apply is not known when an option is wrong
+      if (.not. card%ok .and. any_condition(deck%keywords(card%keyword)%forms)) return
+      call find_forms(deck, card, tally)
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         call find_form(deck, card, deck%lines(i), tally, f)
+         if (f == 0) then
+            deck%lines(i)%ok = .false.
+            if (tally%n_words == 0) exit               ! one line too many: one message
+            cycle
+         end if
+         call check_line(deck, card, deck%lines(i), deck%keywords(card%keyword)%forms(tally%forms(f)), tally)
+         tally%n_lines(f) = tally%n_lines(f) + 1
+         if (.not. deck%lines(i)%ok) tally%faulty = .true.
+      end do
+      if (.not. tally%faulty) call check_counts(deck, card, tally)
+   end subroutine check_data
+
+   pure logical function any_condition(forms)
+      type(form_t), intent(in) :: forms(:)
+      integer :: i
+
+      any_condition = .false.
+      do i = 1, size(forms)
+         any_condition = any_condition .or. len(forms(i)%option) > 0
+      end do
+   end function any_condition
+
+   subroutine find_forms(deck, card, tally)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(tally_t), intent(out) :: tally
+      integer :: i
+
+      allocate (tally%forms(0))
+      associate (forms => deck%keywords(card%keyword)%forms)
+         do i = 1, size(forms)
+            if (.not. applies(deck, card, forms(i))) cycle
+            tally%forms = [tally%forms, i]
+            if (len(forms(i)%word) > 0) tally%n_words = tally%n_words + 1
+         end do
+      end associate
+      allocate (tally%n_lines(size(tally%forms)), source=0)
+   end subroutine find_forms
+
+   pure logical function applies(deck, card, form)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(form_t), intent(in) :: form
+      integer :: i
+
+      if (len(form%option) == 0) then
+         applies = .true.
+      else if (size(form%values) == 0) then
+         applies = has_option(deck, card, form%option) .neqv. form%absent
+      else
+         applies = .false.
+         do i = 1, size(form%values)
+            applies = applies .or. form%values(i)%s == option_word(deck, card, form%option)
+         end do
+      end if
+   end function applies
+
+   !> The form of a line among those that apply: by its leading word, else by its position. 0 when there is none (reported).
+   subroutine find_form(deck, card, line, tally, f)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(data_line_t), intent(in) :: line
+      type(tally_t), intent(inout) :: tally
+      integer, intent(out) :: f
+
+      associate (forms => deck%keywords(card%keyword)%forms)
+         if (tally%n_words > 0) then
+            do f = 1, size(tally%forms)
+               if (len(forms(tally%forms(f))%word) == 0) cycle
+               if (.not. same_name(token_text(deck, line_item(deck, line, 1_ip)), forms(tally%forms(f))%word)) cycle
+               if (tally%n_lines(f) < forms(tally%forms(f))%max_lines) return
+               exit
+            end do
+         end if
+         do f = 1, size(tally%forms)
+            if (len(forms(tally%forms(f))%word) > 0) cycle
+            if (tally%n_lines(f) < forms(tally%forms(f))%max_lines) return
+         end do
+      end associate
+      f = 0
+      tally%faulty = .true.
+      call report_superfluous(deck, card, line, tally)
+   end subroutine find_form
+
+   subroutine report_superfluous(deck, card, line, tally)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(data_line_t), intent(in) :: line
+      type(tally_t), intent(in) :: tally
+      character(len=:), allocatable :: text
+      type(token_t) :: first
+      type(string_t), allocatable :: words(:)
+
+      first = line_item(deck, line, 1_ip)
+      words = leading_words(deck, card, tally)
+      text = token_text(deck, first)
+      if (any_same(words, text)) then
+         call report_error(deck, first, 'E-LINES', 'one '//text//' line too many', keyword=trim(card%name))
+      else if (size(words) > 0) then
+         call report_error(deck, first, 'E-CHOICE', "'"//text//"' begins no data line of *"//trim(card%name), &
+                           known=words, keyword=trim(card%name), expected=expected_forms(deck, card, tally))
+      else if (size(tally%forms) == 0) then
+         call report_error(deck, first, 'E-LINES', 'no data lines belong to this *'//trim(card%name), keyword=trim(card%name))
+      else
+         call report_error(deck, first, 'E-LINES', 'a data line too many', keyword=trim(card%name), &
+                           expected=expected_forms(deck, card, tally))
+      end if
+   end subroutine report_superfluous
+
+   pure function leading_words(deck, card, tally) result(words)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(tally_t), intent(in) :: tally
+      type(string_t), allocatable :: words(:)
+      integer :: f
+
+      allocate (words(0))
+      do f = 1, size(tally%forms)
+         associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
+            if (len(form%word) > 0) call append_string(words, form%word)
+         end associate
+      end do
+   end function leading_words
+
+   pure logical function any_same(words, text)
+      type(string_t), intent(in) :: words(:)
+      character(len=*), intent(in) :: text
+      integer :: i
+
+      any_same = .false.
+      do i = 1, size(words)
+         any_same = any_same .or. same_name(words(i)%s, text)
+      end do
+   end function any_same
+
+   !> The forms that apply, as they are written.
+   pure function expected_forms(deck, card, tally) result(text)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(tally_t), intent(in) :: tally
+      character(len=:), allocatable :: text
+      integer :: f
+
+      text = ''
+      do f = 1, size(tally%forms)
+         associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
+            if (f > 1) text = text//'; '
+            if (form%max_lines < ANY_NUMBER .and. form%max_lines > 1) text = text//to_text(form%max_lines)//' lines '
+            text = text//form_text(form)
+         end associate
+      end do
+   end function expected_forms
+
+   !> Checks one line against its form.
+   subroutine check_line(deck, card, line, form, tally)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(data_line_t), intent(inout) :: line
+      type(form_t), intent(in) :: form
+      type(tally_t), intent(inout) :: tally
+      type(token_t) :: place
+
+      if (form%harmless) then
+         call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
+      else if (.not. form%built) then
+         line%ok = .false.
+         place = line_item(deck, line, 1_ip)
+         call report_error(deck, place, 'E-NOT-BUILT', token_text(deck, place)//' of *'//trim(card%name)//' is not built yet', &
+                           keyword=trim(card%name))
+      else if (line%n_tokens > form%max_items) then
+         line%ok = .false.
+         call report_error(deck, line_item(deck, line, int(form%max_items, ip) + 1), 'E-ITEMS', &
+                           count_text(line%n_tokens, form), expected=form_text(form), keyword=trim(card%name))
+      else if (line%n_tokens < form%min_items) then
+         line%ok = .false.
+         call report_error(deck, last_item(deck, line), 'E-ITEMS', count_text(line%n_tokens, form), expected=form_text(form), &
+                           keyword=trim(card%name))
+      else
+         call check_items(deck, card, line, form, tally)
+      end if
+   end subroutine check_line
+
+   !> `2 items, where 3 to 4 belong`.
+   pure function count_text(n, form) result(text)
+      integer(ip), intent(in) :: n
+      type(form_t), intent(in) :: form
+      character(len=:), allocatable :: text
+
+      text = to_text(n)//trim(merge(' item ', ' items', n == 1))//', where '//to_text(form%min_items)
+      if (form%max_items == ANY_NUMBER) then
+         text = text//' or more belong'
+      else if (form%max_items > form%min_items) then
+         text = text//' to '//to_text(form%max_items)//' belong'
+      else
+         text = text//trim(merge(' belongs', ' belong ', form%max_items == 1))
+      end if
+   end function count_text
+
+   subroutine check_items(deck, card, line, form, tally)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(data_line_t), intent(inout) :: line
+      type(form_t), intent(in) :: form
+      type(tally_t), intent(inout) :: tally
+      type(token_t) :: token
+      integer(ip) :: i
+      integer :: offset, spec
+
+      offset = merge(1, 0, len(form%word) > 0)
+      do i = 1 + offset, line%n_tokens
+         spec = min(i - offset, size(form%items))
+         token = deck%tokens(line%first_token + i - 1)
+         if (is_empty_token(token)) then
+            if (.not. form%items(spec)%required) cycle
+            line%ok = .false.
+            call report_error(deck, token, 'E-MISSING', form%items(spec)%name//' is missing', &
+                              expected=item_text(form%items(spec)), keyword=trim(card%name))
+         else if (form%items(spec)%harmless) then
+            call note_once(deck, card, token, form%items(spec)%name//' items', tally)
+            return
+         else if (form%items(spec)%kind == KIND_WORD) then
+            call check_word(deck, card, token, form%items(spec), line%ok)
+         end if
+      end do
+   end subroutine check_items
+
+   subroutine check_word(deck, card, token, item, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(token_t), intent(in) :: token
+      type(item_t), intent(in) :: item
+      logical, intent(inout) :: ok
+      integer :: choice
+
+      choice = find_choice(item%choices, token_text(deck, token))
+      if (choice == 0) then
+         ok = .false.
+         call report_error(deck, token, 'E-CHOICE', 'unknown '//item%name//' '//token_text(deck, token), &
+                           expected=item%doc//': '//choices_text(item%choices), known=choice_names(item%choices), &
+                           keyword=trim(card%name))
+      else if (.not. item%choices(choice)%built) then
+         ok = .false.
+         call report_error(deck, token, 'E-NOT-BUILT', item%name//' '//item%choices(choice)%name//' is not built yet', &
+                           keyword=trim(card%name))
+      end if
+   end subroutine check_word
+
+   subroutine note_once(deck, card, token, text, tally)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: text
+      type(tally_t), intent(inout) :: tally
+
+      if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '// &
+                                                text)
+      tally%noted = .true.
+   end subroutine note_once
+
+   !> Enough lines of every form.
+   subroutine check_counts(deck, card, tally)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(tally_t), intent(in) :: tally
+      character(len=:), allocatable :: text
+      integer :: f
+
+      do f = 1, size(tally%forms)
+         associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
+            if (tally%n_lines(f) >= form%min_lines) cycle
+            if (form%min_lines == 1) then
+               text = '*'//trim(card%name)//' needs a data line: '//form%doc
+            else
+               text = '*'//trim(card%name)//' needs '//to_text(form%min_lines)//' data lines, there are '// &
+                      to_text(tally%n_lines(f))//': '//form%doc
+            end if
+            call report_error(deck, card%place, 'E-LINES', text, expected=form_text(form), keyword=trim(card%name))
+         end associate
+      end do
+   end subroutine check_counts
+
+end module atrito_card_data

@@ -1,0 +1,246 @@
+!> Keyword lines: the items of one become a card, checked against the keyword table.
+module atrito_cards
+   use atrito_kinds, only: ip, wp
+   use atrito_deck, only: deck_t, card_t, option_t, token_t, KEYWORD_UNKNOWN, token_text, is_empty_token, is_quoted
+   use atrito_diagnostics, only: report_error, report_note
+   use atrito_items, only: get_real, get_integer, get_name
+   use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, &
+                             KIND_FILE
+   use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names
+   use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
+   use atrito_lexer, only: find_equals, trim_place
+   implicit none (type, external)
+   private
+   public :: make_card, check_options
+
+contains
+
+   !> The card of a keyword line; its keyword is looked up, its options only split.
+   subroutine make_card(deck, items, card)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: items(:)            !< of the line and those that continue it; the first one is *KEYWORD
+      type(card_t), intent(out) :: card
+      integer :: i
+
+      card%place = without_asterisk(deck, items(1))
+      allocate (card%options(size(items) - 1))
+      do i = 1, size(card%options)
+         call split_option(deck, items(i + 1), card%options(i))
+      end do
+      card%keyword = find_keyword(deck%keywords, token_text(deck, card%place))
+      if (card%keyword /= KEYWORD_UNKNOWN) then
+         card%name = deck%keywords(card%keyword)%name
+      else if (is_empty_token(card%place)) then
+         call report_error(deck, items(1), 'E-KEYWORD', 'an asterisk without a keyword', expected='*KEYWORD')
+      else
+         call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place), &
+                           expected='a keyword; atrito help lists them', known=keyword_names(deck%keywords))
+      end if
+   end subroutine make_card
+
+   pure function without_asterisk(deck, item) result(place)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: item
+      type(token_t) :: place
+
+      place = item
+      place%first = item%first + 1
+      call trim_place(deck%sources(item%source)%text, place%first, place%last)
+      place%column = item%column + place%first - item%first
+   end function without_asterisk
+
+   !> NAME or NAME=VALUE.
+   subroutine split_option(deck, item, option)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: item
+      type(option_t), intent(out) :: option
+      integer(ip) :: equals
+
+      option%name = item
+      option%value = item
+      equals = find_equals(deck%sources(item%source)%text, item%first, item%last)
+      option%has_value = equals > 0
+      if (equals == 0) then
+         option%value%first = item%last + 1
+         option%value%last = item%last
+      else
+         option%name%last = equals - 1
+         option%value%first = equals + 1
+         call trim_place(deck%sources(item%source)%text, option%name%first, option%name%last)
+         call trim_place(deck%sources(item%source)%text, option%value%first, option%value%last)
+      end if
+      option%value%column = item%column + option%value%first - item%first
+   end subroutine split_option
+
+   !> Checks the options of a card whose keyword is known; card%ok tells the outcome.
+   subroutine check_options(deck, card)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      integer :: i
+
+      do i = 1, size(card%options)
+         call check_option(deck, card, i)
+      end do
+      call check_company(deck, card)
+   end subroutine check_options
+
+   subroutine check_option(deck, card, i)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      integer, intent(in) :: i
+      character(len=:), allocatable :: name
+      integer :: spec
+
+      name = token_text(deck, card%options(i)%name)
+      spec = find_option_spec(deck%keywords(card%keyword), name)
+      if (len(name) == 0) then
+         call refuse(deck, card, card%options(i)%name, 'E-OPTION', 'an empty option')
+      else if (spec == 0) then
+         card%ok = .false.
+         call report_error(deck, card%options(i)%name, 'E-OPTION', 'unknown option '//name//' of *'//trim(card%name), &
+                           known=option_names(deck%keywords(card%keyword)%options), keyword=trim(card%name))
+      else if (any(card%options(:i - 1)%spec == spec)) then
+         call refuse(deck, card, card%options(i)%name, 'E-OPTION-TWICE', 'option '//name//' is given twice')
+      else
+         card%options(i)%spec = spec
+         call check_use(deck, card, card%options(i), deck%keywords(card%keyword)%options(spec))
+      end if
+   end subroutine check_option
+
+   subroutine check_use(deck, card, option, spec)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      type(option_t), intent(in) :: option
+      type(option_spec_t), intent(in) :: spec
+
+      if (spec%harmless) then
+         call report_note(deck, option%name, 'N-IGNORED', 'option '//spec%name//' of *'//trim(card%name)// &
+                          ' has no effect: '//spec%doc)
+      else if (.not. spec%built) then
+         call refuse(deck, card, option%name, 'E-NOT-BUILT', 'option '//spec%name//' of *'//trim(card%name)// &
+                     ' is not built yet')
+      else if (spec%kind == KIND_FLAG) then
+         if (option%has_value) call refuse(deck, card, option%value, 'E-OPTION-VALUE', 'option '//spec%name//' takes no value')
+      else if (spec%kind /= KIND_OPTIONAL_WORD .and. is_empty_token(option%value)) then
+         card%ok = .false.
+         call report_error(deck, option%value, 'E-OPTION-VALUE', 'option '//spec%name//' needs a value', &
+                           expected=meaning(spec), keyword=trim(card%name))
+      else
+         call check_value(deck, card, option, spec)
+      end if
+   end subroutine check_use
+
+   subroutine check_value(deck, card, option, spec)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      type(option_t), intent(in) :: option
+      type(option_spec_t), intent(in) :: spec
+      character(len=:), allocatable :: name
+      real(wp) :: x
+      integer(ip) :: i
+      logical :: ok
+
+      ok = .true.
+      select case (spec%kind)
+      case (KIND_WORD, KIND_OPTIONAL_WORD)
+         call check_word(deck, card, option, spec, ok)
+      case (KIND_REAL)
+         call get_real(deck, option%value, meaning(spec), x, ok, keyword=trim(card%name))
+      case (KIND_INTEGER)
+         call get_integer(deck, option%value, meaning(spec), i, ok, keyword=trim(card%name))
+      case (KIND_NAME)
+         call get_name(deck, option%value, meaning(spec), name, ok, keyword=trim(card%name))
+         if (ok) call check_not_a_number(deck, card, option, spec, name, ok)
+      end select
+      card%ok = card%ok .and. ok
+   end subroutine check_value
+
+   subroutine check_word(deck, card, option, spec, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      type(option_t), intent(in) :: option
+      type(option_spec_t), intent(in) :: spec
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: word
+      type(token_t) :: place
+      integer :: choice
+
+      word = token_text(deck, option%value)
+      place = option%value
+      if (.not. option%has_value) then
+         word = spec%choices(1)%name               ! alone, the option stands for its first word
+         place = option%name
+      end if
+      choice = find_choice(spec%choices, word)
+      ok = choice > 0
+      if (.not. ok) then
+         call report_error(deck, place, 'E-CHOICE', spec%name//'='//word//' is unknown to *'//trim(card%name), &
+                           expected=meaning(spec), known=choice_names(spec%choices), &
+                           keyword=trim(card%name))
+         return
+      end if
+      ok = spec%choices(choice)%built
+      if (.not. ok) call report_error(deck, place, 'E-NOT-BUILT', spec%name//'='//spec%choices(choice)%name//' of *'// &
+                                      trim(card%name)//' is not built yet', expected=meaning(spec), &
+                                      keyword=trim(card%name))
+   end subroutine check_word
+
+   !> A set named 12 could never be told from node 12.
+   subroutine check_not_a_number(deck, card, option, spec, name, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(option_t), intent(in) :: option
+      type(option_spec_t), intent(in) :: spec
+      character(len=*), intent(in) :: name
+      logical, intent(out) :: ok
+
+      ok = verify(name, '0123456789') > 0 .or. is_quoted(deck, option%value)
+      if (.not. ok) call report_error(deck, option%value, 'E-NAME', 'all digits means a number, not a name', &
+                                      expected=meaning(spec), keyword=trim(card%name))
+   end subroutine check_not_a_number
+
+   !> Options that must be there: the required ones, and those that others need.
+   subroutine check_company(deck, card)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      integer :: i, j
+
+      associate (options => deck%keywords(card%keyword)%options)
+         do i = 1, size(options)
+            if (options(i)%required .and. .not. any(card%options%spec == i)) then
+               card%ok = .false.
+               call report_error(deck, card%place, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '// &
+                                 options(i)%name, expected=meaning(options(i)), keyword=trim(card%name))
+            end if
+         end do
+         do j = 1, size(card%options)
+            if (card%options(j)%spec == 0) cycle
+            i = find_option_spec(deck%keywords(card%keyword), options(card%options(j)%spec)%needs)
+            if (i == 0 .or. any(card%options%spec == i)) cycle
+            call refuse(deck, card, card%options(j)%name, 'E-OPTION', 'option '//options(card%options(j)%spec)%name// &
+                        ' goes with '//options(i)%name//' only')
+         end do
+      end associate
+   end subroutine check_company
+
+   !> `MATERIAL=name: their material`.
+   pure function meaning(spec) result(text)
+      type(option_spec_t), intent(in) :: spec
+      character(len=:), allocatable :: text
+
+      text = option_text_of(spec)//': '//spec%doc
+      if (size(spec%choices) > 0) text = text//', '//choices_text(spec%choices)
+      text = with_dimension(text, spec%dimension)
+   end function meaning
+
+   subroutine refuse(deck, card, place, id, text)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      type(token_t), intent(in) :: place
+      character(len=*), intent(in) :: id, text
+
+      card%ok = .false.
+      call report_error(deck, place, id, text, keyword=trim(card%name))
+   end subroutine refuse
+
+end module atrito_cards

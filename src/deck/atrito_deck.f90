@@ -1,0 +1,299 @@
+!> A deck as it was read: source texts, the places of their items, cards and parameters.
+!>
+!> The texts are kept whole and an item is only a place in one of them, so that a large deck is read without a copy and every
+!> later message can show where it comes from.
+module atrito_deck
+   use atrito_kinds, only: ip, wp
+   use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP
+   implicit none (type, external)
+   private
+   public :: source_t, token_t, option_t, card_t, data_line_t, parameter_t, deck_t
+   public :: KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
+   public :: token_text, is_empty_token, is_quoted, is_id_token, same_token, keyword_name, line_item, last_item, reading_order, &
+             source_line
+   public :: allocate_deck, append_source, append_token, append_line, append_card, append_parameter
+
+   !> A card whose keyword is not in the table, is not built or has no effect here; already reported.
+   integer, parameter :: KEYWORD_UNKNOWN = 0
+
+   type :: source_t
+      character(len=:), allocatable :: name        !< FILE as the user wrote it
+      character(len=:), allocatable :: text
+      integer(ip) :: parent = 0                    !< source that includes this one; 0: the deck itself
+      integer(ip) :: include_line = 0              !< line of it that does
+      integer(ip) :: n_lines = 0                   !< with those of the files that it includes
+      integer(ip) :: order = 0                     !< lines read before its first
+   end type source_t
+
+   !> The place of an item. An empty item has last < first; `first` is where it should stand.
+   type :: token_t
+      integer(ip) :: source = 0                    !< index in deck%sources; 0: no place
+      integer(ip) :: line = 0, column = 0          !< from 1
+      integer(ip) :: first = 1, last = 0           !< characters of sources(source)%text, with the quotes
+   end type token_t
+
+   !> NAME or NAME=VALUE behind a keyword.
+   type :: option_t
+      type(token_t) :: name
+      type(token_t) :: value
+      logical :: has_value = .false.               !< there is an equals sign
+      integer :: spec = 0                          !< index in the options of the keyword's definition; 0: unknown
+   end type option_t
+
+   type :: card_t
+      integer :: keyword = KEYWORD_UNKNOWN         !< index in deck%keywords
+      character(len=24) :: name = ''               !< as in the table, e.g. 'CONTACT PAIR'; blank: KEYWORD_UNKNOWN
+      type(token_t) :: place                       !< the keyword itself
+      type(option_t), allocatable :: options(:)
+      integer(ip) :: first_line = 1                !< deck%lines(first_line : first_line + n_lines - 1)
+      integer(ip) :: n_lines = 0
+      integer :: level = LEVEL_MODEL               !< where it stands: LEVEL_MODEL or LEVEL_STEP
+      logical :: ok = .true.                       !< nothing wrong with its keyword line
+   end type card_t
+
+   type :: data_line_t
+      integer(ip) :: first_token = 1               !< deck%tokens(first_token : first_token + n_tokens - 1)
+      integer(ip) :: n_tokens = 0
+      logical :: ok = .true.                       !< the number of items is right and the words are known
+   end type data_line_t
+
+   type :: parameter_t
+      character(len=:), allocatable :: name
+      real(wp) :: value = 0.0_wp
+      type(token_t) :: place                       !< where it is defined
+      integer(ip) :: order = 0                     !< in reading order
+      logical :: known = .false.                   !< its expression has a value; if not, that is reported
+   end type parameter_t
+
+   !> The arrays have spare room: n_lines, n_tokens ... count. cards and parameters are cut to size when the deck is read.
+   type :: deck_t
+      character(len=:), allocatable :: path        !< of the main file, as the user wrote it
+      type(source_t), allocatable :: sources(:)
+      type(card_t), allocatable :: cards(:)
+      type(data_line_t), allocatable :: lines(:)
+      type(token_t), allocatable :: tokens(:)
+      type(parameter_t), allocatable :: parameters(:)
+      type(keyword_t), allocatable :: keywords(:)  !< the keyword table
+      integer(ip) :: n_sources = 0, n_cards = 0, n_lines = 0, n_tokens = 0, n_parameters = 0
+   end type deck_t
+
+   character(len=1), parameter :: LINE_FEED = achar(10), CARRIAGE_RETURN = achar(13)
+
+contains
+
+   !> The characters of an item, without its quotes.
+   pure function token_text(deck, token) result(text)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=:), allocatable :: text
+
+      if (is_empty_token(token)) then
+         text = ''
+      else if (is_quoted(deck, token)) then
+         text = deck%sources(token%source)%text(token%first + 1:token%last - 1)
+      else
+         text = deck%sources(token%source)%text(token%first:token%last)
+      end if
+   end function token_text
+
+   elemental logical function is_empty_token(token)
+      type(token_t), intent(in) :: token
+
+      is_empty_token = token%last < token%first
+   end function is_empty_token
+
+   !> The item stands in "quotes".
+   pure logical function is_quoted(deck, token)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+
+      is_quoted = .false.
+      if (token%last <= token%first) return
+      associate (first => token%first, last => token%last)
+         is_quoted = deck%sources(token%source)%text(first:first) == '"' .and. &
+                     deck%sources(token%source)%text(last:last) == '"'
+      end associate
+   end function is_quoted
+
+   !> The item is the number of a node or element, not the name of a set: all digits, or a parameter.
+   pure logical function is_id_token(deck, token)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+
+      is_id_token = .false.
+      if (is_empty_token(token)) return
+      associate (first => token%first, last => token%last)
+         is_id_token = verify(deck%sources(token%source)%text(first:last), '0123456789') == 0 &
+                       .or. deck%sources(token%source)%text(first:first) == '<'
+      end associate
+   end function is_id_token
+
+   elemental logical function same_token(a, b)
+      type(token_t), intent(in) :: a, b
+
+      same_token = a%source == b%source .and. a%first == b%first .and. a%last == b%last
+   end function same_token
+
+   !> Name of a card's keyword as in the table, for `select case`; '' when the card is to be passed over.
+   pure function keyword_name(card) result(name)
+      type(card_t), intent(in) :: card
+      character(len=:), allocatable :: name
+
+      name = trim(card%name)
+   end function keyword_name
+
+   !> The i-th item of a data line; beyond the last one an empty item with its place.
+   pure function line_item(deck, line, i) result(token)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: i
+      type(token_t) :: token
+
+      if (i <= line%n_tokens) then
+         token = deck%tokens(line%first_token + i - 1)
+      else
+         token = last_item(deck, line)
+         token%column = token%column + token%last - token%first + 1
+         token%first = token%last + 1
+         token%last = token%first - 1
+      end if
+   end function line_item
+
+   pure function last_item(deck, line) result(token)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(token_t) :: token
+
+      token = deck%tokens(line%first_token + line%n_tokens - 1)
+   end function last_item
+
+   !> The line's number in reading order, included files in their place.
+   pure integer(ip) function reading_order(deck, source, line) result(order)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: source, line
+      integer(ip) :: i
+
+      order = deck%sources(source)%order + line
+      do i = source + 1, deck%n_sources
+         if (deck%sources(i)%parent /= source) cycle
+         if (deck%sources(i)%include_line < line) order = order + deck%sources(i)%n_lines
+      end do
+   end function reading_order
+
+   !> The whole line of the deck in which an item stands.
+   pure function source_line(deck, token) result(line)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=:), allocatable :: line
+      integer(ip) :: first, length
+
+      first = token%first - token%column + 1
+      associate (text => deck%sources(token%source)%text)
+         if (first > len(text)) then
+            line = ''
+            return
+         end if
+         length = scan(text(first:), LINE_FEED) - 1
+         if (length < 0) length = len(text) - first + 1
+         if (length > 0) then
+            if (text(first + length - 1:first + length - 1) == CARRIAGE_RETURN) length = length - 1
+         end if
+         line = text(first:first + length - 1)
+      end associate
+   end function source_line
+
+   !> An empty deck, with room to grow.
+   subroutine allocate_deck(deck)
+      type(deck_t), intent(inout) :: deck
+
+      allocate (deck%sources(4), deck%cards(64), deck%lines(256), deck%tokens(1024), deck%parameters(16))
+   end subroutine allocate_deck
+
+   subroutine append_source(deck, name, text)
+      type(deck_t), intent(inout) :: deck
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(inout) :: text   !< moved into the deck
+      type(source_t), allocatable :: longer(:)
+      integer(ip) :: i
+
+      if (deck%n_sources == size(deck%sources)) then
+         allocate (longer(2*deck%n_sources))
+         do i = 1, deck%n_sources
+            call move_source(deck%sources(i), longer(i))
+         end do
+         call move_alloc(longer, deck%sources)
+      end if
+      deck%n_sources = deck%n_sources + 1
+      deck%sources(deck%n_sources)%name = name
+      call move_alloc(text, deck%sources(deck%n_sources)%text)
+   end subroutine append_source
+
+   !> Moves the text instead of copying it.
+   subroutine move_source(from, to)
+      type(source_t), intent(inout) :: from, to
+
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%text, to%text)
+      to%parent = from%parent
+      to%include_line = from%include_line
+      to%n_lines = from%n_lines
+      to%order = from%order
+   end subroutine move_source
+
+   subroutine append_token(deck, token)
+      type(deck_t), intent(inout) :: deck
+      type(token_t), intent(in) :: token
+      type(token_t), allocatable :: longer(:)
+
+      if (deck%n_tokens == size(deck%tokens)) then
+         allocate (longer(2*deck%n_tokens))
+         longer(:deck%n_tokens) = deck%tokens
+         call move_alloc(longer, deck%tokens)
+      end if
+      deck%n_tokens = deck%n_tokens + 1
+      deck%tokens(deck%n_tokens) = token
+   end subroutine append_token
+
+   !> Appends a data line of no items yet; append_token adds them.
+   subroutine append_line(deck)
+      type(deck_t), intent(inout) :: deck
+      type(data_line_t), allocatable :: longer(:)
+
+      if (deck%n_lines == size(deck%lines)) then
+         allocate (longer(2*deck%n_lines))
+         longer(:deck%n_lines) = deck%lines
+         call move_alloc(longer, deck%lines)
+      end if
+      deck%n_lines = deck%n_lines + 1
+      deck%lines(deck%n_lines) = data_line_t(first_token=deck%n_tokens + 1)
+   end subroutine append_line
+
+   subroutine append_card(deck, card)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(in) :: card
+      type(card_t), allocatable :: longer(:)
+
+      if (deck%n_cards == size(deck%cards)) then
+         allocate (longer(2*deck%n_cards))
+         longer(:deck%n_cards) = deck%cards
+         call move_alloc(longer, deck%cards)
+      end if
+      deck%n_cards = deck%n_cards + 1
+      deck%cards(deck%n_cards) = card
+   end subroutine append_card
+
+   subroutine append_parameter(deck, parameter)
+      type(deck_t), intent(inout) :: deck
+      type(parameter_t), intent(in) :: parameter
+      type(parameter_t), allocatable :: longer(:)
+
+      if (deck%n_parameters == size(deck%parameters)) then
+         allocate (longer(2*deck%n_parameters))
+         longer(:deck%n_parameters) = deck%parameters
+         call move_alloc(longer, deck%parameters)
+      end if
+      deck%n_parameters = deck%n_parameters + 1
+      deck%parameters(deck%n_parameters) = parameter
+   end subroutine append_parameter
+
+end module atrito_deck

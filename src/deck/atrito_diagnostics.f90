@@ -1,0 +1,121 @@
+!> Messages about a place in the deck, docs/user/messages.md.
+module atrito_diagnostics
+   use atrito_kinds, only: ip
+   use atrito_deck, only: deck_t, token_t, token_text, reading_order, source_line
+   use atrito_messages, only: message_t, add_message, has_room, SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
+   use atrito_strings, only: string_t, nearest_names
+   implicit none (type, external)
+   private
+   public :: report_error, report_warning, report_note, report_deck_error
+
+   integer, parameter :: MOST_NEAREST = 3
+   integer, parameter :: LONGEST_TEXT = 240
+   integer, parameter :: SHORT_LIST = 8        !< a list of valid names that is told whole when none of them is near
+
+contains
+
+   !> Reports an error at an item of the deck; it is counted, and reading goes on.
+   subroutine report_error(deck, token, id, text, expected, known, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token                    !< where; the marker stands under it
+      character(len=*), intent(in) :: id                    !< short stable name, docs/user/messages.md
+      character(len=*), intent(in) :: text                  !< what is wrong
+      character(len=*), intent(in), optional :: expected    !< what should be there, with its dimension
+      type(string_t), intent(in), optional :: known(:)      !< valid names: the nearest to the item are told
+      character(len=*), intent(in), optional :: keyword     !< for `atrito help KEYWORD`
+
+      call report(deck, token, SEVERITY_ERROR, id, text, expected, known, keyword)
+   end subroutine report_error
+
+   !> As report_error, a warning.
+   subroutine report_warning(deck, token, id, text, expected, known, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: id, text
+      character(len=*), intent(in), optional :: expected, keyword
+      type(string_t), intent(in), optional :: known(:)
+
+      call report(deck, token, SEVERITY_WARNING, id, text, expected, known, keyword)
+   end subroutine report_warning
+
+   !> As report_error, a note.
+   subroutine report_note(deck, token, id, text, expected, known, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: id, text
+      character(len=*), intent(in), optional :: expected, keyword
+      type(string_t), intent(in), optional :: known(:)
+
+      call report(deck, token, SEVERITY_NOTE, id, text, expected, known, keyword)
+   end subroutine report_note
+
+   !> Reports an error of a file as a whole, without a line.
+   subroutine report_deck_error(deck, id, text, expected, keyword, source)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: id, text
+      integer(ip), intent(in), optional :: source           !< the file; the deck itself when left out
+      character(len=*), intent(in), optional :: expected, keyword
+      type(message_t) :: message
+
+      message%severity = SEVERITY_ERROR
+      message%id = id
+      message%text = text
+      message%file = deck%path
+      if (present(source)) message%file = deck%sources(source)%name
+      if (present(expected)) message%expected = expected
+      if (present(keyword)) message%keyword = keyword
+      call add_message(message)
+   end subroutine report_deck_error
+
+   subroutine report(deck, token, severity, id, text, expected, known, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      integer, intent(in) :: severity
+      character(len=*), intent(in) :: id, text
+      character(len=*), intent(in), optional :: expected, keyword
+      type(string_t), intent(in), optional :: known(:)
+      type(message_t) :: message
+
+      message%severity = severity
+      message%id = id
+      message%text = shortened(text)
+      if (.not. has_room(severity)) then
+         call add_message(message)                          ! it is only counted
+         return
+      end if
+      if (present(expected)) message%expected = expected
+      if (present(keyword)) message%keyword = keyword
+      if (present(known)) call tell_names(message, token_text(deck, token), known)
+      if (token%source > 0) then
+         message%file = deck%sources(token%source)%name
+         message%line = token%line
+         message%column = token%column
+         message%length = max(1, token%last - token%first + 1)
+         message%source = source_line(deck, token)
+         message%order = reading_order(deck, token%source, token%line)
+      else
+         message%file = deck%path
+      end if
+      call add_message(message)
+   end subroutine report
+
+   !> A text that quotes a very long item, without its middle.
+   pure function shortened(text) result(short)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: short
+
+      short = text
+      if (len(text) > LONGEST_TEXT) short = text(:LONGEST_TEXT/2)//'...'//text(len(text) - LONGEST_TEXT/2 + 1:)
+   end function shortened
+
+   !> The nearest names; all of a short list, since it is soon read.
+   subroutine tell_names(message, name, known)
+      type(message_t), intent(inout) :: message
+      character(len=*), intent(in) :: name
+      type(string_t), intent(in) :: known(:)
+
+      message%nearest = nearest_names(name, known, MOST_NEAREST)
+      if (size(message%nearest) == 0 .and. size(known) <= SHORT_LIST) message%known = known
+   end subroutine tell_names
+
+end module atrito_diagnostics

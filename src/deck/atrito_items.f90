@@ -1,0 +1,344 @@
+!> Values of items and options: what the model's constructors ask of a deck. Failures are reported here, at their place.
+module atrito_items
+   use atrito_kinds, only: ip, wp
+   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, is_empty_token, keyword_name, reading_order
+   use atrito_diagnostics, only: report_error
+   use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
+   use atrito_strings, only: string_t, same_name, append_string, to_text, upper_case
+   implicit none (type, external)
+   private
+   public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer
+   public :: parameter_names, index_of_parameter, LONGEST_NAME
+
+   integer, parameter :: LONGEST_NAME = 80
+
+contains
+
+   !> The real value of an item: a number, `<name>` or `-<name>` of a parameter.
+   !> An empty item takes the default, or is an error when there is none. ok: .false. when reported.
+   subroutine get_real(deck, token, what, value, ok, default, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what               !< e.g. 'x coordinate, a real [L]'
+      real(wp), intent(out) :: value
+      logical, intent(out) :: ok
+      real(wp), intent(in), optional :: default
+      character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
+
+      value = 0.0_wp
+      ok = .true.
+      if (is_empty_token(token)) then
+         ok = present(default)
+         if (present(default)) value = default
+         if (.not. ok) call report_error(deck, token, 'E-MISSING', 'a value is missing', expected=what, keyword=keyword)
+         return
+      end if
+      associate (first => token%first, last => token%last)
+         if (is_parameter(deck%sources(token%source)%text(first:last))) then
+            call value_of_parameter(deck, token, what, value, ok, keyword)
+         else
+            call real_of_text(deck, token, deck%sources(token%source)%text(first:last), what, value, ok, keyword)
+         end if
+      end associate
+   end subroutine get_real
+
+   subroutine real_of_text(deck, token, text, what, value, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: text, what
+      real(wp), intent(out) :: value
+      logical, intent(out) :: ok
+      character(len=*), intent(in), optional :: keyword
+      integer :: outcome
+
+      call read_real(text, value, outcome)
+      ok = outcome == NUMBER_OK
+      if (ok) return
+      if (outcome == NUMBER_TOO_LARGE) then
+         call report_error(deck, token, 'E-NUMBER', text//' is too large for a real', expected=what, keyword=keyword)
+      else
+         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not a number", expected=what, keyword=keyword)
+      end if
+   end subroutine real_of_text
+
+   !> The integer value of an item, as get_real. It may not be written as a real; a parameter must be whole.
+   subroutine get_integer(deck, token, what, value, ok, default, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what               !< e.g. 'node number, an integer'
+      integer(ip), intent(out) :: value
+      logical, intent(out) :: ok
+      integer(ip), intent(in), optional :: default
+      character(len=*), intent(in), optional :: keyword
+
+      value = 0
+      ok = .true.
+      if (is_empty_token(token)) then
+         ok = present(default)
+         if (present(default)) value = default
+         if (.not. ok) call report_error(deck, token, 'E-MISSING', 'a value is missing', expected=what, keyword=keyword)
+         return
+      end if
+      associate (first => token%first, last => token%last)
+         if (is_parameter(deck%sources(token%source)%text(first:last))) then
+            call integer_of_parameter(deck, token, what, value, ok, keyword)
+         else
+            call integer_of_text(deck, token, deck%sources(token%source)%text(first:last), what, value, ok, keyword)
+         end if
+      end associate
+   end subroutine get_integer
+
+   subroutine integer_of_text(deck, token, text, what, value, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: text, what
+      integer(ip), intent(out) :: value
+      logical, intent(out) :: ok
+      character(len=*), intent(in), optional :: keyword
+      integer :: outcome
+
+      call read_integer(text, value, outcome)
+      ok = outcome == NUMBER_OK
+      if (ok) return
+      select case (outcome)
+      case (NUMBER_TOO_LARGE)
+         call report_error(deck, token, 'E-NUMBER', text//' is too large for an integer', expected=what, keyword=keyword)
+      case (NUMBER_NOT_INTEGER)
+         call report_error(deck, token, 'E-INTEGER', text//' is a real', expected=what, keyword=keyword)
+      case default
+         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not an integer", expected=what, keyword=keyword)
+      end select
+   end subroutine integer_of_text
+
+   subroutine integer_of_parameter(deck, token, what, value, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what
+      integer(ip), intent(out) :: value
+      logical, intent(out) :: ok
+      character(len=*), intent(in), optional :: keyword
+      real(wp) :: x
+
+      value = 0
+      call value_of_parameter(deck, token, what, x, ok, keyword)
+      if (.not. ok) return
+      ok = abs(x) <= real(huge(value), wp)
+      if (ok) ok = abs(x - anint(x)) <= 0.0_wp
+      if (ok) then
+         value = nint(x, ip)
+      else
+         call report_error(deck, token, 'E-INTEGER', token_text(deck, token)//' is '//to_text(x)//', not an integer', &
+                           expected=what, keyword=keyword)
+      end if
+   end subroutine integer_of_parameter
+
+   !> Begins like a parameter; value_of_parameter checks the rest.
+   pure logical function is_parameter(text)
+      character(len=*), intent(in) :: text
+
+      is_parameter = text(1:1) == '<'
+      if (len(text) > 1 .and. .not. is_parameter) is_parameter = text(1:2) == '-<'
+   end function is_parameter
+
+   subroutine value_of_parameter(deck, token, what, value, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what
+      real(wp), intent(out) :: value
+      logical, intent(out) :: ok
+      character(len=*), intent(in), optional :: keyword
+      character(len=:), allocatable :: text
+      type(token_t) :: place
+      integer(ip) :: i, first
+
+      value = 0.0_wp
+      text = token_text(deck, token)
+      first = merge(3, 2, text(1:1) == '-')
+      ok = len(text) > first .and. text(len(text):) == '>'
+      if (.not. ok) then
+         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <name> of a parameter", &
+                           expected=what, keyword=keyword)
+         return
+      end if
+      place = token
+      place%column = token%column + first - 1
+      place%first = token%first + first - 1
+      place%last = token%last - 1
+      call find_parameter(deck, place, i, what)
+      ok = i > 0
+      if (.not. ok) return
+      ok = deck%parameters(i)%known      ! if not, its definition is reported
+      value = deck%parameters(i)%value
+      if (first == 3) value = -value
+   end subroutine value_of_parameter
+
+   !> Index of the parameter that an item names, 0 when there is none before this place (reported).
+   subroutine find_parameter(deck, place, i, what)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      integer(ip), intent(out) :: i
+      character(len=*), intent(in) :: what
+      character(len=:), allocatable :: name
+
+      name = token_text(deck, place)
+      i = index_of_parameter(deck, name)
+      if (i == 0) then
+         call report_error(deck, place, 'E-PARAMETER', 'unknown parameter '//name, expected=what, &
+                           known=parameter_names(deck), keyword='PARAMETER')
+         return
+      end if
+      associate (parameter => deck%parameters(i))
+         if (parameter%order < reading_order(deck, place%source, place%line)) return
+         call report_error(deck, place, 'E-PARAMETER', 'parameter '//name//' is used before its definition in '// &
+                           deck%sources(parameter%place%source)%name//':'//to_text(parameter%place%line), expected=what, &
+                           keyword='PARAMETER')
+      end associate
+      i = 0
+   end subroutine find_parameter
+
+   !> Index of a parameter, 0 when there is none of this name.
+   pure integer(ip) function index_of_parameter(deck, name) result(i)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: name
+
+      do i = deck%n_parameters, 1, -1
+         if (same_name(deck%parameters(i)%name, name)) return
+      end do
+      i = 0
+   end function index_of_parameter
+
+   !> Names of the deck's parameters in the order of their definition.
+   function parameter_names(deck) result(names)
+      type(deck_t), intent(in) :: deck
+      type(string_t), allocatable :: names(:)
+      integer(ip) :: i
+
+      allocate (names(0))
+      do i = 1, deck%n_parameters
+         call append_string(names, deck%parameters(i)%name)
+      end do
+   end function parameter_names
+
+   !> An item that is a name: not empty, of at most 80 characters.
+   subroutine get_name(deck, token, what, name, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what               !< e.g. 'name of a node set'
+      character(len=:), allocatable, intent(out) :: name !< as written, without quotes; names are without case
+      logical, intent(out) :: ok
+      character(len=*), intent(in), optional :: keyword
+
+      name = token_text(deck, token)
+      ok = len(name) > 0 .and. len(name) <= LONGEST_NAME
+      if (len(name) == 0) then
+         call report_error(deck, token, 'E-MISSING', 'a name is missing', expected=what, keyword=keyword)
+      else if (.not. ok) then
+         call report_error(deck, token, 'E-NAME', 'a name of '//to_text(int(len(name), ip))//' characters', &
+                           expected=what//', of at most '//to_text(int(LONGEST_NAME, ip))//' characters', keyword=keyword)
+      end if
+   end subroutine get_name
+
+   !> The option of a card by its name in the table.
+   pure subroutine find_option(deck, card, name, option, found)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      type(option_t), intent(out) :: option
+      logical, intent(out) :: found
+      integer :: i
+
+      found = .false.
+      if (card%keyword < 1) return
+      do i = 1, size(card%options)
+         if (card%options(i)%spec == 0) cycle
+         found = deck%keywords(card%keyword)%options(card%options(i)%spec)%name == name
+         if (found) then
+            option = card%options(i)
+            return
+         end if
+      end do
+   end subroutine find_option
+
+   pure logical function has_option(deck, card, name)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      type(option_t) :: option
+
+      call find_option(deck, card, name, option, has_option)
+   end function has_option
+
+   !> The value of an option as written, without quotes; '' when it is not given. place: where, for messages.
+   pure subroutine option_text(deck, card, name, text, found, place)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(out) :: text
+      logical, intent(out) :: found
+      type(token_t), intent(out), optional :: place      !< the value, or the keyword when not found
+      type(option_t) :: option
+
+      text = ''
+      if (present(place)) place = card%place
+      call find_option(deck, card, name, option, found)
+      if (found) found = option%has_value
+      if (.not. found) return
+      text = token_text(deck, option%value)
+      if (present(place)) place = option%value
+   end subroutine option_text
+
+   !> The word chosen by an option, in capitals; its default in the table when it is not given. An option that may stand alone
+   !> (NLGEOM) is then its first word.
+   pure function option_word(deck, card, name) result(word)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: word
+      logical :: found
+      integer :: i
+
+      call option_text(deck, card, name, word, found)
+      word = upper_case(word)
+      if (found .or. card%keyword < 1) return
+      associate (options => deck%keywords(card%keyword)%options)
+         do i = 1, size(options)
+            if (options(i)%name /= name) cycle
+            word = options(i)%default
+            if (has_option(deck, card, name) .and. size(options(i)%choices) > 0) word = options(i)%choices(1)%name
+         end do
+      end associate
+   end function option_word
+
+   !> The real value of an option. found: it is given and is a real; otherwise value is untouched (and any fault reported).
+   subroutine option_real(deck, card, name, what, value, found)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name, what
+      real(wp), intent(inout) :: value
+      logical, intent(out) :: found
+      type(option_t) :: option
+      real(wp) :: x
+
+      call find_option(deck, card, name, option, found)
+      if (.not. found) return
+      call get_real(deck, option%value, what, x, found, keyword=keyword_name(card))
+      if (found) value = x
+   end subroutine option_real
+
+   !> The integer value of an option, as option_real.
+   subroutine option_integer(deck, card, name, what, value, found)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name, what
+      integer(ip), intent(inout) :: value
+      logical, intent(out) :: found
+      type(option_t) :: option
+      integer(ip) :: i
+
+      call find_option(deck, card, name, option, found)
+      if (.not. found) return
+      call get_integer(deck, option%value, what, i, found, keyword=keyword_name(card))
+      if (found) value = i
+   end subroutine option_integer
+
+end module atrito_items

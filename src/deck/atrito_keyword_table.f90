@@ -1,0 +1,118 @@
+!> The one table of all keywords that the program knows.
+module atrito_keyword_table
+   use atrito_keyword, only: keyword_t, choice_t, option_spec_t
+   use atrito_mesh_keywords, only: define_mesh_keywords
+   use atrito_scene_keywords, only: define_scene_keywords
+   use atrito_step_keywords, only: define_step_keywords, define_harmless_keywords
+   use atrito_strings, only: string_t, append_string, upper_case
+   implicit none (type, external)
+   private
+   public :: keyword_table, find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, packed
+
+contains
+
+   !> The table, in the order of the manual.
+   function keyword_table() result(table)
+      type(keyword_t), allocatable :: table(:)
+      type(keyword_t), allocatable :: mesh(:), scene(:), step(:), harmless(:)
+      integer :: a, b, c
+
+      call define_mesh_keywords(mesh)
+      call define_scene_keywords(scene)
+      call define_step_keywords(step)
+      call define_harmless_keywords(harmless)
+      a = size(mesh)
+      b = a + size(scene)
+      c = b + size(step)
+      allocate (table(c + size(harmless)))
+      table(:a) = mesh
+      table(a + 1:b) = scene
+      table(b + 1:c) = step
+      table(c + 1:) = harmless
+   end function keyword_table
+
+   !> A keyword without its blanks and in capitals: they do not matter (`*ENDSTEP`).
+   pure function packed(name) result(word)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: word
+      character(len=len(name)) :: capitals
+      integer :: i, n
+
+      capitals = upper_case(name)
+      n = 0
+      do i = 1, len(name)
+         if (capitals(i:i) == ' ' .or. capitals(i:i) == achar(9)) cycle
+         n = n + 1
+         capitals(n:n) = capitals(i:i)
+      end do
+      word = capitals(:n)
+   end function packed
+
+   !> Index of a keyword, 0 when it is unknown.
+   pure integer function find_keyword(table, name) result(i)
+      type(keyword_t), intent(in) :: table(:)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: word
+
+      word = packed(name)
+      do i = size(table), 1, -1
+         if (packed(table(i)%name) == word) return
+      end do
+   end function find_keyword
+
+   !> Index of an option of a keyword, 0 when it is unknown.
+   pure integer function find_option_spec(keyword, name) result(i)
+      type(keyword_t), intent(in) :: keyword
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: word
+
+      word = packed(name)
+      do i = size(keyword%options), 1, -1
+         if (packed(keyword%options(i)%name) == word) return
+      end do
+   end function find_option_spec
+
+   !> Index of a word among choices, 0 when it is none of them.
+   pure integer function find_choice(choices, word) result(i)
+      type(choice_t), intent(in) :: choices(:)
+      character(len=*), intent(in) :: word
+
+      do i = size(choices), 1, -1
+         if (packed(choices(i)%name) == packed(word)) return
+      end do
+   end function find_choice
+
+   pure function keyword_names(table) result(names)
+      type(keyword_t), intent(in) :: table(:)
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(table)
+         call append_string(names, table(i)%name)
+      end do
+   end function keyword_names
+
+   pure function option_names(options) result(names)
+      type(option_spec_t), intent(in) :: options(:)
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(options)
+         if (.not. options(i)%harmless) call append_string(names, options(i)%name)
+      end do
+   end function option_names
+
+   pure function choice_names(choices) result(names)
+      type(choice_t), intent(in) :: choices(:)
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(choices)
+         if (choices(i)%built) call append_string(names, choices(i)%name)
+      end do
+   end function choice_names
+
+end module atrito_keyword_table

@@ -1,0 +1,246 @@
+!> Definitions of the keywords that make meshes, sets and surfaces.
+module atrito_mesh_keywords
+   use atrito_keyword, only: keyword_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, LEVEL_MODEL, &
+                             LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_FILE, &
+                             KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
+   implicit none (type, external)
+   private
+   public :: define_mesh_keywords
+
+   character(len=*), parameter :: ELEMENT_TYPES = 'CPE4 CPS4 -CPE9+ -CPS9+'
+
+contains
+
+   subroutine define_mesh_keywords(table)
+      type(keyword_t), allocatable, intent(out) :: table(:)
+
+      allocate (table(13))
+      call define_heading(table(1))
+      call define_include(table(2))
+      call define_parameter(table(3))
+      call define_node(table(4))
+      call define_ngen(table(5))
+      call define_nfill(table(6))
+      call define_nset(table(7))
+      call define_element(table(8))
+      call define_elgen(table(9))
+      call define_elset(table(10))
+      call define_block(table(11))
+      call define_surface(table(12))
+      call define_rigid_body(table(13))
+   end subroutine define_mesh_keywords
+
+   subroutine define_heading(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'HEADING', LEVEL_MODEL, 'title of the deck', &
+                          doc='The title stands in the listing and at the top of every table.')
+      call add_form(k, 'the title, free text', 0, ANY_NUMBER)
+      call add_item(k, 'text', KIND_TEXT, 'a line of the title', required=.false.)
+      call add_example(k, '*HEADING|Plate on its support, units kN and m')
+   end subroutine define_heading
+
+   subroutine define_include(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'INCLUDE', LEVEL_BOTH, 'reads another file in this place', &
+                          doc='The file may begin with data lines of the keyword before. Files may include others, 20 deep.')
+      call add_option(k, 'INPUT', KIND_FILE, 'the file, relative to the one that includes it', required=.true.)
+      call add_example(k, '*INCLUDE, INPUT=mesh/plate.inp')
+   end subroutine define_include
+
+   subroutine define_parameter(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'PARAMETER', LEVEL_BOTH, 'named numbers, set from the command line by --set', &
+                          doc='Stands before the first use. Expressions know + - * / ** ( ) sqrt abs exp log sin cos tan atan '// &
+                          'min max pi and the parameters defined earlier; all is real, 1/2 is 0.5. A data item or the value of '// &
+                          'an option takes a parameter as <name> or -<name>. Defined twice is an error.')
+      call add_form(k, 'one parameter a line', 1, ANY_NUMBER)
+      call add_item(k, 'name = expression', KIND_TEXT, 'letters, digits and underscores, a letter first')
+      call add_example(k, '*PARAMETER|q = 1000|eps = 4e-4*q|*DSLOAD|plate-TOP, P, <q>')
+   end subroutine define_parameter
+
+   subroutine define_node(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'NODE', LEVEL_MODEL, 'nodes by number and coordinates', &
+                          doc='A number given twice is an error; a node in no element has no unknowns.')
+      call add_option(k, 'NSET', KIND_NAME, 'puts these nodes into a node set')
+      call add_form(k, 'one node a line', 1, ANY_NUMBER)
+      call add_item(k, 'id', KIND_ID, 'number of the node, positive')
+      call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
+      call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
+      call add_item(k, 'z', KIND_REAL, 'coordinate, must be 0', dimension='L', default='0')
+      call add_item(k, 'further', KIND_REAL, 'of other programs', required=.false., repeats=.true., harmless=.true.)
+      call add_example(k, '*NODE, NSET=corners|1, 0., 0.|2, 1.5, 0.')
+   end subroutine define_node
+
+   subroutine define_ngen(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'NGEN', LEVEL_MODEL, 'nodes evenly spaced between two nodes', &
+                          doc='The two nodes must be defined before; the new nodes lie on the straight line between them.')
+      call add_option(k, 'NSET', KIND_NAME, 'puts the end nodes and the new ones into a node set')
+      call add_option(k, 'LINE', KIND_WORD, 'shape of the line', choices='P -C')
+      call add_form(k, 'one row of nodes a line', 1, ANY_NUMBER)
+      call add_item(k, 'first', KIND_ID, 'number of the first node')
+      call add_item(k, 'last', KIND_ID, 'number of the last node')
+      call add_item(k, 'increment', KIND_INTEGER, 'of the numbers between them', default='1')
+      call add_example(k, '*NGEN, NSET=bottom|1, 16, 1')
+   end subroutine define_ngen
+
+   subroutine define_nfill(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'NFILL', LEVEL_MODEL, 'nodes between two node sets', &
+                          doc='The k-th node of the first set is joined to the k-th of the second by evenly spaced nodes.')
+      call add_option(k, 'NSET', KIND_NAME, 'puts the nodes of both sets and the new ones into a node set')
+      call add_option(k, 'BIAS', KIND_REAL, 'ratio of neighbouring distances', built=.false.)
+      call add_form(k, 'one area a line', 1, ANY_NUMBER)
+      call add_item(k, 'first set', KIND_NAME, 'node set on one side')
+      call add_item(k, 'second set', KIND_NAME, 'node set on the other side')
+      call add_item(k, 'intervals', KIND_INTEGER, 'number of intervals between the two')
+      call add_item(k, 'increment', KIND_INTEGER, 'of the node numbers from interval to interval', default='1')
+      call add_example(k, '*NFILL, NSET=plate|bottom, top, 5, 100')
+   end subroutine define_nfill
+
+   subroutine define_nset(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'NSET', LEVEL_MODEL, 'names a set of nodes', doc='A set named again grows.')
+      call add_option(k, 'NSET', KIND_NAME, 'name of the set', required=.true.)
+      call add_set_forms(k, 'node')
+      call add_example(k, '*NSET, NSET=base|1, 2, 3, corners|*NSET, NSET=base, GENERATE|10, 20, 2')
+   end subroutine define_nset
+
+   subroutine define_elset(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'ELSET', LEVEL_MODEL, 'names a set of elements', doc='A set named again grows.')
+      call add_option(k, 'ELSET', KIND_NAME, 'name of the set', required=.true.)
+      call add_set_forms(k, 'element')
+      call add_example(k, '*ELSET, ELSET=plate, GENERATE|1, 75')
+   end subroutine define_elset
+
+   subroutine add_set_forms(k, member)
+      type(keyword_t), intent(inout) :: k
+      character(len=*), intent(in) :: member
+
+      call add_option(k, 'GENERATE', KIND_FLAG, 'the data lines are ranges of numbers')
+      call add_option(k, 'INTERNAL', KIND_FLAG, 'mark of a preprocessor', harmless=.true.)
+      call add_option(k, 'UNSORTED', KIND_FLAG, 'sets keep the order of the deck', harmless=.true.)
+      call add_form(k, 'members', 1, ANY_NUMBER, when='-GENERATE')
+      call add_item(k, member, KIND_ID_OR_NAME, 'number of the '//member//', or a set defined earlier', repeats=.true.)
+      call add_form(k, 'ranges, one a line', 1, ANY_NUMBER, when='GENERATE')
+      call add_item(k, 'first', KIND_ID, 'number of the first '//member)
+      call add_item(k, 'last', KIND_ID, 'number of the last '//member)
+      call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next', default='1')
+   end subroutine add_set_forms
+
+   subroutine define_element(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'ELEMENT', LEVEL_MODEL, 'elements by number and nodes', &
+                          doc='Corners counter-clockwise, then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre. CPE is plane '// &
+                          'strain, CPS plane stress; 4 nodes are bilinear, 9 biquadratic. Faces: S1 = nodes 1-2, S2 = 2-3, '// &
+                          'S3 = 3-4, S4 = 4-1.')
+      call add_option(k, 'TYPE', KIND_WORD, 'type of the elements', required=.true., choices=ELEMENT_TYPES)
+      call add_option(k, 'ELSET', KIND_NAME, 'puts these elements into an element set')
+      call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE4|CPS4')
+      call add_item(k, 'id', KIND_ID, 'number of the element, positive')
+      call add_element_nodes(k, '1234')
+      call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE9|CPS9', built=.false.)
+      call add_item(k, 'id', KIND_ID, 'number of the element, positive')
+      call add_element_nodes(k, '123456789')
+      call add_example(k, '*ELEMENT, TYPE=CPE4, ELSET=plate|1, 1, 2, 102, 101')
+   end subroutine define_element
+
+   subroutine add_element_nodes(k, numbers)
+      type(keyword_t), intent(inout) :: k
+      character(len=*), intent(in) :: numbers
+      integer :: i
+
+      do i = 1, len(numbers)
+         call add_item(k, 'node '//numbers(i:i), KIND_ID, merge('corner  ', 'mid-side', i <= 4))
+      end do
+   end subroutine add_element_nodes
+
+   subroutine define_elgen(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'ELGEN', LEVEL_MODEL, 'repeats an element in a row, and the row', &
+                          doc='The new elements have the type of the master element.')
+      call add_option(k, 'ELSET', KIND_NAME, 'puts the master element and the new ones into an element set')
+      call add_form(k, 'one master element a line', 1, ANY_NUMBER)
+      call add_item(k, 'master', KIND_ID, 'number of an element defined before')
+      call add_item(k, 'n', KIND_INTEGER, 'elements in the row, the master counted')
+      call add_item(k, 'node step', KIND_INTEGER, 'of the node numbers along the row', default='1')
+      call add_item(k, 'element step', KIND_INTEGER, 'of the element numbers along the row', default='1')
+      call add_item(k, 'rows', KIND_INTEGER, 'number of rows, the first counted', default='1')
+      call add_item(k, 'node step of rows', KIND_INTEGER, 'of the node numbers from row to row', default='1')
+      call add_item(k, 'element step of rows', KIND_INTEGER, 'of the element numbers from row to row', default='1')
+      call add_example(k, '*ELGEN, ELSET=plate|1, 15, 1, 1, 5, 100, 15')
+   end subroutine define_elgen
+
+   subroutine define_block(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'BLOCK', LEVEL_MODEL, 'a meshed quadrilateral with its sets and surfaces', own=.true., &
+                          doc='Numbers follow the greatest so far, row by row from BOTTOM, the side of the first two corners. '// &
+                          'Makes the node set <elset>, and the node sets and surfaces <elset>-BOTTOM, -RIGHT, -TOP and -LEFT.')
+      call add_option(k, 'TYPE', KIND_WORD, 'type of the elements', required=.true., choices=ELEMENT_TYPES)
+      call add_option(k, 'ELSET', KIND_NAME, 'name of the block', required=.true.)
+      call add_option(k, 'NX', KIND_INTEGER, 'elements along BOTTOM', required=.true.)
+      call add_option(k, 'NY', KIND_INTEGER, 'elements along LEFT', required=.true.)
+      call add_option(k, 'MERGE', KIND_NAME, 'block with which it shares the nodes that coincide within 1e-6 of an edge')
+      call add_form(k, 'the four corners, counter-clockwise', 4, 4)
+      call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
+      call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
+      call add_form(k, 'grading', 0, 1, word='GRADE')
+      call add_item(k, 'rx', KIND_REAL, 'last over first element length along BOTTOM', dimension='-')
+      call add_item(k, 'ry', KIND_REAL, 'last over first element length along LEFT', dimension='-')
+      call add_form(k, 'inner break points along BOTTOM', 0, 1, word='X')
+      call add_item(k, 'x1', KIND_REAL, 'rising, between 0 and 1; NX - 1 of them', dimension='-', repeats=.true.)
+      call add_form(k, 'inner break points along LEFT', 0, 1, word='Y')
+      call add_item(k, 'y1', KIND_REAL, 'rising, between 0 and 1; NY - 1 of them', dimension='-', repeats=.true.)
+      call add_example(k, '*BLOCK, TYPE=CPE4, ELSET=plate, NX=15, NY=5|0.0, 0.0|1.5, 0.0|1.5, 0.5|0.0, 0.5')
+   end subroutine define_block
+
+   subroutine define_surface(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'SURFACE', LEVEL_MODEL, 'names a surface: faces of elements, or a drawn line', &
+                          doc='Over a set, face Sn of each of its elements; without a face, all outer faces. A face inside the '// &
+                          'mesh is an error. The outward normal of a drawn line is its direction of travel turned by +90 '// &
+                          'degrees: a floor drawn from left to right faces up.')
+      call add_option(k, 'NAME', KIND_NAME, 'name of the surface', required=.true.)
+      call add_option(k, 'TYPE', KIND_WORD, 'kind of surface', default='ELEMENT', choices='ELEMENT SEGMENTS')
+      call add_option(k, 'INTERNAL', KIND_FLAG, 'mark of a preprocessor', harmless=.true.)
+      call add_form(k, 'faces', 1, ANY_NUMBER, when='TYPE=ELEMENT')
+      call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
+      call add_word_item(k, 'face', 'S1 S2 S3 S4', 'face of each element; all outer faces when left out', required=.false.)
+      call add_form(k, 'where the line begins', 1, 1, when='TYPE=SEGMENTS', word='START')
+      call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
+      call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
+      call add_form(k, 'a straight segment', 1, ANY_NUMBER, when='TYPE=SEGMENTS', word='LINE')
+      call add_item(k, 'x', KIND_REAL, 'coordinate of its end', dimension='L')
+      call add_item(k, 'y', KIND_REAL, 'coordinate of its end', dimension='L')
+      call add_form(k, 'an arc', 0, ANY_NUMBER, when='TYPE=SEGMENTS', word='CIRCL', built=.false.)
+      call add_item(k, 'x', KIND_REAL, 'coordinate of its end', dimension='L')
+      call add_item(k, 'y', KIND_REAL, 'coordinate of its end', dimension='L')
+      call add_item(k, 'xc', KIND_REAL, 'coordinate of its centre', dimension='L')
+      call add_item(k, 'yc', KIND_REAL, 'coordinate of its centre', dimension='L')
+      call add_example(k, '*SURFACE, NAME=sole|plate, S1|*SURFACE, NAME=floor, TYPE=SEGMENTS|START, -1., 0.|LINE, 2., 0.')
+   end subroutine define_surface
+
+   subroutine define_rigid_body(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'RIGID BODY', LEVEL_MODEL, 'makes a drawn surface a fixed rigid body')
+      call add_option(k, 'ANALYTICAL SURFACE', KIND_NAME, 'a surface of TYPE=SEGMENTS', required=.true.)
+      call add_option(k, 'REF NODE', KIND_NAME, 'the body is fixed', harmless=.true.)
+      call add_example(k, '*RIGID BODY, ANALYTICAL SURFACE=floor')
+   end subroutine define_rigid_body
+
+end module atrito_mesh_keywords

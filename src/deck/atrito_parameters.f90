@@ -1,0 +1,197 @@
+!> `*PARAMETER` and `--set`.
+module atrito_parameters
+   use atrito_kinds, only: ip, wp
+   use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, reading_order
+   use atrito_diagnostics, only: report_error
+   use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name, &
+                                 reserved_names
+   use atrito_items, only: index_of_parameter, parameter_names, LONGEST_NAME
+   use atrito_lexer, only: find_equals, trim_place
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
+   use atrito_strings, only: string_t, append_string, same_name, nearest_names, join, to_text
+   implicit none (type, external)
+   private
+   public :: settings_t, read_settings, define_parameter, check_settings
+
+   !> Values that override parameters.
+   type :: settings_t
+      type(string_t), allocatable :: names(:)
+      real(wp), allocatable :: values(:)
+   end type settings_t
+
+   integer, parameter :: MOST_NEAREST = 3
+
+contains
+
+   !> Reads the settings of the command line; of several for one name the last counts.
+   !> status: STATUS_USAGE for one that is not NAME=VALUE.
+   subroutine read_settings(list, settings, status)
+      type(string_t), intent(in) :: list(:)            !< 'NAME=VALUE', VALUE an expression of numbers
+      type(settings_t), intent(out) :: settings
+      type(status_t), intent(out) :: status
+      type(string_t) :: none(0)
+      type(expression_fault_t) :: fault
+      character(len=:), allocatable :: name
+      integer :: i, equals
+
+      allocate (settings%names(0), settings%values(size(list)))
+      do i = 1, size(list)
+         equals = index(list(i)%s, '=')
+         name = trim(adjustl(list(i)%s(:max(equals - 1, 0))))
+         if (.not. is_name(name)) then
+            call set_status(status, STATUS_USAGE, '--set '//list(i)%s//': NAME=VALUE is expected')
+            return
+         end if
+         call append_string(settings%names, name)
+         call evaluate_expression(list(i)%s(equals + 1:), none, [real(wp) ::], settings%values(i), fault)
+         if (allocated(fault%text)) then
+            call set_status(status, STATUS_USAGE, '--set '//list(i)%s//': '//fault%text)
+            return
+         end if
+      end do
+   end subroutine read_settings
+
+   !> Defines the parameter of a line `name = expression`.
+   subroutine define_parameter(deck, token, settings)
+      type(deck_t), intent(inout) :: deck
+      type(token_t), intent(in) :: token               !< the whole line
+      type(settings_t), intent(in) :: settings
+      type(parameter_t) :: parameter
+      type(token_t) :: name, expression
+      integer(ip) :: equals
+      logical :: ok
+
+      equals = find_equals(deck%sources(token%source)%text, token%first, token%last)
+      if (equals == 0) then
+         call report_error(deck, token, 'E-PARAMETER', 'a parameter without a value', expected='name = expression', &
+                           keyword='PARAMETER')
+         return
+      end if
+      name = part_of(deck, token, token%first, equals - 1)
+      expression = part_of(deck, token, equals + 1, token%last)
+      parameter%name = deck%sources(token%source)%text(name%first:name%last)
+      call check_name(deck, name, parameter%name, ok)
+      if (.not. ok) return
+      parameter%place = name
+      parameter%order = reading_order(deck, token%source, token%line)
+      call apply_settings(settings, parameter)
+      if (.not. parameter%known) call evaluate(deck, expression, parameter%value, parameter%known)
+      call append_parameter(deck, parameter)
+   end subroutine define_parameter
+
+   !> The last setting of a name counts.
+   pure subroutine apply_settings(settings, parameter)
+      type(settings_t), intent(in) :: settings
+      type(parameter_t), intent(inout) :: parameter
+      integer :: i
+
+      do i = 1, size(settings%names)
+         if (.not. same_name(settings%names(i)%s, parameter%name)) cycle
+         parameter%known = .true.
+         parameter%value = settings%values(i)
+      end do
+   end subroutine apply_settings
+
+   !> The item at some characters of another one, without the blanks round them.
+   pure function part_of(deck, token, first, last) result(part)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      integer(ip), intent(in) :: first, last
+      type(token_t) :: part
+
+      part = token
+      part%first = first
+      part%last = last
+      call trim_place(deck%sources(token%source)%text, part%first, part%last)
+      part%column = token%column + part%first - token%first
+   end function part_of
+
+   subroutine check_name(deck, place, name, ok)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      character(len=*), intent(in) :: name
+      logical, intent(out) :: ok
+      integer(ip) :: i
+
+      ok = .false.
+      i = index_of_parameter(deck, name)
+      if (.not. is_name(name) .or. len(name) > LONGEST_NAME) then
+         call report_error(deck, place, 'E-PARAMETER', "'"//name//"' cannot be the name of a parameter", &
+                           expected='letters, digits and underscores, a letter first, at most '// &
+                           to_text(int(LONGEST_NAME, ip))//' characters', keyword='PARAMETER')
+      else if (is_reserved_name(name)) then
+         call report_error(deck, place, 'E-PARAMETER', name//' is a name of the expressions themselves', &
+                           expected='another name', keyword='PARAMETER')
+      else if (i > 0) then
+         call report_error(deck, place, 'E-PARAMETER', 'parameter '//name//' is defined twice', expected='one definition; '// &
+                           'the first is in '//deck%sources(deck%parameters(i)%place%source)%name//':'// &
+                           to_text(deck%parameters(i)%place%line), keyword='PARAMETER')
+      else
+         ok = .true.
+      end if
+   end subroutine check_name
+
+   !> The value of an expression of earlier parameters. known: .false. when it has none; that is reported, except when it
+   !> uses a parameter that has none itself.
+   subroutine evaluate(deck, expression, value, known)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      real(wp), intent(out) :: value
+      logical, intent(out) :: known
+      type(expression_fault_t) :: fault
+      type(token_t) :: place
+      type(string_t), allocatable :: names(:)
+      real(wp), allocatable :: values(:)
+
+      call collect_known(deck, names, values)
+      call evaluate_expression(deck%sources(expression%source)%text(expression%first:expression%last), names, values, value, &
+                               fault)
+      known = .not. allocated(fault%text)
+      if (known) return
+      place = expression
+      place%first = expression%first + fault%first - 1
+      place%last = min(expression%last, expression%first + fault%last - 1)
+      place%column = expression%column + fault%first - 1
+      if (.not. fault%unknown_name) then
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword='PARAMETER', &
+                           expected='numbers, earlier parameters, + - * / ** ( ), functions')
+      else if (index_of_parameter(deck, deck%sources(place%source)%text(place%first:place%last)) == 0) then
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword='PARAMETER', &
+                           known=[parameter_names(deck), reserved_names()], expected='an earlier parameter, a function or pi')
+      end if
+   end subroutine evaluate
+
+   subroutine collect_known(deck, names, values)
+      type(deck_t), intent(in) :: deck
+      type(string_t), allocatable, intent(out) :: names(:)
+      real(wp), allocatable, intent(out) :: values(:)
+      integer(ip) :: i
+
+      allocate (names(0), values(0))
+      do i = 1, deck%n_parameters
+         if (.not. deck%parameters(i)%known) cycle
+         call append_string(names, deck%parameters(i)%name)
+         values = [values, deck%parameters(i)%value]
+      end do
+   end subroutine collect_known
+
+   !> status: STATUS_USAGE when a setting names no parameter of the deck; tells those that it has.
+   subroutine check_settings(deck, settings, status)
+      type(deck_t), intent(in) :: deck
+      type(settings_t), intent(in) :: settings
+      type(status_t), intent(inout) :: status
+      type(string_t), allocatable :: near(:)
+      character(len=:), allocatable :: text
+      integer :: i
+
+      do i = 1, size(settings%names)
+         if (index_of_parameter(deck, settings%names(i)%s) > 0) cycle
+         text = '--set '//settings%names(i)%s//': '//deck%path//' has no such parameter'
+         near = nearest_names(settings%names(i)%s, parameter_names(deck), MOST_NEAREST)
+         if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
+         if (deck%n_parameters > 0) text = text//'; it has: '//join(parameter_names(deck), ', ')
+         if (is_ok(status)) call set_status(status, STATUS_USAGE, text)
+      end do
+   end subroutine check_settings
+
+end module atrito_parameters

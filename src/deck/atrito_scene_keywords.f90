@@ -1,0 +1,155 @@
+!> Definitions of the keywords of materials, sections, contact and supports.
+module atrito_scene_keywords
+   use atrito_keyword, only: keyword_t, define_keyword, add_option, add_form, add_item, add_example, LEVEL_MODEL, LEVEL_BOTH, &
+                             ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
+   implicit none (type, external)
+   private
+   public :: define_scene_keywords
+
+contains
+
+   subroutine define_scene_keywords(table)
+      type(keyword_t), allocatable, intent(out) :: table(:)
+
+      allocate (table(9))
+      call define_material(table(1))
+      call define_elastic(table(2))
+      call define_density(table(3))
+      call define_solid_section(table(4))
+      call define_surface_interaction(table(5))
+      call define_surface_behavior(table(6))
+      call define_friction(table(7))
+      call define_contact_pair(table(8))
+      call define_boundary(table(9))
+   end subroutine define_scene_keywords
+
+   subroutine define_material(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'MATERIAL', LEVEL_MODEL, 'begins a material', &
+                          doc='*ELASTIC and *DENSITY follow.')
+      call add_option(k, 'NAME', KIND_NAME, 'name of the material', required=.true.)
+      call add_example(k, '*MATERIAL, NAME=concrete|*ELASTIC|25e6, 0.2')
+   end subroutine define_material
+
+   subroutine define_elastic(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'ELASTIC', LEVEL_MODEL, 'isotropic linear elasticity', parent='MATERIAL')
+      call add_option(k, 'TYPE', KIND_WORD, 'symmetry of the material', default='ISOTROPIC', choices='ISOTROPIC ISO')
+      call add_form(k, 'the constants', 1, 1)
+      call add_item(k, 'E', KIND_REAL, "Young's modulus, > 0", dimension='F/L^2')
+      call add_item(k, 'mu', KIND_REAL, "Poisson's ratio: plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5", dimension='-')
+      call add_example(k, '*ELASTIC|1000., 0.3')
+   end subroutine define_elastic
+
+   subroutine define_density(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'DENSITY', LEVEL_MODEL, 'mass per volume, for the load GRAV', parent='MATERIAL')
+      call add_form(k, 'the constant', 1, 1)
+      call add_item(k, 'density', KIND_REAL, 'mass per volume, >= 0', dimension='F T^2/L^4')
+      call add_example(k, '*DENSITY|2.5')
+   end subroutine define_density
+
+   subroutine define_solid_section(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'SOLID SECTION', LEVEL_MODEL, 'gives elements a material and a thickness', &
+                          doc='Every element has exactly one section.')
+      call add_option(k, 'ELSET', KIND_NAME, 'the elements', required=.true.)
+      call add_option(k, 'MATERIAL', KIND_NAME, 'their material', required=.true.)
+      call add_option(k, 'FORMULATION', KIND_WORD, 'how the stiffness is integrated', own=.true., default='STANDARD', &
+                      choices='STANDARD -BBAR')
+      call add_form(k, 'the thickness', 0, 1)
+      call add_item(k, 'thickness', KIND_REAL, '> 0', dimension='L', default='1')
+      call add_example(k, '*SOLID SECTION, ELSET=plate, MATERIAL=concrete|0.2')
+   end subroutine define_solid_section
+
+   subroutine define_surface_interaction(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'SURFACE INTERACTION', LEVEL_MODEL, 'begins a law of contact', &
+                          doc='*SURFACE BEHAVIOR and *FRICTION follow; without them contact is hard and without friction.')
+      call add_option(k, 'NAME', KIND_NAME, 'name of the law', required=.true.)
+      call add_form(k, 'a thickness, written by preprocessors', 0, 1, harmless=.true.)
+      call add_item(k, 'thickness', KIND_REAL, 'has no effect', dimension='L', required=.false.)
+      call add_example(k, '*SURFACE INTERACTION, NAME=rough|*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD|*FRICTION|0.3')
+   end subroutine define_surface_interaction
+
+   subroutine define_surface_behavior(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'SURFACE BEHAVIOR', LEVEL_MODEL, 'pressure against penetration', parent='SURFACE INTERACTION', &
+                          doc='HARD: no penetration, delta = 0. LINEAR: pressure = slope times penetration. PENALTY: '// &
+                          'pressure = penetration over delta, the penalty parameter of the paper; delta = 0 is HARD.')
+      call add_option(k, 'PRESSURE-OVERCLOSURE', KIND_WORD, 'the law', default='HARD', choices='HARD LINEAR PENALTY+')
+      call add_form(k, 'of LINEAR', 1, 1, when='PRESSURE-OVERCLOSURE=LINEAR')
+      call add_item(k, 'slope', KIND_REAL, 'pressure over penetration, 1/delta, > 0', dimension='F/L^3')
+      call add_item(k, 'further', KIND_REAL, 'of other programs', required=.false., repeats=.true., harmless=.true.)
+      call add_form(k, 'of PENALTY', 1, 1, when='PRESSURE-OVERCLOSURE=PENALTY')
+      call add_item(k, 'delta', KIND_REAL, 'penetration over pressure, >= 0', dimension='L^3/F')
+      call add_example(k, '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=PENALTY|1e-6')
+   end subroutine define_surface_behavior
+
+   subroutine define_friction(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'FRICTION', LEVEL_MODEL, "Coulomb's law, local or the nonlocal one of the paper", &
+                          parent='SURFACE INTERACTION', &
+                          doc='Local: shear = min(stick slope |u_T|, nu p); without a stick slope exact stick. NONLOCAL: '// &
+                          'shear = nu S_rho(p) phi''(|u_T|) with the average S_rho of the pressure and the smoothed phi of '// &
+                          'the paper. nu = 0 is no friction, eps = 0 exact stick, rho = 0 local.')
+      call add_option(k, 'NONLOCAL', KIND_FLAG, 'the law of the paper', own=.true.)
+      call add_option(k, 'KERNEL', KIND_WORD, 'average normalised on the quadrature points, or on the whole line', own=.true., &
+                      default='POINTS', choices='POINTS LINE', needs='NONLOCAL')
+      call add_form(k, 'local', 1, 1, when='-NONLOCAL')
+      call add_item(k, 'nu', KIND_REAL, 'coefficient of friction, >= 0', dimension='-')
+      call add_item(k, 'stick slope', KIND_REAL, 'shear over slip while sticking, > 0; exact stick when left out', &
+                    dimension='F/L^3', required=.false.)
+      call add_form(k, 'nonlocal', 1, 1, when='NONLOCAL')
+      call add_item(k, 'nu', KIND_REAL, 'coefficient of friction, >= 0', dimension='-')
+      call add_item(k, 'eps', KIND_REAL, 'slip up to which phi is smoothed, >= 0', dimension='L')
+      call add_item(k, 'rho', KIND_REAL, 'radius of the average, >= 0', dimension='L')
+      call add_example(k, '*FRICTION, NONLOCAL|0.3, 4e-4, 0.1')
+   end subroutine define_friction
+
+   subroutine define_contact_pair(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'CONTACT PAIR', LEVEL_MODEL, 'two surfaces that may touch', &
+                          doc='The contact points lie on the slave. NODAL: on its nodes, trapezoidal rule. GAUSS: on segments '// &
+                          'cut at the nodes of both sides. MORTAR: the same segments, pressure on the nodes of the slave.')
+      call add_option(k, 'INTERACTION', KIND_NAME, 'the law of contact', required=.true.)
+      call add_option(k, 'QUADRATURE', KIND_WORD, 'where the contact points lie; NODAL when the sides match or the master '// &
+                      'is rigid', own=.true., choices='NODAL -GAUSS -MORTAR')
+      call add_option(k, 'TYPE', KIND_WORD, 'discretisation of other programs', harmless=.true.)
+      call add_option(k, 'SMALL SLIDING', KIND_FLAG, 'sliding is always small', harmless=.true.)
+      call add_form(k, 'one pair a line', 1, ANY_NUMBER)
+      call add_item(k, 'slave', KIND_NAME, 'surface of elements, one connected chain')
+      call add_item(k, 'master', KIND_NAME, 'surface of elements, or of a rigid body')
+      call add_example(k, '*CONTACT PAIR, INTERACTION=rough|plate-BOTTOM, support-TOP')
+   end subroutine define_contact_pair
+
+   subroutine define_boundary(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'BOUNDARY', LEVEL_BOTH, 'prescribed displacements', &
+                          doc='Before *STEP zero values only, which hold in every step. Dof 1 is x and 2 is y; a dof 3 to 6 of '// &
+                          'value 0 is a note. Two different values for one dof in a step are an error.')
+      call add_option(k, 'FUNCTION', KIND_FLAG, 'the value is an expression in x and y', own=.true., built=.false.)
+      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_form(k, 'one support a line', 1, ANY_NUMBER, when='-FUNCTION')
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
+      call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')
+      call add_item(k, 'last dof', KIND_INTEGER, '1 or 2', default='first dof')
+      call add_item(k, 'value', KIND_REAL, 'displacement', dimension='L', default='0')
+      call add_form(k, 'one support a line', 1, ANY_NUMBER, when='FUNCTION', built=.false.)
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
+      call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')
+      call add_item(k, 'last dof', KIND_INTEGER, '1 or 2')
+      call add_item(k, 'value', KIND_TEXT, 'expression in x and y', dimension='L')
+      call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2')
+   end subroutine define_boundary
+
+end module atrito_scene_keywords

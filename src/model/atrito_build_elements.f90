@@ -1,0 +1,255 @@
+!> *ELEMENT and *ELGEN: the elements of the mesh, in the order of the deck, after all nodes.
+module atrito_build_elements
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, get_id, find_one_node, &
+                           find_one_element, has_errors
+   use atrito_id_map, only: find_id
+   use atrito_items, only: get_integer, option_text, option_word
+   use atrito_kinds, only: ip
+   use atrito_mesh, only: add_element, find_element, find_node, Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS
+   use atrito_model, only: model_t
+   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_sets, only: grow_set
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_element_card, read_elgen_card, read_element_type, place_element
+
+   !> One direction of *ELGEN.
+   type :: repeat_t
+      integer(ip) :: n = 1                             !< elements, the first one included
+      integer(ip) :: node_step = 1, element_step = 1   !< of the numbers
+   end type repeat_t
+
+contains
+
+   !> Shape and state of the elements that TYPE= of a card makes.
+   subroutine read_element_type(deck, card, n_nodes, state, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(out) :: n_nodes              !< Q1_NODES or Q2_NODES
+      integer(ip), intent(out) :: state                !< PLANE_STRAIN or PLANE_STRESS
+      logical, intent(out) :: ok                       !< .false.: a type that is not built or unknown, reported by the reader
+
+      n_nodes = Q1_NODES
+      state = PLANE_STRAIN
+      ok = .true.
+      select case (option_word(deck, card, 'TYPE'))
+      case ('CPE4')
+         state = PLANE_STRAIN
+      case ('CPS4')
+         state = PLANE_STRESS
+      case ('CPE9')
+         n_nodes = Q2_NODES
+      case ('CPS9')
+         n_nodes = Q2_NODES
+         state = PLANE_STRESS
+      case default
+         ok = .false.
+      end select
+   end subroutine read_element_type
+
+   !> *ELEMENT: number, nodes.
+   subroutine read_element_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: i, first, n_nodes, state
+      logical :: ok
+
+      first = model%mesh%n_elements + 1
+      associate (card => deck%cards(i_card))
+         call read_element_type(deck, card, n_nodes, state, ok)
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            if (ok .and. deck%lines(i)%ok) then
+               call read_element_line(deck, deck%lines(i), n_nodes, state, model, draft)
+            else
+               call spoil_element(deck, deck%lines(i), draft)
+            end if
+         end do
+         call put_named_set(deck, card, model, [(i, i=first, model%mesh%n_elements)])
+      end associate
+   end subroutine read_element_card
+
+   subroutine read_element_line(deck, line, n_nodes, state, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: n_nodes, state
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: id, nodes(n_nodes), i
+      logical :: good, ok
+
+      call get_id(deck, deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
+      do i = 1, n_nodes
+         call find_one_node(deck, model, draft, line_item(deck, line, i + 1), nodes(i), ok, 'ELEMENT')
+         good = good .and. ok
+         if (ok) good = is_new_corner(deck, line, nodes(:i)) .and. good
+      end do
+      if (good) call place_element(deck, model, draft, id, state, nodes, line%first_token, good, 'ELEMENT')
+      if (.not. good) call spoil_element(deck, line, draft)
+   end subroutine read_element_line
+
+   !> The last of an element's nodes so far is none of the earlier ones.
+   logical function is_new_corner(deck, line, nodes)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: nodes(:)              !< places
+      integer(ip) :: n
+
+      n = size(nodes, kind=ip)
+      is_new_corner = all(nodes(:n - 1) /= nodes(n))
+      if (.not. is_new_corner) call report_error(deck, line_item(deck, line, n + 1), 'E-SHAPE', &
+         'the element has this node twice', expected='different nodes, corners counter-clockwise', keyword='ELEMENT')
+   end function is_new_corner
+
+   !> Adds an element and keeps where it comes from; a number given twice is an error.
+   subroutine place_element(deck, model, draft, id, state, nodes, place, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip), intent(in) :: id                    !< > 0
+      integer(ip), intent(in) :: state                 !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: nodes(:)              !< places
+      integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      type(token_t) :: token, earlier
+      logical :: known
+
+      call add_element(model%mesh, id, state, nodes, known)
+      ok = .not. known
+      if (known) then
+         token = place_token(deck, place)
+         earlier = place_token(deck, draft%element_place(find_element(model%mesh, id)))
+         call report_error(deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice, first in '// &
+                           place_text(deck, earlier, token), expected='an element number that is free', keyword=keyword)
+         return
+      end if
+      call note_place(draft%element_place, model%mesh%n_elements, place)
+      draft%greatest_element = max(draft%greatest_element, id)
+   end subroutine place_element
+
+   !> The set that ELSET= of a card names.
+   subroutine put_named_set(deck, card, model, members)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      integer(ip), intent(in) :: members(:)
+      character(len=:), allocatable :: name
+      logical :: found
+
+      call option_text(deck, card, 'ELSET', name, found)
+      if (found .and. len(name) > 0) call grow_set(model%element_sets, name, members)
+   end subroutine put_named_set
+
+   !> *ELGEN: rows, and rows of rows, of copies of an element.
+   subroutine read_elgen_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(number_list_t) :: members
+      type(repeat_t) :: repeats(3)
+      integer(ip) :: i, k, master, first_new
+      logical :: ok
+
+      associate (card => deck%cards(i_card))
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            if (.not. deck%lines(i)%ok) cycle
+            call find_one_element(deck, model, draft, line_item(deck, deck%lines(i), 1_ip), master, ok, 'ELGEN')
+            if (.not. ok) cycle
+            call read_repeats(deck, deck%lines(i), repeats, ok)
+            if (.not. ok) cycle
+            first_new = model%mesh%n_elements + 1
+            call copy_element(deck, deck%lines(i), model, draft, master, repeats)
+            call add_number(members, master)
+            call add_numbers(members, [(k, k=first_new, model%mesh%n_elements)])
+         end do
+         call put_named_set(deck, card, model, numbers_of(members))
+      end associate
+   end subroutine read_elgen_card
+
+   subroutine read_repeats(deck, line, repeats, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(repeat_t), intent(out) :: repeats(3)
+      logical, intent(out) :: ok
+      integer(ip) :: k, column
+      logical :: good(3)
+
+      ok = .true.
+      do k = 1, 3
+         column = 3*k - 1
+         if (column > line%n_tokens) exit
+         call get_integer(deck, line_item(deck, line, column), 'number of elements, the first included', repeats(k)%n, good(1), &
+                          1_ip, 'ELGEN')
+         call get_integer(deck, line_item(deck, line, column + 1), 'increment of the node numbers', repeats(k)%node_step, &
+                          good(2), 1_ip, 'ELGEN')
+         call get_integer(deck, line_item(deck, line, column + 2), 'increment of the element numbers', &
+                          repeats(k)%element_step, good(3), 1_ip, 'ELGEN')
+         ok = ok .and. all(good)
+         if (.not. good(1) .or. repeats(k)%n > 0) cycle
+         ok = .false.
+         call report_error(deck, line_item(deck, line, column), 'E-VALUE', to_text(repeats(k)%n)//' elements', &
+                           expected='number of elements, the first included: 1 or more', keyword='ELGEN')
+      end do
+   end subroutine read_repeats
+
+   !> Stops at the first copy that cannot be made: the others would fail for the same reason.
+   subroutine copy_element(deck, line, model, draft, master, repeats)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip), intent(in) :: master                !< place
+      type(repeat_t), intent(in) :: repeats(3)
+      integer(ip) :: i, j, k, shift(3)
+      logical :: ok
+
+      do k = 0, repeats(3)%n - 1
+         do j = 0, repeats(2)%n - 1
+            do i = 0, repeats(1)%n - 1
+               shift = [i, j, k]
+               if (all(shift == 0)) cycle
+               call copy_once(deck, line, model, draft, master, sum(shift*repeats%node_step), &
+                              sum(shift*repeats%element_step), ok)
+               if (.not. ok) return
+            end do
+         end do
+      end do
+   end subroutine copy_element
+
+   subroutine copy_once(deck, line, model, draft, master, node_shift, element_shift, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip), intent(in) :: master, node_shift, element_shift
+      logical, intent(out) :: ok
+      integer(ip) :: nodes(model%mesh%shape(master)), id, i
+
+      id = model%mesh%element_id(master) + element_shift
+      nodes = model%mesh%node_id(model%mesh%nodes(:size(nodes), master)) + node_shift
+      do i = 1, size(nodes, kind=ip)
+         ok = find_node(model%mesh, nodes(i)) > 0
+         if (.not. ok) exit
+         nodes(i) = find_node(model%mesh, nodes(i))
+      end do
+      if (.not. ok) then
+         if (has_errors() .and. find_id(draft%spoiled_nodes, nodes(i)) > 0) return
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-NODE', 'node '//to_text(nodes(i))// &
+                           ' of the generated element '//to_text(id)//' does not exist', &
+                           expected='copies whose nodes all exist', keyword='ELGEN')
+      else if (id < 1) then
+         ok = .false.
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-ID', 'the generated element number '//to_text(id)// &
+                           ' is not positive', expected='positive element numbers', keyword='ELGEN')
+      else
+         call place_element(deck, model, draft, id, model%mesh%state(master), nodes, line%first_token, ok, 'ELGEN')
+      end if
+   end subroutine copy_once
+
+end module atrito_build_elements

@@ -1,0 +1,285 @@
+!> *CLOAD, *DLOAD and *DSLOAD.
+module atrito_build_loads
+   use atrito_build_materials, only: SECTION_SPOILED
+   use atrito_deck, only: deck_t, data_line_t, token_t, token_text, line_item, keyword_name
+   use atrito_diagnostics, only: report_error, report_warning, report_note
+   use atrito_draft, only: draft_t, ids_text, find_nodes, find_elements, report_unknown, is_spoiled
+   use atrito_faces, only: is_outer_face
+   use atrito_items, only: get_integer, get_real
+   use atrito_kinds, only: ip, wp
+   use atrito_load_lists, only: add_node_load, add_element_load, trim_node_loads, trim_element_loads
+   use atrito_model, only: model_t, LOAD_PRESSURE, LOAD_BODY, SURFACE_ELEMENTS
+   use atrito_model_names, only: surface_names, find_name
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_numbers, only: read_integer
+   use atrito_strings, only: same_name, to_text, upper_case
+   implicit none (type, external)
+   private
+   public :: build_loads, in_no_element
+
+   integer(ip), parameter :: LAST_DOF = 6              !< of a node in three dimensions: 3..6 do not exist here
+
+contains
+
+   !> All loads of the step.
+   subroutine build_loads(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip) :: i, k
+
+      do i = 1, deck%n_cards
+         associate (card => deck%cards(i))
+            do k = card%first_line, card%first_line + card%n_lines - 1
+               if (.not. deck%lines(k)%ok) cycle
+               select case (keyword_name(card))
+               case ('CLOAD')
+                  call read_cload_line(deck, deck%lines(k), model, draft)
+               case ('DLOAD')
+                  call read_dload_line(deck, deck%lines(k), model, draft)
+               case ('DSLOAD')
+                  call read_dsload_line(deck, deck%lines(k), model, draft)
+               case default
+                  exit
+               end select
+            end do
+         end associate
+      end do
+      call trim_node_loads(model%node_loads)
+      call trim_element_loads(model%element_loads)
+   end subroutine build_loads
+
+   !> The nodes of a list that belong to no element.
+   pure function in_no_element(draft, nodes) result(loose)
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: nodes(:)              !< places
+      logical :: loose(size(nodes))
+
+      loose = draft%around%first(nodes + 1) == draft%around%first(nodes)
+   end function in_no_element
+
+   !> Node or set, dof, force.
+   subroutine read_cload_line(deck, line, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      character(len=*), parameter :: WHAT = 'degree of freedom: 1 (x) or 2 (y)'
+      integer(ip), allocatable :: nodes(:)
+      real(wp) :: force
+      integer(ip) :: dof, i
+      logical :: ok(3)
+
+      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
+      call get_integer(deck, line_item(deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
+      call get_real(deck, line_item(deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
+      if (.not. all(ok(2:))) return
+      if (dof > 2 .and. dof <= LAST_DOF .and. .not. abs(force) > 0.0_wp) then
+         call report_note(deck, line_item(deck, line, 2_ip), 'N-DOF', 'dof '//to_text(dof)// &
+                          ' does not exist in the plane; its force is 0', keyword='CLOAD')
+         return
+      end if
+      if (dof < 1 .or. dof > 2) then
+         call report_error(deck, line_item(deck, line, 2_ip), 'E-DOF', 'dof '//to_text(dof)//' does not exist in the plane', &
+                           expected=WHAT, keyword='CLOAD')
+         return
+      end if
+      if (.not. ok(1)) return
+      if (any(in_no_element(draft, nodes)) .and. abs(force) > 0.0_wp) then
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-NODE', 'node '// &
+                           ids_text(pack(model%mesh%node_id(nodes), in_no_element(draft, nodes)))// &
+                           ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
+         return
+      end if
+      do i = 1, size(nodes, kind=ip)
+         call add_node_load(model%node_loads, nodes(i), dof, force)
+      end do
+      call note_supported(deck, line, model, draft, nodes, dof)
+   end subroutine read_cload_line
+
+   !> A force on a prescribed dof moves nothing.
+   subroutine note_supported(deck, line, model, draft, nodes, dof)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: nodes(:), dof
+      logical :: held(size(nodes))
+
+      held = draft%dof_entry(dof, nodes) > 0
+      if (any(held)) call report_note(deck, line_item(deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)//' of node '// &
+                                      ids_text(pack(model%mesh%node_id(nodes), held))// &
+                                      ' is prescribed: the force goes into the reaction', keyword='CLOAD')
+   end subroutine note_supported
+
+   !> Element or set, label, magnitude[, direction].
+   subroutine read_dload_line(deck, line, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      character(len=:), allocatable :: label
+      integer(ip), allocatable :: elements(:)
+      real(wp) :: magnitude
+      logical :: ok, good
+
+      call find_elements(deck, model, draft, deck%tokens(line%first_token), elements, ok, 'DLOAD')
+      label = upper_case(token_text(deck, line_item(deck, line, 2_ip)))
+      call get_real(deck, line_item(deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
+      ok = ok .and. good
+      select case (label)
+      case ('P1', 'P2', 'P3', 'P4')
+         if (ok) call press_elements(deck, line, model, draft, elements, label, magnitude)
+      case ('BX')
+         if (ok) call pull_elements(model, elements, [magnitude, 0.0_wp])
+      case ('BY')
+         if (ok) call pull_elements(model, elements, [0.0_wp, magnitude])
+      case ('GRAV')
+         call weigh_elements(deck, line, model, draft, elements, magnitude, ok)
+      end select
+   end subroutine read_dload_line
+
+   pure function magnitude_of(label) result(what)
+      character(len=*), intent(in) :: label
+      character(len=:), allocatable :: what
+
+      select case (label(1:1))
+      case ('P')
+         what = 'pressure, positive pushes on the element, a real [F/L^2]'
+      case ('B')
+         what = 'force per volume, a real [F/L^3]'
+      case default
+         what = 'acceleration, a real [L/T^2]'
+      end select
+   end function magnitude_of
+
+   subroutine press_elements(deck, line, model, draft, elements, label, pressure)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: elements(:)
+      character(len=*), intent(in) :: label
+      real(wp), intent(in) :: pressure
+      type(number_list_t) :: inside
+      integer(ip) :: i, face
+      integer :: outcome
+
+      call read_integer(label(2:2), face, outcome)
+      do i = 1, size(elements, kind=ip)
+         call add_element_load(model%element_loads, elements(i), LOAD_PRESSURE, face, [pressure, 0.0_wp])
+         if (.not. is_outer_face(model%mesh, draft%around, elements(i), face)) &
+            call add_number(inside, model%mesh%element_id(elements(i)))
+      end do
+      if (inside%n > 0) call report_warning(deck, line_item(deck, line, 2_ip), 'W-FACE', 'the pressure acts inside the mesh, '// &
+                                            'too, on face '//label(2:2)//' of element '//ids_text(numbers_of(inside)), &
+                                            expected='elements on the outline of the body', keyword='DLOAD')
+   end subroutine press_elements
+
+   pure subroutine pull_elements(model, elements, force)
+      type(model_t), intent(inout) :: model
+      integer(ip), intent(in) :: elements(:)
+      real(wp), intent(in) :: force(2)                 !< per volume [F/L^3]
+      integer(ip) :: i
+
+      do i = 1, size(elements, kind=ip)
+         call add_element_load(model%element_loads, elements(i), LOAD_BODY, 0_ip, force)
+      end do
+   end subroutine pull_elements
+
+   !> GRAV: density times acceleration, along a direction of any length.
+   subroutine weigh_elements(deck, line, model, draft, elements, acceleration, good)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: elements(:)
+      real(wp), intent(in) :: acceleration             !< [L/T^2]
+      logical, intent(in) :: good                      !< elements and acceleration are known
+      character(len=*), parameter :: WHAT = 'direction of gravity, gx, gy, not both 0 [-]'
+      real(wp) :: direction(3), density
+      integer(ip) :: i
+      logical :: ok(3)
+
+      do i = 1, 3
+         call get_real(deck, line_item(deck, line, 3 + i), WHAT, direction(i), ok(i), 0.0_wp, 'DLOAD')
+      end do
+      if (.not. all(ok)) return
+      if (abs(direction(3)) > 0.0_wp) then
+         call report_error(deck, line_item(deck, line, 6_ip), 'E-VALUE', 'the scene is plane: gz is not 0', expected='gz = 0', &
+                           keyword='DLOAD')
+      else if (.not. maxval(abs(direction)) > 0.0_wp) then
+         call report_error(deck, line_item(deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', 'gravity has no direction', &
+                           expected=WHAT, keyword='DLOAD')
+      else if (good) then
+         direction = direction/maxval(abs(direction))
+         direction = direction/norm2(direction)
+         call need_density(deck, line, model, draft, elements)
+         do i = 1, size(elements, kind=ip)
+            density = density_of(model, elements(i))
+            call add_element_load(model%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction(:2))
+         end do
+      end if
+   end subroutine weigh_elements
+
+   pure real(wp) function density_of(model, element) result(density)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: element
+
+      density = 0.0_wp
+      if (model%section_of(element) > 0) density = model%materials(model%sections(model%section_of(element))%material)%density
+   end function density_of
+
+   subroutine need_density(deck, line, model, draft, elements)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: elements(:)
+      integer(ip) :: i, material
+
+      do i = 1, size(elements, kind=ip)
+         if (model%section_of(elements(i)) <= 0) cycle
+         material = model%sections(model%section_of(elements(i)))%material
+         if (model%materials(material)%density > 0.0_wp .or. is_spoiled(draft, model%materials(material)%name)) cycle
+         call report_error(deck, line_item(deck, line, 2_ip), 'E-DENSITY', 'material '//model%materials(material)%name// &
+                           ' has no density', expected='*DENSITY in this material [F T^2/L^4]', keyword='DENSITY')
+         return
+      end do
+   end subroutine need_density
+
+   !> Surface, P, pressure.
+   subroutine read_dsload_line(deck, line, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t) :: token
+      real(wp) :: pressure
+      integer(ip) :: i, s
+      logical :: ok
+
+      token = deck%tokens(line%first_token)
+      call get_real(deck, line_item(deck, line, 3_ip), magnitude_of('P'), pressure, ok, keyword='DSLOAD')
+      s = find_name(surface_names(model), token_text(deck, token))
+      if (s == 0) then
+         call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', surface_names(model), 'DSLOAD')
+         return
+      end if
+      associate (surface => model%surfaces(s))
+         if (surface%kind /= SURFACE_ELEMENTS) then
+            call report_error(deck, token, 'E-SURFACE', 'surface '//surface%name//' is a drawn line, which carries no pressure', &
+                              expected='a surface of TYPE=ELEMENT', keyword='DSLOAD')
+         else if (surface%faces%n == 0 .and. .not. is_spoiled(draft, surface%name)) then
+            call report_error(deck, token, 'E-SURFACE', 'surface '//surface%name//' has no faces: others join it everywhere', &
+                              expected='a surface on the outline of a body', keyword='DSLOAD')
+         end if
+         if (.not. ok) return
+         do i = 1, surface%faces%n
+            call add_element_load(model%element_loads, surface%faces%element(i), LOAD_PRESSURE, surface%faces%face(i), &
+                                  [pressure, 0.0_wp])
+         end do
+      end associate
+   end subroutine read_dsload_line
+
+end module atrito_build_loads

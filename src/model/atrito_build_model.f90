@@ -1,0 +1,137 @@
+!> The deck's meaning: all cards to one model.
+module atrito_build_model
+   use atrito_build_block, only: read_block_card, place_block_elements
+   use atrito_build_contact, only: build_contact
+   use atrito_build_elements, only: read_element_card, read_elgen_card
+   use atrito_build_loads, only: build_loads
+   use atrito_build_materials, only: build_materials
+   use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
+   use atrito_build_requests, only: build_requests
+   use atrito_build_sets, only: try_nset_card, read_nset_card, read_elset_card
+   use atrito_build_supports, only: build_supports
+   use atrito_build_surfaces, only: build_surfaces
+   use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs
+   use atrito_check_mesh, only: check_mesh
+   use atrito_deck, only: deck_t, token_text, line_item, keyword_name
+   use atrito_draft, only: draft_t, prepare_draft, has_errors
+   use atrito_faces, only: list_node_elements
+   use atrito_kinds, only: ip
+   use atrito_mesh, only: trim_mesh
+   use atrito_model, only: model_t
+   use atrito_strings, only: append_string, lower_case
+   implicit none (type, external)
+   private
+   public :: build_model
+
+contains
+
+   !> Builds the model that a deck describes and checks it. All errors go to atrito_messages; the model is whole and sound when
+   !> there are none there, and of no use otherwise.
+   !>
+   !> Cards are read by subject, not by place: a section may stand before the elements of its set. Only nodes, elements and sets
+   !> are made in the order of the deck, since they follow from each other.
+   subroutine build_model(deck, model)
+      type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
+      type(model_t), intent(out) :: model
+      type(draft_t) :: draft
+
+      call prepare_draft(deck, draft)
+      call take_titles(deck, model)
+      call take_parameters(deck, model)
+      call build_nodes(deck, model, draft)
+      call build_elements(deck, model, draft)
+      call trim_mesh(model%mesh)
+      draft%around = list_node_elements(model%mesh)
+      call build_surfaces(deck, model, draft)
+      call build_materials(deck, model, draft)
+      call build_contact(deck, model, draft)
+      call build_supports(deck, model, draft)
+      call build_loads(deck, model, draft)
+      call build_requests(deck, model, draft)
+      call check_mesh(deck, model, draft)
+      call check_surfaces_of_pairs(deck, model, draft)
+      if (.not. has_errors()) call check_points_of_pairs(deck, model, draft)
+   end subroutine build_model
+
+   subroutine take_titles(deck, model)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      integer(ip) :: i, k
+
+      model%deck_path = deck%path
+      model%deck_name = deck%path(index(deck%path, '/', back=.true.) + 1:)
+      k = len(model%deck_name) - len('.inp')
+      if (k > 0) then
+         if (lower_case(model%deck_name(k + 1:)) == '.inp') model%deck_name = model%deck_name(:k)
+      end if
+      allocate (model%heading(0))
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) /= 'HEADING') cycle
+         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
+            call append_string(model%heading, token_text(deck, line_item(deck, deck%lines(k), 1_ip)))
+         end do
+      end do
+   end subroutine take_titles
+
+   subroutine take_parameters(deck, model)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      integer(ip) :: i
+
+      allocate (model%parameters(deck%n_parameters))
+      do i = 1, deck%n_parameters
+         model%parameters(i)%name = deck%parameters(i)%name
+         model%parameters(i)%value = deck%parameters(i)%value
+      end do
+   end subroutine take_parameters
+
+   !> Nodes, and the node sets.
+   subroutine build_nodes(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: i
+
+      do i = 1, deck%n_cards
+         select case (keyword_name(deck%cards(i)))
+         case ('NODE')
+            call read_node_card(deck, i, model, draft)
+         case ('NGEN')
+            call read_ngen_card(deck, i, model, draft)
+         case ('NFILL')
+            call read_nfill_card(deck, i, model, draft)
+         case ('BLOCK')
+            call read_block_card(deck, i, model, draft)
+         case ('NSET')
+            call try_nset_card(deck, i, model, draft)
+         end select
+      end do
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
+         call read_nset_card(deck, i, model, draft)
+      end do
+   end subroutine build_nodes
+
+   !> Elements, and the element sets.
+   subroutine build_elements(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: i
+
+      do i = 1, deck%n_cards
+         select case (keyword_name(deck%cards(i)))
+         case ('ELEMENT')
+            call read_element_card(deck, i, model, draft)
+         case ('ELGEN')
+            call read_elgen_card(deck, i, model, draft)
+         case ('BLOCK')
+            call place_block_elements(deck, i, model, draft)
+         end select
+      end do
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == 'ELSET') call read_elset_card(deck, i, model, draft)
+      end do
+   end subroutine build_elements
+
+end module atrito_build_model

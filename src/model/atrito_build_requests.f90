@@ -1,0 +1,195 @@
+!> *CONTROLS, and the tables that the step asks for.
+module atrito_build_requests
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_draft, only: draft_t, report_unknown
+   use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t, controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+   use atrito_sets, only: set_list_t, find_set, set_names
+   use atrito_strings, only: same_name, to_text
+   implicit none (type, external)
+   private
+   public :: build_requests
+
+   real(wp), parameter :: LARGEST_TOLERANCE = 0.1_wp
+   character(len=*), parameter :: WHAT_TOLERANCE = 'tolerance of the outer iteration, 0 < r <= 0.1 [-]'
+   character(len=*), parameter :: WHAT_MAXIT = 'most outer iterations, an integer >= 1'
+   character(len=*), parameter :: WHAT_RELAXATION = 'part of each change that is taken, 0 < r <= 1 [-]'
+
+contains
+
+   !> Controls and requests of the step.
+   subroutine build_requests(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip) :: i
+
+      associate (requests => model%requests)
+         allocate (requests%node_u(model%mesh%n_nodes), requests%node_rf(model%mesh%n_nodes), &
+                   requests%element_s(model%mesh%n_elements), source=.false.)
+      end associate
+      do i = 1, deck%n_cards
+         select case (keyword_name(deck%cards(i)))
+         case ('CONTROLS')
+            call read_controls_card(deck, deck%cards(i), model%controls)
+         case ('NODE PRINT')
+            call read_node_print_card(deck, deck%cards(i), model, draft)
+         case ('EL PRINT')
+            call read_el_print_card(deck, deck%cards(i), model, draft)
+         case ('CONTACT PRINT')
+            model%requests%contact = .true.
+         end select
+      end do
+      call check_relaxation(deck, model%controls)
+   end subroutine build_requests
+
+   subroutine read_controls_card(deck, card, controls)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(controls_t), intent(inout) :: controls
+      real(wp) :: tolerance, relaxation
+      integer(ip) :: most
+      logical :: found
+
+      if (has_option(deck, card, 'METHOD')) call choose_method(option_word(deck, card, 'METHOD'), controls%method)
+      tolerance = controls%tolerance
+      call option_real(deck, card, 'TOLERANCE', WHAT_TOLERANCE, tolerance, found)
+      if (found) call judge(deck, card, 'TOLERANCE', tolerance > 0.0_wp .and. tolerance <= LARGEST_TOLERANCE, WHAT_TOLERANCE)
+      controls%tolerance = tolerance
+      most = controls%max_iterations
+      call option_integer(deck, card, 'MAXIT', WHAT_MAXIT, most, found)
+      if (found) call judge(deck, card, 'MAXIT', most >= 1, WHAT_MAXIT)
+      controls%max_iterations = most
+      relaxation = controls%relaxation
+      call option_real(deck, card, 'RELAXATION', WHAT_RELAXATION, relaxation, found)
+      if (found) call judge(deck, card, 'RELAXATION', relaxation > 0.0_wp .and. relaxation <= 1.0_wp, WHAT_RELAXATION)
+      controls%relaxation = relaxation
+   end subroutine read_controls_card
+
+   subroutine choose_method(word, method)
+      character(len=*), intent(in) :: word
+      integer(ip), intent(inout) :: method
+
+      select case (word)
+      case ('PICARD')
+         method = METHOD_PICARD
+      case ('NEWTON')
+         method = METHOD_NEWTON
+      case ('ANDERSON')
+         method = METHOD_ANDERSON
+      end select
+   end subroutine choose_method
+
+   !> Reports the value of an option that is out of range.
+   subroutine judge(deck, card, name, in_range, what)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name, what
+      logical, intent(in) :: in_range
+      type(option_t) :: option
+      logical :: found
+
+      if (in_range) return
+      call find_option(deck, card, name, option, found)
+      call report_error(deck, option%value, 'E-VALUE', name//' = '//token_text(deck, option%value)//' is out of range', &
+                        expected=what, keyword='CONTROLS')
+   end subroutine judge
+
+   !> RELAXATION= belongs to PICARD: the other methods choose their steps themselves.
+   subroutine check_relaxation(deck, controls)
+      type(deck_t), intent(in) :: deck
+      type(controls_t), intent(in) :: controls
+      type(option_t) :: option
+      integer(ip) :: i
+      logical :: found
+
+      if (controls%method == METHOD_PICARD) return
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) /= 'CONTROLS') cycle
+         call find_option(deck, deck%cards(i), 'RELAXATION', option, found)
+         if (found) call report_error(deck, option%name, 'E-CONFLICT', 'RELAXATION= is for METHOD=PICARD; the method here is '// &
+                                      trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=', &
+                                      keyword='CONTROLS')
+      end do
+   end subroutine check_relaxation
+
+   subroutine read_node_print_card(deck, card, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      logical, allocatable :: chosen(:)
+      logical :: ok
+
+      call choose_members(deck, card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, draft, chosen, ok)
+      if (.not. ok) return
+      if (asks_for(deck, card, 'U')) then
+         model%requests%nodes = .true.
+         model%requests%node_u = model%requests%node_u .or. chosen
+      end if
+      if (asks_for(deck, card, 'RF')) then
+         model%requests%reactions = .true.
+         model%requests%node_rf = model%requests%node_rf .or. chosen
+      end if
+   end subroutine read_node_print_card
+
+   subroutine read_el_print_card(deck, card, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      logical, allocatable :: chosen(:)
+      logical :: ok
+
+      call choose_members(deck, card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, draft, chosen, ok)
+      if (.not. ok .or. .not. asks_for(deck, card, 'S')) return
+      model%requests%stress = .true.
+      model%requests%element_s = model%requests%element_s .or. chosen
+   end subroutine read_el_print_card
+
+   !> The members of the set that an option names; all without it.
+   subroutine choose_members(deck, card, option, noun, sets, n, draft, chosen, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: option, noun
+      type(set_list_t), intent(in) :: sets
+      integer(ip), intent(in) :: n                     !< nodes or elements of the mesh
+      type(draft_t), intent(in) :: draft
+      logical, allocatable, intent(out) :: chosen(:)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      integer(ip) :: i
+      logical :: found
+
+      call option_text(deck, card, option, name, found, place)
+      allocate (chosen(n), source=.not. found)
+      ok = .true.
+      if (.not. found) return
+      i = find_set(sets, name)
+      ok = i > 0
+      if (ok) then
+         chosen(sets%sets(i)%members) = .true.
+      else
+         call report_unknown(deck, draft, place, noun, 'E-SET', set_names(sets), keyword_name(card))
+      end if
+   end subroutine choose_members
+
+   !> One of the card's items is this variable.
+   pure logical function asks_for(deck, card, variable)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: variable
+      integer(ip) :: i, k
+
+      asks_for = .false.
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         do k = 1, deck%lines(i)%n_tokens
+            asks_for = asks_for .or. same_name(token_text(deck, line_item(deck, deck%lines(i), k)), variable)
+         end do
+      end do
+   end function asks_for
+
+end module atrito_build_requests

@@ -1,0 +1,242 @@
+!> *NSET and *ELSET: lists of numbers and earlier sets, or ranges of numbers (GENERATE).
+module atrito_build_sets
+   use atrito_build_nodes, only: put_node_set
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_draft, only: draft_t, place_text, ids_text, get_id, find_nodes, find_elements, has_errors
+   use atrito_id_map, only: id_map_t, find_id
+   use atrito_items, only: get_integer, has_option, option_text
+   use atrito_kinds, only: ip
+   use atrito_model, only: model_t
+   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_sets, only: find_set, grow_set
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: try_nset_card, read_nset_card, read_elset_card
+
+contains
+
+   !> Reads a *NSET when all of its members are known by now, so that a *NFILL or *BLOCK below can use it. One with members that
+   !> follow later is left to read_nset_card.
+   subroutine try_nset_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+
+      if (has_option(deck, deck%cards(i_card), 'GENERATE')) then
+         if (.not. ranges_are_known(deck, deck%cards(i_card), model)) return
+      else
+         if (.not. items_are_known(deck, deck%cards(i_card), model)) return
+      end if
+      call read_nset_card(deck, i_card, model, draft)
+      draft%card_done(i_card) = .true.
+   end subroutine try_nset_card
+
+   pure logical function items_are_known(deck, card, model) result(known)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(in) :: model
+      integer(ip) :: i, t, id
+      integer :: outcome
+
+      known = .true.
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         do t = deck%lines(i)%first_token, deck%lines(i)%first_token + deck%lines(i)%n_tokens - 1
+            if (is_empty_token(deck%tokens(t))) cycle
+            if (is_id_token(deck, deck%tokens(t))) then
+               call read_integer(token_text(deck, deck%tokens(t)), id, outcome)
+               known = outcome == NUMBER_OK
+               if (known) known = find_id(model%mesh%node_map, id) > 0
+            else
+               known = find_set(model%node_sets, token_text(deck, deck%tokens(t))) > 0
+            end if
+            if (.not. known) return
+         end do
+      end do
+   end function items_are_known
+
+   pure logical function ranges_are_known(deck, card, model) result(known)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(in) :: model
+      integer(ip) :: i, k, range(3)
+      integer :: outcome
+
+      known = .true.
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         range = [0_ip, 0_ip, 1_ip]
+         do k = 1, min(3_ip, deck%lines(i)%n_tokens)
+            if (is_empty_token(line_item(deck, deck%lines(i), k))) cycle
+            call read_integer(token_text(deck, line_item(deck, deck%lines(i), k)), range(k), outcome)
+            known = known .and. outcome == NUMBER_OK
+         end do
+         known = known .and. range(3) > 0
+         if (.not. known) return
+         do k = range(1), range(2), range(3)
+            known = find_id(model%mesh%node_map, k) > 0
+            if (.not. known) return
+         end do
+      end do
+   end function ranges_are_known
+
+   !> *NSET.
+   subroutine read_nset_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(number_list_t) :: members
+      character(len=:), allocatable :: name
+      integer(ip) :: i
+      logical :: found
+
+      associate (card => deck%cards(i_card))
+         call option_text(deck, card, 'NSET', name, found)
+         if (.not. found) return
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            if (.not. deck%lines(i)%ok) cycle
+            if (has_option(deck, card, 'GENERATE')) then
+               call read_range(deck, deck%lines(i), model%mesh%node_map, draft%spoiled_nodes, 'node', 'NSET', members)
+            else
+               call read_node_items(deck, deck%lines(i), i_card, model, draft, members)
+            end if
+         end do
+         call put_node_set(model, draft, i_card, name, numbers_of(members))
+      end associate
+   end subroutine read_nset_card
+
+   subroutine read_node_items(deck, line, i_card, model, draft, members)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: i_card
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(number_list_t), intent(inout) :: members
+      type(token_t) :: token
+      integer(ip), allocatable :: found(:)
+      integer(ip) :: i
+      logical :: ok
+
+      do i = 1, line%n_tokens
+         token = line_item(deck, line, i)
+         call find_nodes(deck, model, draft, token, found, ok, 'NSET')
+         if (ok) ok = is_earlier(deck, token, i_card, model, draft)
+         if (ok) call add_numbers(members, found)
+      end do
+   end subroutine read_node_items
+
+   !> A set in a list must be an earlier one: it could not be complete otherwise.
+   logical function is_earlier(deck, token, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      integer(ip), intent(in) :: i_card
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip) :: i
+
+      is_earlier = .true.
+      if (is_id_token(deck, token)) return
+      i = find_set(model%node_sets, token_text(deck, token))
+      if (keyword_name(deck%cards(draft%set_card(i))) /= 'NSET') return
+      is_earlier = draft%set_card(i) < i_card
+      if (.not. is_earlier) call report_error(deck, token, 'E-SET', 'node set '//token_text(deck, token)// &
+         ' is defined later, in '//place_text(deck, deck%cards(draft%set_card(i))%place, token), &
+         expected='a node set that is defined above', keyword='NSET')
+   end function is_earlier
+
+   !> *ELSET.
+   subroutine read_elset_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card                !< place in deck%cards
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      type(number_list_t) :: members
+      character(len=:), allocatable :: name
+      integer(ip) :: i
+      logical :: found
+
+      associate (card => deck%cards(i_card))
+         call option_text(deck, card, 'ELSET', name, found)
+         if (.not. found) return
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            if (.not. deck%lines(i)%ok) cycle
+            if (has_option(deck, card, 'GENERATE')) then
+               call read_range(deck, deck%lines(i), model%mesh%element_map, draft%spoiled_elements, 'element', 'ELSET', members)
+            else
+               call read_element_items(deck, deck%lines(i), model, draft, members)
+            end if
+         end do
+         call grow_set(model%element_sets, name, numbers_of(members))
+      end associate
+   end subroutine read_elset_card
+
+   subroutine read_element_items(deck, line, model, draft, members)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(number_list_t), intent(inout) :: members
+      type(token_t) :: token
+      integer(ip), allocatable :: found(:)
+      integer(ip) :: i
+      logical :: ok
+
+      do i = 1, line%n_tokens
+         token = line_item(deck, line, i)
+         call find_elements(deck, model, draft, token, found, ok, 'ELSET')
+         if (ok) call add_numbers(members, found)
+      end do
+   end subroutine read_element_items
+
+   !> A line of GENERATE: first number, last number, increment.
+   subroutine read_range(deck, line, map, spoiled, noun, keyword, members)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(id_map_t), intent(in) :: map, spoiled       !< known numbers, and those that an error spoiled
+      character(len=*), intent(in) :: noun             !< 'node' or 'element'
+      character(len=*), intent(in) :: keyword
+      type(number_list_t), intent(inout) :: members
+      type(number_list_t) :: missing
+      integer(ip) :: first, last, step, k
+      logical :: ok(3)
+
+      call get_id(deck, line_item(deck, line, 1_ip), 'first '//noun//' number', first, ok(1), keyword)
+      call get_id(deck, line_item(deck, line, 2_ip), 'last '//noun//' number', last, ok(2), keyword)
+      call get_integer(deck, line_item(deck, line, 3_ip), 'increment, a positive integer', step, ok(3), 1_ip, keyword)
+      if (.not. all(ok)) return
+      if (.not. is_range(deck, line, first, last, step, keyword)) return
+      if ((last - first)/step >= map%n + spoiled%n) then
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-'//trim(merge('NODE   ', 'ELEMENT', noun == 'node')), &
+                           'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist', keyword=keyword)
+         return
+      end if
+      do k = first, last, step
+         if (find_id(map, k) > 0) then
+            call add_number(members, find_id(map, k))
+         else if (find_id(spoiled, k) == 0 .or. .not. has_errors()) then
+            call add_number(missing, k)
+         end if
+      end do
+      if (missing%n == 0) return
+      call report_error(deck, line_item(deck, line, 1_ip), 'E-'//trim(merge('NODE   ', 'ELEMENT', noun == 'node')), &
+                        'no such '//noun//' in this range: '//ids_text(numbers_of(missing)), &
+                        expected='numbers that all exist', keyword=keyword)
+   end subroutine read_range
+
+   logical function is_range(deck, line, first, last, step, keyword)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: first, last, step
+      character(len=*), intent(in) :: keyword
+
+      is_range = step > 0 .and. last >= first
+      if (is_range) is_range = modulo(last - first, step) == 0
+      if (.not. is_range) call report_error(deck, line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), 'E-VALUE', &
+         'steps of '//to_text(step)//' do not lead from '//to_text(first)//' to '//to_text(last), &
+         expected='first <= last, and an increment > 0 that divides their difference', keyword=keyword)
+   end function is_range
+
+end module atrito_build_sets

@@ -1,0 +1,153 @@
+!> *BOUNDARY: prescribed displacements.
+module atrito_build_supports
+   use atrito_build_loads, only: in_no_element
+   use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
+   use atrito_diagnostics, only: report_error, report_note
+   use atrito_draft, only: draft_t, place_text, ids_text, find_nodes
+   use atrito_items, only: get_integer, get_real, has_option
+   use atrito_kinds, only: ip, wp
+   use atrito_load_lists, only: add_prescribed, trim_prescribed
+   use atrito_model, only: model_t
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: build_supports
+
+   integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6
+   character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
+
+contains
+
+   !> All prescribed displacements, those of the model and of the step.
+   subroutine build_supports(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: i, k
+
+      allocate (draft%dof_entry(PLANE_DOFS, model%mesh%n_nodes), draft%dof_token(PLANE_DOFS, model%mesh%n_nodes), source=0_ip)
+      do i = 1, deck%n_cards
+         associate (card => deck%cards(i))
+            if (keyword_name(card) /= 'BOUNDARY') cycle
+            if (has_option(deck, card, 'FUNCTION')) cycle
+            do k = card%first_line, card%first_line + card%n_lines - 1
+               if (deck%lines(k)%ok) call read_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft)
+            end do
+         end associate
+      end do
+      call trim_prescribed(model%prescribed)
+   end subroutine build_supports
+
+   !> Node or set, first dof[, last dof[, value]].
+   subroutine read_line(deck, line, in_model, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      logical, intent(in) :: in_model                  !< before *STEP
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip), allocatable :: nodes(:)
+      real(wp) :: value
+      integer(ip) :: first, last, dof
+      logical :: ok(4)
+
+      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
+      call get_integer(deck, line_item(deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
+      call get_integer(deck, line_item(deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      call get_real(deck, line_item(deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
+      if (.not. all(ok(2:))) return
+      if (in_model .and. abs(value) > 0.0_wp) then
+         ok(4) = .false.
+         call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'a displacement other than 0 before *STEP', &
+                           expected='0 [L] here; other values in the step', keyword='BOUNDARY')
+      end if
+      if (.not. are_dofs(deck, line, first, last, value)) return
+      if (.not. all(ok)) return
+      call note_loose(deck, line, model, draft, nodes)
+      do dof = first, min(last, PLANE_DOFS)
+         call prescribe(deck, line, nodes, dof, value, model, draft)
+      end do
+   end subroutine read_line
+
+   !> The dofs of a line exist, or are those of three dimensions and harmless.
+   logical function are_dofs(deck, line, first, last, value)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: first, last
+      real(wp), intent(in) :: value
+      integer(ip) :: item
+
+      are_dofs = .false.
+      item = merge(2_ip, 3_ip, first < 1 .or. first > LAST_DOF .or. is_empty_token(line_item(deck, line, 3_ip)))
+      if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp)) then
+         call report_error(deck, line_item(deck, line, item), 'E-DOF', 'dof '//to_text(merge(first, last, item == 2))// &
+                           ' does not exist in the plane', expected=WHAT_DOF, keyword='BOUNDARY')
+      else if (last < first) then
+         call report_error(deck, line_item(deck, line, 3_ip), 'E-DOF', 'the last dof, '//to_text(last)// &
+                           ', is less than the first', expected=WHAT_DOF//', not less than the first', keyword='BOUNDARY')
+      else
+         are_dofs = .true.
+         if (last > PLANE_DOFS) call report_note(deck, line_item(deck, line, item), 'N-DOF', &
+                                                 'the dofs 3 to 6 do not exist in the plane; their value is 0', keyword='BOUNDARY')
+      end if
+   end function are_dofs
+
+   subroutine note_loose(deck, line, model, draft, nodes)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: nodes(:)
+      logical :: loose(size(nodes))
+
+      loose = in_no_element(draft, nodes)
+      if (any(loose)) call report_note(deck, line_item(deck, line, 1_ip), 'N-NODE', 'node '// &
+                                       ids_text(pack(model%mesh%node_id(nodes), loose))// &
+                                       ' belongs to no element; the support has no effect there', keyword='BOUNDARY')
+   end subroutine note_loose
+
+   !> Prescribes a dof of some nodes. A value that differs from an earlier one is an error, told once a line.
+   subroutine prescribe(deck, line, nodes, dof, value, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: nodes(:), dof
+      real(wp), intent(in) :: value
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(number_list_t) :: clashes
+      logical :: loose(size(nodes))
+      integer(ip) :: i, entry
+
+      loose = in_no_element(draft, nodes)
+      do i = 1, size(nodes, kind=ip)
+         if (loose(i)) cycle
+         entry = draft%dof_entry(dof, nodes(i))
+         if (entry == 0) then
+            call add_prescribed(model%prescribed, nodes(i), dof, value)
+            draft%dof_entry(dof, nodes(i)) = model%prescribed%n
+            draft%dof_token(dof, nodes(i)) = line%first_token
+         else if (abs(model%prescribed%value(entry) - value) > 0.0_wp) then
+            call add_number(clashes, nodes(i))
+         end if
+      end do
+      if (clashes%n > 0) call report_clash(deck, line, model, draft, numbers_of(clashes), dof, value)
+   end subroutine prescribe
+
+   subroutine report_clash(deck, line, model, draft, nodes, dof, value)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: nodes(:), dof
+      real(wp), intent(in) :: value
+      type(token_t) :: earlier
+
+      earlier = deck%tokens(draft%dof_token(dof, nodes(1)))
+      call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
+                        ids_text(model%mesh%node_id(nodes))//' is '//to_text(value)//' here but '// &
+                        to_text(model%prescribed%value(draft%dof_entry(dof, nodes(1))))//' in '// &
+                        place_text(deck, earlier, deck%tokens(line%first_token)), &
+                        expected='one value for each dof [L]; those before *STEP hold in the step', keyword='BOUNDARY')
+   end subroutine report_clash
+
+end module atrito_build_supports

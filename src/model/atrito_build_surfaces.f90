@@ -1,0 +1,260 @@
+!> *SURFACE and *RIGID BODY, and the surfaces that a *BLOCK has by itself.
+module atrito_build_surfaces
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, ids_text, find_elements, &
+                           report_unknown, is_spoiled
+   use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
+   use atrito_items, only: get_real, option_text, option_word
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t, surface_t, SURFACE_ELEMENTS, SURFACE_SEGMENTS
+   use atrito_model_names, only: surface_names, find_name
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_numbers, only: read_integer
+   use atrito_strings, only: same_name, to_text
+   implicit none (type, external)
+   private
+   public :: build_surfaces
+
+contains
+
+   !> All surfaces of a model.
+   subroutine build_surfaces(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: i
+
+      allocate (model%surfaces(0))
+      do i = 1, size(draft%blocks, kind=ip)
+         call put_block_surfaces(deck, draft%blocks(i), model, draft)
+      end do
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == 'SURFACE') call read_surface_card(deck, deck%cards(i), model, draft)
+      end do
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(deck, deck%cards(i), model, draft)
+      end do
+   end subroutine build_surfaces
+
+   !> The four sides of a block; faces that another block has joined are left out.
+   subroutine put_block_surfaces(deck, block, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(block_t), intent(in) :: block
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: nx, ny, i
+
+      nx = ubound(block%nodes, 1, kind=ip)
+      ny = ubound(block%nodes, 2, kind=ip)
+      if (block%first_element + nx*ny - 1 > model%mesh%n_elements) return
+      call put_side(1_ip, [(i, i=0, nx - 1)])
+      call put_side(2_ip, [(nx - 1 + nx*i, i=0, ny - 1)])
+      call put_side(3_ip, [(nx*(ny - 1) + i, i=0, nx - 1)])
+      call put_side(4_ip, [(nx*i, i=0, ny - 1)])
+
+   contains
+
+      subroutine put_side(face, elements)
+         integer(ip), intent(in) :: face
+         integer(ip), intent(in) :: elements(:)        !< counted from the first of the block
+         character(len=:), allocatable :: name
+         integer(ip) :: k, s
+
+         name = block%name//trim(BLOCK_SIDES(face))
+         s = find_name(surface_names(model), name)
+         if (s == 0) then
+            call add_surface(model, draft, surface_t(name=name), deck%cards(block%card)%place)
+            s = size(model%surfaces, kind=ip)
+         end if
+         do k = 1, size(elements, kind=ip)
+            associate (element => block%first_element + elements(k))
+               if (is_outer_face(model%mesh, draft%around, element, face)) call add_face(model%surfaces(s)%faces, element, face)
+            end associate
+         end do
+      end subroutine put_side
+
+   end subroutine put_block_surfaces
+
+   subroutine add_surface(model, draft, surface, place)
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(surface_t), intent(in) :: surface
+      type(token_t), intent(in) :: place               !< where it is defined
+
+      model%surfaces = [model%surfaces, surface]
+      call keep_token(draft%surfaces, place)
+   end subroutine add_surface
+
+   !> *SURFACE.
+   subroutine read_surface_card(deck, card, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(surface_t) :: surface
+      type(token_t) :: place
+      integer(ip) :: i
+      logical :: found, ok
+
+      call option_text(deck, card, 'NAME', surface%name, found, place)
+      if (.not. found) return
+      i = find_name(surface_names(model), surface%name)
+      if (i > 0) then
+         call report_error(deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
+                           place_text(deck, draft%surfaces(i), place), expected='a name that no other surface has', &
+                           keyword='SURFACE')
+         return
+      end if
+      ok = card%ok
+      if (.not. ok) then
+         ! the reader has not checked the words of its lines
+      else if (option_word(deck, card, 'TYPE') == 'ELEMENT') then
+         call read_faces(deck, card, model, draft, surface%faces, ok)
+      else
+         surface%kind = SURFACE_SEGMENTS
+         call read_segments(deck, card, surface%points, ok)
+      end if
+      if (.not. ok) call spoil_name(draft, surface%name)
+      call add_surface(model, draft, surface, place)
+   end subroutine read_surface_card
+
+   subroutine read_faces(deck, card, model, draft, faces, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(face_list_t), intent(inout) :: faces
+      logical, intent(out) :: ok
+      integer(ip), allocatable :: elements(:)
+      integer(ip) :: i
+      logical :: good
+
+      ok = .true.
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         good = deck%lines(i)%ok
+         if (good) call find_elements(deck, model, draft, line_item(deck, deck%lines(i), 1_ip), elements, good, 'SURFACE')
+         if (good) call take_faces(deck, deck%lines(i), model, draft, elements, faces, good)
+         ok = ok .and. good
+      end do
+   end subroutine read_faces
+
+   !> The face of each element that a line names, or all their outer faces.
+   subroutine take_faces(deck, line, model, draft, elements, faces, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: elements(:)
+      type(face_list_t), intent(inout) :: faces
+      logical, intent(out) :: ok
+      type(number_list_t) :: inside
+      type(face_list_t) :: outer
+      character(len=:), allocatable :: word
+      integer(ip) :: i, face
+      integer :: outcome
+
+      word = token_text(deck, line_item(deck, line, 2_ip))
+      if (len(word) == 0) then
+         outer = outer_faces(model%mesh, draft%around, elements)
+         do i = 1, outer%n
+            call add_face(faces, outer%element(i), outer%face(i))
+         end do
+         ok = .true.
+         return
+      end if
+      call read_integer(word(2:), face, outcome)       ! S1..S4, checked by the reader
+      do i = 1, size(elements, kind=ip)
+         if (is_outer_face(model%mesh, draft%around, elements(i), face)) then
+            call add_face(faces, elements(i), face)
+         else
+            call add_number(inside, model%mesh%element_id(elements(i)))
+         end if
+      end do
+      ok = inside%n == 0
+      if (ok) return
+      call report_error(deck, line_item(deck, line, 2_ip), 'E-FACE', 'face '//word//' lies inside the mesh, of element '// &
+                        ids_text(numbers_of(inside)), expected='faces on the outline of the body; without a face, all of them', &
+                        keyword='SURFACE')
+   end subroutine take_faces
+
+   !> START and LINE.
+   subroutine read_segments(deck, card, points, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      real(wp), allocatable, intent(out) :: points(:, :)
+      logical, intent(out) :: ok
+      real(wp) :: x(2)
+      integer(ip) :: i, n
+      logical :: good(3)
+
+      ok = .true.
+      n = 0
+      allocate (points(2, card%n_lines), source=0.0_wp)
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         good = deck%lines(i)%ok
+         if (good(1)) then
+            call get_real(deck, line_item(deck, deck%lines(i), 2_ip), 'x, a real [L]', x(1), good(1), keyword='SURFACE')
+            call get_real(deck, line_item(deck, deck%lines(i), 3_ip), 'y, a real [L]', x(2), good(2), keyword='SURFACE')
+            good(3) = follows(deck, card, i)
+         end if
+         ok = ok .and. all(good)
+         if (.not. ok) cycle
+         n = n + 1
+         points(:, n) = x
+         if (n > 1) ok = has_length(deck, deck%lines(i), points(:, n - 1), x)
+      end do
+      points = points(:, :n)
+      if (.not. ok .or. n /= 1) return
+      ok = .false.
+      call report_error(deck, card%place, 'E-MISSING', 'the surface has no segment', &
+                        expected='START, x, y and LINE, x, y [L]', keyword='SURFACE')
+   end subroutine read_segments
+
+   !> START comes first; that it is there once is checked by the reader.
+   logical function follows(deck, card, i)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(in) :: i                     !< place in deck%lines
+
+      follows = i == card%first_line .or. .not. same_name(token_text(deck, line_item(deck, deck%lines(i), 1_ip)), 'START')
+      if (.not. follows) call report_error(deck, line_item(deck, deck%lines(i), 1_ip), 'E-VALUE', &
+                                           'START is not the first line', expected='START, x, y first, then LINE, x, y', &
+                                           keyword='SURFACE')
+   end function follows
+
+   logical function has_length(deck, line, a, b)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      real(wp), intent(in) :: a(2), b(2)
+
+      has_length = norm2(b - a) > epsilon(1.0_wp)*(maxval(abs(a)) + maxval(abs(b)))
+      if (.not. has_length) call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'the segment has no length', &
+                                              expected='an end that differs from the one before [L]', keyword='SURFACE')
+   end function has_length
+
+   !> *RIGID BODY.
+   subroutine read_rigid_body_card(deck, card, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t) :: place
+      character(len=:), allocatable :: name
+      integer(ip) :: i
+      logical :: found
+
+      call option_text(deck, card, 'ANALYTICAL SURFACE', name, found, place)
+      if (.not. found) return
+      i = find_name(surface_names(model), name)
+      if (i == 0) then
+         call report_unknown(deck, draft, place, 'surface', 'E-SURFACE', surface_names(model), 'RIGID BODY')
+      else if (model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
+         call report_error(deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
+                           expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
+      else
+         model%surfaces(i)%is_rigid_body = .true.
+      end if
+   end subroutine read_rigid_body_card
+
+end module atrito_build_surfaces

@@ -1,0 +1,257 @@
+!> Checks of the contact pairs: first what their surfaces are, then, in a model that is right otherwise, where their points lie.
+module atrito_check_contact
+   use atrito_deck, only: deck_t, token_t
+   use atrito_diagnostics, only: report_error, report_warning, report_note
+   use atrito_draft, only: draft_t, ids_text, has_errors, is_spoiled
+   use atrito_faces, only: order_chain, chain_report_t, face_list_t, face_normal
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, FRICTION_NONLOCAL, KERNEL_LINE
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_points, only: contact_points_t, pair_surfaces
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: check_surfaces_of_pairs, check_points_of_pairs, element_thickness
+
+   real(wp), parameter :: LINE_SPACINGS = 3.0_wp       !< KERNEL=LINE needs so many spacings within rho
+
+contains
+
+   !> What can be told of each pair without looking for its points. Slave surfaces are put into the order of their chain.
+   subroutine check_surfaces_of_pairs(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip) :: i
+
+      do i = 1, size(model%pairs, kind=ip)
+         call check_sides(deck, model, draft, i)
+      end do
+      call note_unused_interactions(deck, model, draft)
+   end subroutine check_surfaces_of_pairs
+
+   subroutine check_sides(deck, model, draft, i)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: i
+      integer(ip) :: slave, master
+
+      slave = model%pairs(i)%slave
+      master = model%pairs(i)%master
+      if (slave == master) then
+         call report_error(deck, draft%masters(i), 'E-PAIR', 'slave and master are the same surface', &
+                           expected='two surfaces that face each other', keyword='CONTACT PAIR')
+         return
+      end if
+      call check_slave(deck, model, draft, slave, draft%slaves(i))
+      call check_master(deck, model, draft, master, draft%masters(i))
+      if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) &
+         call check_shared_nodes(deck, model, slave, master, draft%masters(i))
+   end subroutine check_sides
+
+   subroutine check_slave(deck, model, draft, i, place)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: i                     !< the slave's surface
+      type(token_t), intent(in) :: place
+      type(chain_report_t) :: report
+
+      associate (surface => model%surfaces(i))
+         if (is_spoiled(draft, surface%name)) return
+         if (surface%kind == SURFACE_SEGMENTS) then
+            call report_error(deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
+                              expected='a surface of element faces as slave; the rigid surface is the master', &
+                              keyword='CONTACT PAIR')
+            return
+         else if (surface%faces%n == 0) then
+            call report_no_faces(deck, place, surface%name)
+            return
+         end if
+         call order_chain(model%mesh, surface%faces, report)
+         if (report%branch_node > 0) then
+            call report_error(deck, place, 'E-CHAIN', 'the slave branches at node '// &
+                              to_text(model%mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
+                              keyword='CONTACT PAIR')
+         else if (report%loose_face > 0) then
+            call report_error(deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
+                              to_text(surface%faces%face(report%loose_face))//' of element '// &
+                              to_text(model%mesh%element_id(surface%faces%element(report%loose_face)))// &
+                              ' does not continue the others', &
+                              expected='one connected chain of faces; otherwise a pair for each', keyword='CONTACT PAIR')
+         end if
+      end associate
+   end subroutine check_slave
+
+   subroutine check_master(deck, model, draft, i, place)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: i                     !< the master's surface
+      type(token_t), intent(in) :: place
+
+      associate (surface => model%surfaces(i))
+         if (is_spoiled(draft, surface%name)) return
+         if (surface%kind == SURFACE_SEGMENTS) then
+            if (.not. surface%is_rigid_body) call report_error(deck, place, 'E-PAIR', 'the drawn surface '//surface%name// &
+               ' belongs to no body', expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
+         else if (surface%faces%n == 0) then
+            call report_no_faces(deck, place, surface%name)
+         end if
+      end associate
+   end subroutine check_master
+
+   subroutine report_no_faces(deck, place, name)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      character(len=*), intent(in) :: name
+
+      call report_error(deck, place, 'E-SURFACE', 'surface '//name//' has no faces: others join it everywhere', &
+                        expected='a surface on the outline of a body', keyword='CONTACT PAIR')
+   end subroutine report_no_faces
+
+   subroutine check_shared_nodes(deck, model, slave, master, place)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: slave, master
+      type(token_t), intent(in) :: place
+      type(number_list_t) :: shared
+      logical, allocatable :: on_slave(:), on_master(:)
+      integer(ip) :: i
+
+      on_slave = nodes_of(model%mesh, model%surfaces(slave)%faces)
+      on_master = nodes_of(model%mesh, model%surfaces(master)%faces)
+      do i = 1, model%mesh%n_nodes
+         if (on_slave(i) .and. on_master(i)) call add_number(shared, model%mesh%node_id(i))
+      end do
+      if (shared%n > 0) call report_error(deck, place, 'E-PAIR', 'slave and master share node '//ids_text(numbers_of(shared)), &
+                                          expected='surfaces of different bodies, each with its own nodes', &
+                                          keyword='CONTACT PAIR')
+   end subroutine check_shared_nodes
+
+   pure function nodes_of(mesh, faces) result(on_faces)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: faces
+      logical, allocatable :: on_faces(:)
+      integer(ip) :: i
+
+      allocate (on_faces(mesh%n_nodes), source=.false.)
+      do i = 1, faces%n
+         on_faces(face_nodes(mesh, faces%element(i), faces%face(i))) = .true.
+      end do
+   end function nodes_of
+
+   subroutine note_unused_interactions(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip) :: i
+
+      if (draft%pairs_unsure) return
+      do i = 1, size(model%interactions, kind=ip)
+         if (all(model%pairs%interaction /= i)) call report_note(deck, draft%interactions(i), 'N-UNUSED', &
+            'no *CONTACT PAIR uses the surface interaction '//model%interactions(i)%name, keyword='CONTACT PAIR')
+      end do
+   end subroutine note_unused_interactions
+
+   !> Thickness [L] of each element.
+   pure function element_thickness(model) result(thickness)
+      type(model_t), intent(in) :: model
+      real(wp), allocatable :: thickness(:)
+
+      thickness = model%sections(model%section_of)%thickness
+   end function element_thickness
+
+   !> Places the points of each pair; for models without any error.
+   subroutine check_points_of_pairs(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(contact_points_t) :: points
+      real(wp), allocatable :: thickness(:), no_points(:, :)
+      type(face_list_t) :: no_faces
+      integer(ip) :: i
+
+      if (size(model%pairs) == 0) return
+      thickness = element_thickness(model)
+      allocate (no_points(2, 0))
+      do i = 1, size(model%pairs, kind=ip)
+         associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
+            if (master%kind == SURFACE_SEGMENTS) then
+               call pair_surfaces(model%mesh, thickness, slave%faces, no_faces, master%points, points)
+            else
+               call pair_surfaces(model%mesh, thickness, slave%faces, master%faces, no_points, points)
+            end if
+            if (points%n == 0) then
+               call report_blind(deck, model%mesh, slave%faces, draft%slaves(i))
+            else
+               call judge_points(deck, draft, model, i, points)
+            end if
+         end associate
+      end do
+   end subroutine check_points_of_pairs
+
+   !> No point of the slave finds the master.
+   subroutine report_blind(deck, mesh, slave, place)
+      type(deck_t), intent(in) :: deck
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      type(token_t), intent(in) :: place
+      real(wp) :: normal(2)
+
+      normal = face_normal(mesh, slave%element(1), slave%face(1))
+      call report_error(deck, place, 'E-PAIR', 'no point of the slave finds the master: the outward normal of the slave''s '// &
+                        'first face is ('//to_text(normal(1), 3)//', '//to_text(normal(2), 3)// &
+                        '), and along the normals there is no surface that faces the other way', &
+                        expected='a master in front of the slave, its own normal pointing back; a drawn line faces the side '// &
+                        'at its left', keyword='CONTACT PAIR')
+   end subroutine report_blind
+
+   subroutine judge_points(deck, draft, model, i, points)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(in) :: draft
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< the pair
+      type(contact_points_t), intent(in) :: points
+
+      if (points%n_left_out > 0) call report_note(deck, draft%slaves(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
+         to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
+      if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) &
+         call report_error(deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides do not match, and MORTAR, the '// &
+                           'quadrature for such sides, is not built yet', expected='QUADRATURE=NODAL, or sides whose nodes '// &
+                           'face each other', keyword='CONTACT PAIR')
+      call judge_radius(deck, draft%interactions(model%pairs(i)%interaction), model%interactions(model%pairs(i)%interaction), &
+                        least_spacing(points))
+   end subroutine judge_points
+
+   !> The radius of the average against the distance of the points.
+   subroutine judge_radius(deck, place, interaction, spacing)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      type(interaction_t), intent(in) :: interaction
+      real(wp), intent(in) :: spacing
+
+      if (interaction%friction /= FRICTION_NONLOCAL .or. .not. interaction%rho > 0.0_wp) return
+      if (interaction%rho < spacing) then
+         call report_note(deck, place, 'N-RADIUS', 'rho = '//to_text(interaction%rho)//' is less than the least distance of '// &
+                          'contact points, '//to_text(spacing)//': the average leaves the pressure as it is', keyword='FRICTION')
+      else if (interaction%kernel == KERNEL_LINE .and. interaction%rho < LINE_SPACINGS*spacing) then
+         call report_warning(deck, place, 'W-RADIUS', 'rho = '//to_text(interaction%rho)//' is less than three distances of '// &
+                             'contact points, '//to_text(spacing)//': with KERNEL=LINE a uniform pressure does not stay uniform', &
+                             expected='rho >= '//to_text(LINE_SPACINGS*spacing)//' [L], or KERNEL=POINTS', keyword='FRICTION')
+      end if
+   end subroutine judge_radius
+
+   pure real(wp) function least_spacing(points) result(least)
+      type(contact_points_t), intent(in) :: points
+      integer(ip) :: i
+
+      least = huge(least)
+      do i = 2, points%n
+         least = min(least, norm2(points%x(:, i) - points%x(:, i - 1)))
+      end do
+   end function least_spacing
+
+end module atrito_check_contact

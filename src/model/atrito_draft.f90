@@ -1,0 +1,395 @@
+!> What the builders share while a model grows and nobody needs afterwards: places in the deck, what a name or number stands
+!> for, and which names and numbers an error has spoiled.
+!>
+!> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
+!> only once an error has been told, so a deck is never accepted with something left out.
+module atrito_draft
+   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_id_token, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_faces, only: node_elements_t
+   use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_items, only: get_integer, get_name
+   use atrito_kinds, only: ip
+   use atrito_mesh, only: find_node, find_element
+   use atrito_messages, only: count_messages, SEVERITY_ERROR
+   use atrito_model, only: model_t
+   use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_sets, only: set_list_t, find_set, set_names
+   use atrito_strings, only: string_t, append_string, same_name, to_text
+   implicit none (type, external)
+   private
+   public :: draft_t, block_t, BLOCK_SIDES
+   public :: prepare_draft, spoil_name, spoil_node, spoil_element, is_spoiled, has_errors
+   public :: place_token, place_text, note_place, keep_token, ids_text
+   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, report_unknown
+
+   !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
+   character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
+
+   !> A *BLOCK between the pass that makes its nodes and the one that makes its elements.
+   type :: block_t
+      character(len=:), allocatable :: name
+      integer(ip) :: card = 0                          !< place in deck%cards
+      integer(ip) :: state = 0                         !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), allocatable :: nodes(:, :)          !< (0:nx, 0:ny), places
+      integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
+   end type block_t
+
+   type :: draft_t
+      type(string_t), allocatable :: spoiled(:)        !< names whose definition is faulty
+      type(id_map_t) :: spoiled_nodes, spoiled_elements
+      integer(ip) :: greatest_node = 0, greatest_element = 0        !< ids
+      integer(ip), allocatable :: node_place(:), element_place(:)   !< > 0: token; < 0: card
+      type(block_t), allocatable :: blocks(:)
+      integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
+      logical, allocatable :: card_done(:)             !< *NSET cards all of whose members are known
+      type(node_elements_t) :: around                  !< elements round each node
+      type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
+      logical, allocatable :: elastic_given(:), elastic_spoiled(:)  !< for each material
+      logical :: sections_unsure = .false.             !< a *SOLID SECTION could not be understood
+      logical :: pairs_unsure = .false.                !< a *CONTACT PAIR could not be understood
+      integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in model%prescribed; 0: free
+      integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
+   end type draft_t
+
+   integer(ip), parameter :: MOST_IDS = 8              !< numbers told in a message
+
+contains
+
+   !> Begins a draft: the names and numbers that faulty cards would have defined are spoiled.
+   subroutine prepare_draft(deck, draft)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(out) :: draft
+      integer(ip) :: i
+
+      allocate (draft%spoiled(0), draft%blocks(0), draft%set_card(0), draft%node_place(64), draft%element_place(64))
+      allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
+      allocate (draft%slaves(0), draft%masters(0), draft%elastic_given(0), draft%elastic_spoiled(0))
+      allocate (draft%card_done(deck%n_cards), source=.false.)
+      if (.not. has_errors()) return
+      do i = 1, deck%n_cards
+         if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
+         call spoil_options(deck, deck%cards(i), draft)
+         if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck, deck%cards(i), draft)
+      end do
+   end subroutine prepare_draft
+
+   subroutine spoil_options(deck, card, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(draft_t), intent(inout) :: draft
+      character(len=:), allocatable :: name
+      integer :: i
+
+      if (.not. allocated(card%options)) return
+      do i = 1, size(card%options)
+         name = token_text(deck, card%options(i)%name)
+         if (len(keyword_name(card)) == 0) then
+            if (same_name(name, 'MATERIAL')) draft%sections_unsure = .true.
+            if (same_name(name, 'INTERACTION')) draft%pairs_unsure = .true.
+         end if
+         if (.not. card%options(i)%has_value) cycle
+         if (.not. is_empty_token(card%options(i)%value)) call spoil_name(draft, token_text(deck, card%options(i)%value))
+      end do
+   end subroutine spoil_options
+
+   !> What an unknown keyword would have defined begins each of its lines.
+   subroutine spoil_numbers(deck, card, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: i
+
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         if (deck%lines(i)%n_tokens == 0) cycle
+         call spoil_node(deck, deck%lines(i), draft)
+         call spoil_element(deck, deck%lines(i), draft)
+      end do
+   end subroutine spoil_numbers
+
+   !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
+   subroutine spoil_name(draft, name)
+      type(draft_t), intent(inout) :: draft
+      character(len=*), intent(in) :: name
+      integer :: i
+
+      call append_string(draft%spoiled, name)
+      do i = 1, size(BLOCK_SIDES)
+         call append_string(draft%spoiled, name//trim(BLOCK_SIDES(i)))
+      end do
+   end subroutine spoil_name
+
+   !> Passes over, in silence, all that refers to the node with which a data line begins.
+   subroutine spoil_node(deck, line, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(draft_t), intent(inout) :: draft
+
+      call spoil_id(deck, line, draft%spoiled_nodes)
+   end subroutine spoil_node
+
+   !> As spoil_node for an element.
+   subroutine spoil_element(deck, line, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(draft_t), intent(inout) :: draft
+
+      call spoil_id(deck, line, draft%spoiled_elements)
+   end subroutine spoil_element
+
+   subroutine spoil_id(deck, line, map)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(id_map_t), intent(inout) :: map
+      integer(ip) :: id
+      integer :: outcome
+      logical :: known
+
+      if (line%n_tokens == 0) return
+      call read_integer(token_text(deck, deck%tokens(line%first_token)), id, outcome)
+      if (outcome == NUMBER_OK .and. id > 0) call add_id(map, id, 1_ip, known)
+   end subroutine spoil_id
+
+   !> True when a name is to be passed over in silence.
+   logical function is_spoiled(draft, name)
+      type(draft_t), intent(in) :: draft
+      character(len=*), intent(in) :: name
+      integer :: i
+
+      is_spoiled = .false.
+      if (.not. has_errors()) return
+      do i = 1, size(draft%spoiled)
+         is_spoiled = same_name(draft%spoiled(i)%s, name)
+         if (is_spoiled) return
+      end do
+   end function is_spoiled
+
+   logical function has_errors()
+      has_errors = count_messages(SEVERITY_ERROR) > 0
+   end function has_errors
+
+   !> The item at a place kept by note_place.
+   pure function place_token(deck, place) result(token)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: place
+      type(token_t) :: token
+
+      if (place > 0) then
+         token = deck%tokens(place)
+      else
+         token = deck%cards(-place)%place
+      end if
+   end function place_token
+
+   !> 'line 12', with the file where it is not the one of `from`.
+   pure function place_text(deck, token, from) result(text)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token, from
+      character(len=:), allocatable :: text
+
+      text = 'line '//to_text(token%line)
+      if (token%source /= from%source) text = text//' of '//deck%sources(token%source)%name
+   end function place_text
+
+   !> Keeps where the i-th node or element comes from, i counting up.
+   pure subroutine note_place(places, i, place)
+      integer(ip), allocatable, intent(inout) :: places(:)
+      integer(ip), intent(in) :: i, place
+      integer(ip), allocatable :: longer(:)
+
+      if (i > size(places)) then
+         allocate (longer(max(i, 2*size(places, kind=ip))))
+         longer(:size(places)) = places
+         call move_alloc(longer, places)
+      end if
+      places(i) = place
+   end subroutine note_place
+
+   !> Appends the place of a material, section, surface, ...: there are few of them.
+   pure subroutine keep_token(list, token)
+      type(token_t), allocatable, intent(inout) :: list(:)
+      type(token_t), intent(in) :: token
+
+      list = [list, token]
+   end subroutine keep_token
+
+   !> '3, 4, 5 and 12 more'
+   pure function ids_text(ids) result(text)
+      integer(ip), intent(in) :: ids(:)
+      character(len=:), allocatable :: text
+      integer(ip) :: i, n
+
+      n = size(ids, kind=ip)
+      if (n > MOST_IDS) n = MOST_IDS - 1
+      text = ''
+      do i = 1, n
+         if (i > 1) text = text//', '
+         text = text//to_text(ids(i))
+      end do
+      if (n < size(ids)) text = text//' and '//to_text(size(ids, kind=ip) - n)//' more'
+   end function ids_text
+
+   !> The positive number of a node or element.
+   subroutine get_id(deck, token, what, id, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what             !< e.g. 'node number'
+      integer(ip), intent(out) :: id
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+
+      call get_integer(deck, token, what//', a positive integer', id, ok, keyword=keyword)
+      if (.not. ok .or. id > 0) return
+      ok = .false.
+      call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=what//', a positive integer', &
+                        keyword=keyword)
+   end subroutine get_id
+
+   !> The place of the node whose number an item is.
+   subroutine find_one_node(deck, model, draft, token, node, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t), intent(in) :: token
+      integer(ip), intent(out) :: node
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: id
+
+      node = 0
+      call get_id(deck, token, 'node number', id, ok, keyword)
+      if (.not. ok) return
+      node = find_node(model%mesh, id)
+      ok = node > 0
+      if (ok) return
+      if (has_errors() .and. find_id(draft%spoiled_nodes, id) > 0) return
+      call report_error(deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
+                        expected='the number of a node that *NODE, *NGEN, *NFILL or *BLOCK defines ('// &
+                        range_text(model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
+   end subroutine find_one_node
+
+   !> The place of the element whose number an item is.
+   subroutine find_one_element(deck, model, draft, token, element, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t), intent(in) :: token
+      integer(ip), intent(out) :: element
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: id
+
+      element = 0
+      call get_id(deck, token, 'element number', id, ok, keyword)
+      if (.not. ok) return
+      element = find_element(model%mesh, id)
+      ok = element > 0
+      if (ok) return
+      if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0) return
+      call report_error(deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
+                        expected='the number of an element that *ELEMENT, *ELGEN or *BLOCK defines ('// &
+                        range_text(model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)
+   end subroutine find_one_element
+
+   pure function range_text(n, noun, greatest) result(text)
+      integer(ip), intent(in) :: n, greatest
+      character(len=*), intent(in) :: noun
+      character(len=:), allocatable :: text
+
+      if (n == 0) then
+         text = 'there is none'
+      else
+         text = to_text(n)//' '//noun//'s, the greatest '//to_text(greatest)
+      end if
+   end function range_text
+
+   !> The places of the nodes that an item names: a number or a node set.
+   subroutine find_nodes(deck, model, draft, token, members, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t), intent(in) :: token
+      integer(ip), allocatable, intent(out) :: members(:)
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: node
+
+      if (is_id_token(deck, token)) then
+         call find_one_node(deck, model, draft, token, node, ok, keyword)
+         if (ok) members = [node]
+      else
+         call find_members(deck, model%node_sets, draft, token, 'node', members, ok, keyword)
+      end if
+      if (.not. ok) members = [integer(ip) ::]
+   end subroutine find_nodes
+
+   !> The places of the elements that an item names: a number or an element set.
+   subroutine find_elements(deck, model, draft, token, members, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t), intent(in) :: token
+      integer(ip), allocatable, intent(out) :: members(:)
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: element
+
+      if (is_id_token(deck, token)) then
+         call find_one_element(deck, model, draft, token, element, ok, keyword)
+         if (ok) members = [element]
+      else
+         call find_members(deck, model%element_sets, draft, token, 'element', members, ok, keyword)
+      end if
+      if (.not. ok) members = [integer(ip) ::]
+   end subroutine find_elements
+
+   subroutine find_members(deck, list, draft, token, noun, members, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(set_list_t), intent(in) :: list
+      type(draft_t), intent(in) :: draft
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: noun             !< 'node' or 'element'
+      integer(ip), allocatable, intent(out) :: members(:)
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      character(len=:), allocatable :: name
+      integer(ip) :: i
+
+      call get_name(deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
+      if (.not. ok) return
+      i = find_set(list, name)
+      ok = i > 0
+      if (ok) then
+         members = list%sets(i)%members
+      else
+         call report_unknown(deck, draft, token, noun//' set', 'E-SET', set_names(list), keyword)
+      end if
+   end subroutine find_members
+
+   !> An unknown name, unless an earlier error explains it.
+   subroutine report_unknown(deck, draft, token, noun, id, known, keyword)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(in) :: draft
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: noun             !< what should have this name, e.g. 'element set'
+      character(len=*), intent(in) :: id
+      type(string_t), intent(in) :: known(:)           !< names of these that there are
+      character(len=*), intent(in) :: keyword
+      character(len=:), allocatable :: expected
+
+      if (is_spoiled(draft, token_text(deck, token))) return
+      expected = 'name of '//article(noun)//noun//' of this deck'
+      if (size(known) == 0) expected = expected//'; there is none'
+      call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token), expected=expected, known=known, &
+                        keyword=keyword)
+   end subroutine report_unknown
+
+   pure function article(noun) result(text)
+      character(len=*), intent(in) :: noun
+      character(len=:), allocatable :: text
+
+      text = 'a '
+      if (scan(noun(1:1), 'aeiou') > 0) text = 'an '
+   end function article
+
+end module atrito_draft

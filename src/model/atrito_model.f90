@@ -1,0 +1,129 @@
+!> What a deck means: one model_t, all that the solver and the writers need, no deck text.
+module atrito_model
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t
+   use atrito_mesh, only: mesh_t
+   use atrito_sets, only: set_list_t
+   use atrito_faces, only: face_list_t
+   use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
+   implicit none (type, external)
+   private
+   public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, prescribed_t, node_load_t, element_load_t
+   public :: controls_t, requests_t, parameter_value_t
+   public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD
+   public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
+   public :: QUADRATURE_NODAL, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
+   public :: LOAD_PRESSURE, LOAD_BODY
+
+   integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
+   integer(ip), parameter :: FORMULATION_STANDARD = 1
+   integer(ip), parameter :: QUADRATURE_NODAL = 1
+   integer(ip), parameter :: METHOD_ANDERSON = 1, METHOD_PICARD = 2, METHOD_NEWTON = 3
+   character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
+   character(len=8), parameter :: FRICTION_NAME(0:2) = ['none    ', 'LOCAL   ', 'NONLOCAL']
+   character(len=6), parameter :: KERNEL_NAME(2) = ['POINTS', 'LINE  ']
+   integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2
+
+   type :: material_t
+      character(len=:), allocatable :: name
+      real(wp) :: young = 0.0_wp               !< E [F/L^2], > 0
+      real(wp) :: poisson = 0.0_wp             !< mu [-]
+      real(wp) :: density = 0.0_wp             !< mass per volume
+   end type material_t
+
+   type :: section_t
+      character(len=:), allocatable :: elset   !< name of its element set
+      integer(ip) :: material = 0              !< place in model%materials
+      real(wp) :: thickness = 1.0_wp           !< [L], > 0
+      integer(ip) :: formulation = FORMULATION_STANDARD
+   end type section_t
+
+   !> A surface of element faces (a connected chain when it is a slave) or of straight rigid segments.
+   type :: surface_t
+      character(len=:), allocatable :: name
+      integer(ip) :: kind = SURFACE_ELEMENTS
+      logical :: is_rigid_body = .false.       !< a *RIGID BODY names it
+      type(face_list_t) :: faces               !< SURFACE_ELEMENTS
+      real(wp), allocatable :: points(:, :)    !< SURFACE_SEGMENTS: ends of the segments [L], (2, n+1), in direction of travel
+   end type surface_t
+
+   type :: interaction_t
+      character(len=:), allocatable :: name
+      real(wp) :: delta = 0.0_wp               !< penalty parameter [L^3/F]; 0 is exact (HARD)
+      integer(ip) :: friction = FRICTION_NONE
+      real(wp) :: nu = 0.0_wp                  !< friction coefficient
+      real(wp) :: eps = 0.0_wp                 !< NONLOCAL: [L]; 0 is exact stick
+      real(wp) :: rho = 0.0_wp                 !< NONLOCAL: [L]; 0 is local
+      real(wp) :: stick_slope = 0.0_wp         !< LOCAL: k [F/L^3]; 0 is exact stick
+      integer(ip) :: kernel = KERNEL_POINTS
+   end type interaction_t
+
+   type :: pair_t
+      integer(ip) :: interaction = 0, slave = 0, master = 0   !< places in the model's lists
+      integer(ip) :: quadrature = QUADRATURE_NODAL
+      logical :: quadrature_given = .false.                   !< by the deck, not by default
+   end type pair_t
+
+   !> Prescribed displacements, one dof each.
+   type :: prescribed_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: node(:), dof(:)   !< dof 1 or 2
+      real(wp), allocatable :: value(:)             !< [L]
+   end type prescribed_t
+
+   !> Concentrated loads [F], for the whole thickness; several on one dof add up.
+   type :: node_load_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: node(:), dof(:)
+      real(wp), allocatable :: value(:)
+   end type node_load_t
+
+   !> Loads on elements; several add up.
+   type :: element_load_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: element(:)
+      integer(ip), allocatable :: kind(:)           !< LOAD_PRESSURE or LOAD_BODY
+      integer(ip), allocatable :: face(:)           !< LOAD_PRESSURE: 1..4
+      real(wp), allocatable :: value(:, :)          !< (2, n): pressure [F/L^2] in value(1), or force per volume [F/L^3]
+   end type element_load_t
+
+   type :: controls_t
+      integer(ip) :: method = METHOD_ANDERSON
+      real(wp) :: tolerance = 1.0e-8_wp             !< of the outer loop
+      integer(ip) :: max_iterations = 100           !< outer iterations
+      real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
+   end type controls_t
+
+   !> What is to be printed.
+   type :: requests_t
+      logical :: nodes = .false., reactions = .false., stress = .false., contact = .false.
+      logical, allocatable :: node_u(:), node_rf(:), element_s(:)  !< which nodes, nodes, elements
+   end type requests_t
+
+   type :: parameter_value_t
+      character(len=:), allocatable :: name
+      real(wp) :: value = 0.0_wp
+      logical :: overridden = .false.               !< by --set
+   end type parameter_value_t
+
+   type :: model_t
+      character(len=:), allocatable :: deck_path    !< as the user wrote it
+      character(len=:), allocatable :: deck_name    !< without folder and .inp
+      type(string_t), allocatable :: heading(:)
+      type(parameter_value_t), allocatable :: parameters(:)
+      type(mesh_t) :: mesh
+      type(set_list_t) :: node_sets, element_sets
+      type(material_t), allocatable :: materials(:)
+      type(section_t), allocatable :: sections(:)
+      integer(ip), allocatable :: section_of(:)     !< section of each element
+      type(surface_t), allocatable :: surfaces(:)
+      type(interaction_t), allocatable :: interactions(:)
+      type(pair_t), allocatable :: pairs(:)
+      type(prescribed_t) :: prescribed              !< each dof once
+      type(node_load_t) :: node_loads
+      type(element_load_t) :: element_loads
+      type(controls_t) :: controls
+      type(requests_t) :: requests
+   end type model_t
+
+end module atrito_model

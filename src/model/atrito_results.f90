@@ -1,0 +1,99 @@
+!> What the solver found: filled by solve/, read by output/. No text layout here.
+module atrito_results
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_strings, only: string_t
+   implicit none (type, external)
+   private
+   public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t
+   public :: POINT_OPEN, POINT_STICK, POINT_SLIP
+
+   integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
+
+   !> Fields at the quadrature points of one contact pair, in the order of s.
+   type :: contact_result_t
+      integer(ip) :: n = 0
+      real(wp), allocatable :: s(:)                 !< arc length along the slave surface [L]
+      real(wp), allocatable :: x(:, :)              !< (2, n) [L]
+      real(wp), allocatable :: gap(:)               !< initial distance - u_n [L]; negative: penetration
+      real(wp), allocatable :: pressure(:)          !< p = -sigma_n [F/L^2], >= 0
+      real(wp), allocatable :: weighted_pressure(:) !< S_rho(p) [F/L^2]
+      real(wp), allocatable :: shear(:)             !< sigma_T on the slave along T [F/L^2]
+      real(wp), allocatable :: slip(:)              !< u_T [L]
+      integer(ip), allocatable :: status(:)         !< POINT_*
+      real(wp), allocatable :: weight(:)            !< quadrature weight times thickness [L^2]
+      real(wp) :: s_end = 0.0_wp                    !< s of the last candidate point [L]
+      logical :: has_friction = .false.
+   end type contact_result_t
+
+   !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
+   type :: iteration_t
+      integer(ip) :: outer = 0, inner = 0
+      real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
+      integer(ip) :: open = 0, stick = 0, slip = 0
+      real(wp) :: residual = 0.0_wp                 !< |nu S_rho(p) - tau| / |tau| at the end of an outer iteration, else of the last one
+   end type iteration_t
+
+   !> How a body was handled.
+   type :: body_result_t
+      character(len=:), allocatable :: name
+      integer(ip) :: n_nodes = 0, n_elements = 0, n_equations = 0, n_contact_equations = 0
+      integer(ip) :: n_free_motions = 0             !< rigid motions left by the supports
+      character(len=:), allocatable :: storage      !< skyline, banded
+      character(len=:), allocatable :: reason       !< why this storage
+      integer(lp) :: profile = 0, memory = 0        !< entries; bytes
+      integer(ip) :: half_bandwidth = 0
+      real(wp) :: digits_lost = 0.0_wp
+      integer(ip) :: worst_node = 0, worst_dof = 0  !< place of the worst pivot (user's node number)
+      integer(ip) :: sign_changes = 0
+   end type body_result_t
+
+   !> One contact pair before the solution.
+   type :: pair_scene_t
+      character(len=:), allocatable :: slave, master, interaction
+      integer(ip) :: n_points = 0, n_left_out = 0   !< candidate points; slave faces without a master
+      logical :: matching = .false., master_is_rigid = .false.
+      real(wp) :: least_gap = 0.0_wp, greatest_gap = 0.0_wp   !< initial [L]
+   end type pair_scene_t
+
+   !> What the scene needs, and what was left out: printed by `check` and in the listing.
+   type :: scene_t
+      type(body_result_t), allocatable :: bodies(:)
+      type(pair_scene_t), allocatable :: pairs(:)
+      integer(ip) :: n_dofs = 0                     !< free dofs of all bodies
+      integer(ip) :: n_normal = 0, n_tangential = 0 !< unknowns of the contact line
+      integer(ip) :: n_rigid = 0                    !< rigid motions carried as unknowns
+      logical :: outer_loop = .false.
+      integer(lp) :: memory = 0                     !< bytes, predicted
+      type(string_t), allocatable :: left_out(:)    !< sentences: what this scene does not need
+   end type scene_t
+
+   !> Resultants about the origin [F], [F L].
+   type :: balance_t
+      real(wp) :: applied(2) = 0.0_wp, reactions(2) = 0.0_wp
+      real(wp) :: applied_moment = 0.0_wp, reaction_moment = 0.0_wp
+      real(wp) :: rigid(2) = 0.0_wp                 !< force of the bodies' contact upon rigid surfaces
+   end type balance_t
+
+   type :: results_t
+      integer(ip) :: step = 1
+      logical :: converged = .false.
+      logical :: law_holds = .false.                !< outcome of the final check
+      character(len=:), allocatable :: verdict      !< in words: why not converged, or what the check found
+      type(scene_t) :: scene
+      real(wp), allocatable :: u(:, :)              !< (2, n_nodes) [L]
+      logical, allocatable :: prescribed(:, :)      !< (2, n_nodes)
+      real(wp), allocatable :: reaction(:, :)       !< (2, n_nodes) [F]; 0 where not prescribed
+      type(contact_result_t), allocatable :: contact(:)   !< one a pair
+      integer(ip), allocatable :: stress_element(:) !< (n_stress) places of elements, rows of stress.tab
+      integer(ip), allocatable :: stress_point(:)   !< (n_stress) 1.. in the element, xi fastest
+      real(wp), allocatable :: stress_x(:, :)       !< (2, n_stress) [L]
+      real(wp), allocatable :: stress(:, :)         !< (5, n_stress): s11 s22 s33 s12 mises [F/L^2]
+      type(iteration_t), allocatable :: iterations(:)
+      integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
+      real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
+      real(wp) :: equilibrium_residual = 0.0_wp
+      real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
+      type(balance_t) :: balance
+   end type results_t
+
+end module atrito_results

@@ -1,0 +1,281 @@
+!> The printed listing of a run, <deck name>.lst: made to be read and handed in.
+module atrito_listing
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, to_text
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_status, only: status_t
+   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_messages, only: count_messages, get_message, format_message
+   use atrito_timers, only: phase_time_t, get_phases, peak_memory
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t, balance_t, iteration_t
+   use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, &
+                          left, right, number, bytes, plural
+   use atrito_model_report, only: describe_model
+   use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
+   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields
+   use atrito_table, only: ZERO_SHARE
+   implicit none (type, external)
+   private
+   public :: write_listing, compose_listing
+
+   integer, parameter :: WIDTH = 100                !< columns
+   integer, parameter :: DIGITS = 6                 !< of numbers for people
+
+contains
+
+   !> Writes <deck name>.lst into a set of files.
+   !>
+   !> status: STATUS_FILE when it could not be written.
+   subroutine write_listing(model, results, set, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(file_set_t), intent(inout) :: set
+      type(status_t), intent(out) :: status
+      type(page_t) :: page
+      type(text_file_t) :: file
+      integer :: i
+
+      call compose_listing(model, results, page)
+      call open_text(set, model%deck_name//'.lst', file)
+      do i = 1, page%n
+         call put_line(file, page%lines(i)%s)
+      end do
+      call close_text(file, status)
+   end subroutine write_listing
+
+   !> Composes the listing, without writing it.
+   subroutine compose_listing(model, results, page)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(page_t), intent(out) :: page
+
+      call begin_page(page, WIDTH)
+      call add_title(page, model, results)
+      call add_heading(page, '1  WHAT WAS UNDERSTOOD')
+      call describe_model(page, model)
+      call add_blank(page)
+      call describe_pairs(page, results%scene)
+      call add_heading(page, '2  WHAT THE SCENE NEEDS')
+      call describe_needs(page, results%scene)
+      call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
+      call describe_bodies(page, results%scene, factored=.true.)
+      call add_entry(page, 'factorisations', to_text(int(results%factorisations, ip)))
+      call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
+      call add_heading(page, '4  ITERATIONS')
+      call add_iterations(page, results)
+      call add_heading(page, '5  CONTACT')
+      call add_contact(page, model, results)
+      call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
+      call add_equilibrium(page, results)
+      call add_heading(page, '7  MESSAGES')
+      call add_messages(page)
+      call add_heading(page, '8  ERROR AND TIME')
+      call add_times(page)
+   end subroutine compose_listing
+
+   subroutine add_title(page, model, results)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer :: i
+
+      call add_rule(page, '=')
+      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION, 60)//right(date_text(), WIDTH - 60))
+      call add_line(page, 'deck  '//model%deck_path)
+      if (allocated(model%heading)) then
+         do i = 1, size(model%heading)
+            call add_paragraph(page, model%heading(i)%s, 6)
+         end do
+      end if
+      call add_rule(page, '=')
+      if (results%converged .and. results%law_holds) return
+      call add_blank(page)
+      call add_line(page, 'NOT CONVERGED: what follows is the last iterate, not a solution.')
+      if (allocated(results%verdict)) call add_paragraph(page, results%verdict, 0)
+   end subroutine add_title
+
+   !> yyyy-mm-dd hh:mm
+   function date_text() result(text)
+      character(len=:), allocatable :: text
+      character(len=8) :: date
+      character(len=10) :: time
+
+      call date_and_time(date=date, time=time)
+      text = date(1:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(1:2)//':'//time(3:4)
+   end function date_text
+
+   subroutine add_iterations(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      integer :: i
+
+      call add_entry(page, 'outer iterations', to_text(int(results%outer_iterations, ip)))
+      if (results%contraction > 0.0_wp) call add_entry(page, 'measured rate of the outer loop', number(results%contraction, 3))
+      if (allocated(results%verdict)) call add_entry(page, 'outcome', results%verdict)
+      if (.not. allocated(results%iterations)) return
+      if (size(results%iterations) == 0) return
+      call add_blank(page)
+      call add_line(page, right('outer', 8)//right('inner', 6)//right('open', 7)//right('stick', 7)//right('slip', 7)// &
+                    right('d displ.', 14)//right('d pressure', 14)//right('d friction', 14)//right('residual', 14))
+      do i = 1, size(results%iterations)
+         call add_line(page, iteration_line(results%iterations(i)))
+      end do
+   end subroutine add_iterations
+
+   pure function iteration_line(row) result(text)
+      type(iteration_t), intent(in) :: row
+      character(len=:), allocatable :: text
+
+      text = right(to_text(row%outer), 8)//right(to_text(row%inner), 6)//right(to_text(row%open), 7)// &
+             right(to_text(row%stick), 7)//right(to_text(row%slip), 7)//right(number(row%change_displacement, 4), 14)// &
+             right(number(row%change_pressure, 4), 14)//right(number(row%change_friction, 4), 14)// &
+             right(number(row%residual, 4), 14)
+   end function iteration_line
+
+   subroutine add_contact(page, model, results)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(quantity_t), allocatable :: list(:)
+      type(scales_t) :: scales
+      integer(ip) :: i
+      integer :: j
+
+      if (.not. allocated(results%contact)) then
+         call add_line(page, '   no contact pair')
+         return
+      end if
+      scales = measure_fields(model, results)
+      do i = 1, size(results%contact, kind=ip)
+         if (i > 1) call add_blank(page)
+         call add_line(page, '   pair '//to_text(i)//pair_name(results, i))
+         list = pair_quantities(summarise_pair(results%contact(i)), scales)
+         do j = 1, size(list)
+            call add_quantity(page, list(j))
+         end do
+      end do
+   end subroutine add_contact
+
+   pure function pair_name(results, i) result(text)
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (.not. allocated(results%scene%pairs)) return
+      if (i > size(results%scene%pairs)) return
+      text = ': '//results%scene%pairs(i)%slave//' on '//results%scene%pairs(i)%master
+   end function pair_name
+
+   subroutine add_quantity(page, quantity)
+      type(page_t), intent(inout) :: page
+      type(quantity_t), intent(in) :: quantity
+      character(len=:), allocatable :: value
+
+      value = number(quantity%value, DIGITS)
+      if (value /= 'undefined') then
+         if (abs(quantity%value) < ZERO_SHARE*quantity%scale) value = '0'
+      end if
+      if (quantity%is_count) value = to_text(nint(quantity%value, ip))
+      if (quantity%dimension /= '-') value = value//' ['//trim(quantity%dimension)//']'
+      call add_entry(page, with_blanks(trim(quantity%name)), value)
+   end subroutine add_quantity
+
+   pure function with_blanks(name) result(text)
+      character(len=*), intent(in) :: name
+      character(len=len(name)) :: text
+      integer :: i
+
+      text = name
+      do i = 1, len(name)
+         if (name(i:i) == '_') text(i:i) = ' '
+      end do
+   end function with_blanks
+
+   subroutine add_equilibrium(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      type(quantity_t), allocatable :: list(:)
+      integer :: i
+
+      associate (b => results%balance)
+         call add_line(page, '   '//left('resultants', 30)//right('F1 [F]', 18)//right('F2 [F]', 18)// &
+                       right('moment about 0,0', 20))
+         call add_line(page, force_line('applied', b%applied)//right(number(b%applied_moment, DIGITS), 20))
+         call add_line(page, force_line('reactions of the supports', b%reactions)//right(number(b%reaction_moment, DIGITS), 20))
+         call add_line(page, force_line('from rigid surfaces', -b%rigid))
+         call add_line(page, force_line('sum', balance_sum(b)))
+      end associate
+      call add_blank(page)
+      list = step_quantities(results)
+      do i = 1, size(list)
+         if (.not. list(i)%is_count) call add_quantity(page, list(i))
+      end do
+      if (results%converged .and. results%law_holds) then
+         call add_entry(page, 'contact law, checked anew', 'holds at every point')
+      else
+         call add_entry(page, 'contact law, checked anew', 'DOES NOT HOLD, or was not reached')
+      end if
+   end subroutine add_equilibrium
+
+   !> What equilibrium makes zero; rounding of the parts is written as 0.
+   pure function balance_sum(b) result(total)
+      type(balance_t), intent(in) :: b
+      real(wp) :: total(2)
+
+      total = b%applied + b%reactions - b%rigid
+      where (abs(total) < ZERO_SHARE*(abs(b%applied) + abs(b%reactions) + abs(b%rigid))) total = 0.0_wp
+   end function balance_sum
+
+   pure function force_line(name, f) result(text)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: f(2)
+      character(len=:), allocatable :: text
+
+      text = '   '//left(name, 30)//right(number(f(1), DIGITS), 18)//right(number(f(2), DIGITS), 18)
+   end function force_line
+
+   subroutine add_messages(page)
+      type(page_t), intent(inout) :: page
+      type(string_t), allocatable :: lines(:)
+      integer(ip) :: i
+      integer :: j
+
+      if (count_messages() == 0) call add_line(page, '   none')
+      do i = 1, count_messages()
+         lines = format_message(get_message(i))
+         do j = 1, size(lines)
+            call add_paragraph(page, trim(lines(j)%s), merge(3, 6, j == 1))
+         end do
+      end do
+   end subroutine add_messages
+
+   subroutine add_times(page)
+      type(page_t), intent(inout) :: page
+      type(phase_time_t), allocatable :: phases(:)
+      integer :: i
+
+      call add_entry(page, 'estimated discretisation error', 'not computed by this version')
+      call add_entry(page, 'peak memory', bytes(peak_memory()))
+      call add_blank(page)
+      call add_line(page, '   '//left('phase', 24)//right('wall [s]', 12)//right('cpu [s]', 12))
+      phases = get_phases()
+      do i = 1, size(phases)
+         call add_line(page, time_line(trim(phases(i)%name), phases(i)%wall, phases(i)%cpu))
+      end do
+      call add_line(page, time_line('total', sum(phases%wall), sum(phases%cpu)))
+   end subroutine add_times
+
+   pure function time_line(name, wall, cpu) result(text)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: wall, cpu
+      character(len=:), allocatable :: text
+      character(len=12) :: first, second
+
+      write (first, '(f12.4)') wall
+      write (second, '(f12.4)') cpu
+      text = '   '//left(name, 24)//first//second
+   end function time_line
+
+end module atrito_listing

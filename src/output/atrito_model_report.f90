@@ -1,0 +1,297 @@
+!> What was understood of a deck, for the listing and for `atrito check`.
+module atrito_model_report
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: to_text
+   use atrito_mesh, only: face_end, Q1_NODES, PLANE_STRAIN
+   use atrito_sets, only: set_names
+   use atrito_model, only: model_t, interaction_t, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
+                           FRICTION_NONLOCAL, LOAD_PRESSURE, SURFACE_SEGMENTS
+   use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
+   implicit none (type, external)
+   private
+   public :: describe_model, describe_counts, force_t, load_resultants
+
+   !> A resultant [F] and its moment about the origin [F L].
+   type :: force_t
+      real(wp) :: f(2) = 0.0_wp
+      real(wp) :: moment = 0.0_wp
+   end type force_t
+
+   integer, parameter :: DIGITS = 6                 !< of numbers for people
+
+contains
+
+   !> Everything that was read: counts, parameters, materials, sections, supports, loads, interactions, method.
+   subroutine describe_model(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+
+      call describe_counts(page, model)
+      call describe_parameters(page, model)
+      call describe_materials(page, model)
+      call describe_supports(page, model)
+      call describe_loads(page, model)
+      call describe_interactions(page, model)
+   end subroutine describe_model
+
+   !> How much there is of each kind.
+   subroutine describe_counts(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+
+      call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
+      call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
+      call add_entry(page, 'node sets, element sets', &
+                     to_text(size(set_names(model%node_sets), kind=ip))//', '// &
+                     to_text(size(set_names(model%element_sets), kind=ip)))
+      call add_entry(page, 'surfaces', surface_counts(model))
+      call add_entry(page, 'materials, sections', to_text(count_of(model, 'materials'))//', '// &
+                     to_text(count_of(model, 'sections')))
+      call add_entry(page, 'contact pairs', to_text(count_of(model, 'pairs')))
+   end subroutine describe_counts
+
+   pure integer(ip) function count_of(model, what) result(n)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: what
+
+      n = 0
+      select case (what)
+      case ('materials')
+         if (allocated(model%materials)) n = size(model%materials, kind=ip)
+      case ('sections')
+         if (allocated(model%sections)) n = size(model%sections, kind=ip)
+      case ('pairs')
+         if (allocated(model%pairs)) n = size(model%pairs, kind=ip)
+      case ('surfaces')
+         if (allocated(model%surfaces)) n = size(model%surfaces, kind=ip)
+      case ('interactions')
+         if (allocated(model%interactions)) n = size(model%interactions, kind=ip)
+      case ('parameters')
+         if (allocated(model%parameters)) n = size(model%parameters, kind=ip)
+      end select
+   end function count_of
+
+   !> ` (75 CPE4, 36 CPS9)`
+   pure function element_types(model) result(text)
+      type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
+      character(len=4), parameter :: NAMES(4) = ['CPE4', 'CPS4', 'CPE9', 'CPS9']
+      integer(ip) :: counts(4), e, kind
+
+      counts = 0
+      do e = 1, model%mesh%n_elements
+         kind = merge(1, 2, model%mesh%state(e) == PLANE_STRAIN) + merge(0, 2, model%mesh%shape(e) == Q1_NODES)
+         counts(kind) = counts(kind) + 1
+      end do
+      text = ''
+      do kind = 1, 4
+         if (counts(kind) > 0) text = text//', '//to_text(counts(kind))//' '//NAMES(kind)
+      end do
+      if (len(text) > 0) text = ' ('//text(3:)//')'
+   end function element_types
+
+   pure function surface_counts(model) result(text)
+      type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
+      integer(ip) :: i, rigid
+
+      rigid = 0
+      do i = 1, count_of(model, 'surfaces')
+         if (model%surfaces(i)%kind == SURFACE_SEGMENTS) rigid = rigid + 1
+      end do
+      text = to_text(count_of(model, 'surfaces'))
+      if (rigid > 0) text = text//' ('//to_text(rigid)//' of rigid segments)'
+   end function surface_counts
+
+   subroutine describe_parameters(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip) :: i
+
+      if (count_of(model, 'parameters') == 0) return
+      call add_blank(page)
+      call add_line(page, '   '//left('parameter', 24)//right('value', 16))
+      do i = 1, count_of(model, 'parameters')
+         associate (parameter => model%parameters(i))
+            call add_line(page, '   '//left(parameter%name, 24)//right(number(parameter%value, 10), 16)// &
+                          merge('   by --set', '           ', parameter%overridden))
+         end associate
+      end do
+   end subroutine describe_parameters
+
+   subroutine describe_materials(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip) :: i
+
+      call add_blank(page)
+      call add_line(page, '   '//left('material', 24)//right('E [F/L^2]', 16)//right('mu', 12)//right('density', 16))
+      do i = 1, count_of(model, 'materials')
+         associate (material => model%materials(i))
+            call add_line(page, '   '//left(material%name, 24)//right(number(material%young, DIGITS), 16)// &
+                          right(number(material%poisson, DIGITS), 12)//right(number(material%density, DIGITS), 16))
+         end associate
+      end do
+      call add_blank(page)
+      call add_line(page, '   '//left('section of elements', 24)//right('elements', 16)//right('thickness', 12)//'    material')
+      do i = 1, count_of(model, 'sections')
+         associate (section => model%sections(i))
+            call add_line(page, '   '//left(section%elset, 24)//right(to_text(count(model%section_of == i, kind=ip)), 16)// &
+                          right(number(section%thickness, DIGITS), 12)//'    '//left(model%materials(section%material)%name, 40))
+         end associate
+      end do
+   end subroutine describe_materials
+
+   subroutine describe_supports(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip) :: along_1, moved, n
+      character(len=:), allocatable :: text
+
+      n = model%prescribed%n
+      call add_blank(page)
+      if (n == 0) then
+         call add_entry(page, 'prescribed displacements', 'none')
+         return
+      end if
+      along_1 = count(model%prescribed%dof(:n) == 1, kind=ip)
+      moved = count(abs(model%prescribed%value(:n)) > 0.0_wp, kind=ip)
+      text = to_text(n)//' ('//to_text(along_1)//' along 1, '//to_text(n - along_1)//' along 2)'
+      if (moved > 0) text = text//', '//to_text(moved)//' not zero, the largest '// &
+                            number(maxval(abs(model%prescribed%value(:n))), DIGITS)//' [L]'
+      call add_entry(page, 'prescribed displacements', text)
+   end subroutine describe_supports
+
+   subroutine describe_loads(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(force_t) :: concentrated, pressure, body
+
+      call load_resultants(model, concentrated, pressure, body)
+      call add_blank(page)
+      call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
+                    right('moment about 0,0', 18))
+      call add_force(page, 'on nodes', concentrated)
+      call add_force(page, 'pressure on faces', pressure)
+      call add_force(page, 'in elements', body)
+      call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
+                                          concentrated%moment + pressure%moment + body%moment))
+   end subroutine describe_loads
+
+   subroutine add_force(page, name, force)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: name
+      type(force_t), intent(in) :: force
+
+      call add_line(page, '   '//left(name, 24)//right(number(force%f(1), DIGITS), 16)// &
+                    right(number(force%f(2), DIGITS), 16)//right(number(force%moment, DIGITS), 18))
+   end subroutine add_force
+
+   !> Resultants of the three kinds of load.
+   pure subroutine load_resultants(model, concentrated, pressure, body)
+      type(model_t), intent(in) :: model
+      type(force_t), intent(out) :: concentrated    !< on nodes
+      type(force_t), intent(out) :: pressure        !< on element faces
+      type(force_t), intent(out) :: body            !< in elements, on the quadrilateral of the corners
+      real(wp) :: f(2)
+      integer(ip) :: i
+
+      associate (loads => model%node_loads)
+         do i = 1, loads%n
+            f = 0.0_wp
+            f(loads%dof(i)) = loads%value(i)
+            call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
+         end do
+      end associate
+      do i = 1, model%element_loads%n
+         if (model%element_loads%kind(i) == LOAD_PRESSURE) then
+            call add_pressure(model, i, pressure)
+         else
+            call add_body_force(model, i, body)
+         end if
+      end do
+   end subroutine load_resultants
+
+   pure subroutine add_to(force, f, x)
+      type(force_t), intent(inout) :: force
+      real(wp), intent(in) :: f(2), x(2)
+
+      force%f = force%f + f
+      force%moment = force%moment + (x(1)*f(2) - x(2)*f(1))
+   end subroutine add_to
+
+   !> A uniform pressure on a face, curved or not, has the resultant of the same pressure on its chord.
+   pure subroutine add_pressure(model, i, force)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                  !< place in model%element_loads
+      type(force_t), intent(inout) :: force
+      real(wp) :: a(2), b(2), push
+      integer(ip) :: e, face
+
+      e = model%element_loads%element(i)
+      face = model%element_loads%face(i)
+      a = model%mesh%x(:, model%mesh%nodes(face, e))
+      b = model%mesh%x(:, model%mesh%nodes(face_end(face), e))
+      push = model%element_loads%value(1, i)*model%sections(model%section_of(e))%thickness
+      call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
+   end subroutine add_pressure
+
+   pure subroutine add_body_force(model, i, force)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                  !< place in model%element_loads
+      type(force_t), intent(inout) :: force
+      real(wp) :: x(2, 4), area
+      integer(ip) :: e, k
+
+      e = model%element_loads%element(i)
+      x = model%mesh%x(:, model%mesh%nodes(:4, e))
+      do k = 3, 4
+         associate (d => x(:, k - 1) - x(:, 1), g => x(:, k) - x(:, 1))
+            area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
+         end associate
+         call add_to(force, area*model%sections(model%section_of(e))%thickness*model%element_loads%value(:, i), &
+                     (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp)
+      end do
+   end subroutine add_body_force
+
+   subroutine describe_interactions(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip) :: i
+
+      if (count_of(model, 'pairs') == 0) return
+      call add_blank(page)
+      do i = 1, count_of(model, 'interactions')
+         call add_entry(page, model%interactions(i)%name//', contact', contact_text(model%interactions(i)))
+         call add_entry(page, model%interactions(i)%name//', friction', friction_text(model%interactions(i)))
+      end do
+      associate (controls => model%controls)
+         call add_entry(page, 'outer loop', trim(METHOD_NAME(controls%method))//', tolerance '// &
+                        number(controls%tolerance, 3)//', at most '//plural(controls%max_iterations, 'iteration', 'iterations'))
+      end associate
+   end subroutine describe_interactions
+
+   pure function contact_text(interaction) result(text)
+      type(interaction_t), intent(in) :: interaction
+      character(len=:), allocatable :: text
+
+      text = 'exact (delta = 0)'
+      if (interaction%delta > 0.0_wp) text = 'penalty, delta '//number(interaction%delta, DIGITS)//' [L^3/F]'
+   end function contact_text
+
+   pure function friction_text(interaction) result(text)
+      type(interaction_t), intent(in) :: interaction
+      character(len=:), allocatable :: text
+
+      text = 'none'
+      if (interaction%friction == FRICTION_NONE) return
+      text = trim(FRICTION_NAME(interaction%friction))//', nu '//number(interaction%nu, DIGITS)
+      if (interaction%friction == FRICTION_NONLOCAL) then
+         text = text//', eps '//number(interaction%eps, DIGITS)//' [L], rho '//number(interaction%rho, DIGITS)//' [L], '// &
+                trim(KERNEL_NAME(interaction%kernel))
+      else if (interaction%stick_slope > 0.0_wp) then
+         text = text//', stick slope '//number(interaction%stick_slope, DIGITS)//' [F/L^3]'
+      end if
+   end function friction_text
+
+end module atrito_model_report

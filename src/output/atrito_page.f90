@@ -1,0 +1,231 @@
+!> A page of text for people: the listing, the closing summary and the report of `atrito check` are made of these lines.
+module atrito_page
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_strings, only: string_t, to_text
+   implicit none (type, external)
+   private
+   public :: page_t, begin_page, add_line, add_rule, add_heading, add_entry, add_paragraph, add_blank, print_page
+   public :: left, right, number, bytes, plural, text_width
+
+   type :: page_t
+      integer :: width = 80                         !< columns
+      integer :: n = 0
+      type(string_t), allocatable :: lines(:)       !< the first n are in use
+   end type page_t
+
+   integer, parameter :: LABEL_WIDTH = 34           !< room for the label of an entry and its leader
+   integer, parameter :: INDENT = 3
+
+contains
+
+   pure subroutine begin_page(page, width)
+      type(page_t), intent(out) :: page
+      integer, intent(in) :: width                  !< columns
+
+      page%width = width
+      allocate (page%lines(64))
+   end subroutine begin_page
+
+   !> Adds a line; blanks at its end are dropped.
+   pure subroutine add_line(page, text)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: text
+      type(string_t), allocatable :: longer(:)
+      integer :: i
+
+      if (page%n == size(page%lines)) then
+         allocate (longer(2*page%n))
+         do i = 1, page%n
+            call move_alloc(page%lines(i)%s, longer(i)%s)
+         end do
+         call move_alloc(longer, page%lines)
+      end if
+      page%n = page%n + 1
+      page%lines(page%n)%s = trim(text)
+   end subroutine add_line
+
+   pure subroutine add_blank(page)
+      type(page_t), intent(inout) :: page
+
+      call add_line(page, '')
+   end subroutine add_blank
+
+   !> A line across the page.
+   pure subroutine add_rule(page, mark)
+      type(page_t), intent(inout) :: page
+      character(len=1), intent(in) :: mark
+
+      call add_line(page, repeat(mark, page%width))
+   end subroutine add_rule
+
+   !> A heading with a line below it.
+   pure subroutine add_heading(page, text)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: text
+
+      call add_blank(page)
+      call add_line(page, text)
+      call add_rule(page, '-')
+   end subroutine add_heading
+
+   !> `label ......... value`, the value on lines of its own where there is no room.
+   pure subroutine add_entry(page, label, value)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: label, value
+
+      character(len=:), allocatable :: start
+
+      start = repeat(' ', INDENT)//label//' '//repeat('.', max(2, LABEL_WIDTH - 1 - text_width(label)))//' '
+      if (text_width(start//value) <= page%width) then
+         call add_line(page, start//value)
+      else
+         call add_line(page, start)
+         call add_paragraph(page, value, 2*INDENT)
+      end if
+   end subroutine add_entry
+
+   !> A text broken into lines at its blanks.
+   pure subroutine add_paragraph(page, text, margin)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: margin                 !< blanks before each line
+      integer :: first, last, room
+
+      room = page%width - margin
+      first = 1
+      do while (first <= len_trim(text))
+         last = len_trim(text)
+         if (last - first + 1 > room) last = last_break(text, first, first + room)
+         call add_line(page, repeat(' ', margin)//text(first:last))
+         first = last + 1
+         do while (first < len_trim(text))
+            if (text(first:first) /= ' ') exit
+            first = first + 1
+         end do
+      end do
+   end subroutine add_paragraph
+
+   !> Where to break a text between two places: before the last blank, else at the full width.
+   pure integer function last_break(text, first, beyond) result(last)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first, beyond
+      integer :: blank
+
+      blank = index(text(first:beyond), ' ', back=.true.)
+      last = beyond - 1
+      if (blank > 1) last = first + blank - 2
+   end function last_break
+
+   !> Prints a page. A failure (a closed pipe, a full disk behind it) is nobody's error.
+   subroutine print_page(page, unit)
+      type(page_t), intent(in) :: page
+      integer, intent(in) :: unit
+      integer :: i, ios
+
+      do i = 1, page%n
+         write (unit, '(a)', iostat=ios) page%lines(i)%s
+         if (ios /= 0) return
+      end do
+      flush (unit, iostat=ios)
+   end subroutine print_page
+
+   !> A text at the left of a field, cut with dots where it is too long.
+   pure function left(text, width) result(field)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: width
+      character(len=:), allocatable :: field
+      integer :: last
+
+      field = trim(text)
+      if (text_width(field) > width) then
+         last = len(field)
+         do while (text_width(field(:last)) > max(width - 2, 0) .or. is_cut(field, last))
+            last = last - 1
+         end do
+         field = field(:last)//'..'
+      end if
+      field = field//repeat(' ', max(0, width - text_width(field)))
+   end function left
+
+   !> A letter of several bytes goes on behind this place.
+   pure logical function is_cut(text, last)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: last
+
+      is_cut = .false.
+      if (last > 0 .and. last < len(text)) is_cut = is_continuation(text(last + 1:last + 1))
+   end function is_cut
+
+   !> A text at the right of a field.
+   pure function right(text, width) result(field)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: width
+      character(len=:), allocatable :: field
+
+      field = repeat(' ', max(0, width - text_width(text)))//text
+   end function right
+
+   !> Letters of a UTF-8 text.
+   pure integer function text_width(text) result(width)
+      character(len=*), intent(in) :: text
+      integer :: i
+
+      width = 0
+      do i = 1, len(text)
+         if (.not. is_continuation(text(i:i))) width = width + 1
+      end do
+   end function text_width
+
+   pure logical function is_continuation(byte)
+      character(len=1), intent(in) :: byte
+
+      is_continuation = iand(iachar(byte), 192) == 128
+   end function is_continuation
+
+   !> A real for people.
+   pure function number(x, digits) result(text)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: digits                 !< significant digits
+      character(len=:), allocatable :: text
+
+      if (ieee_is_nan(x)) then
+         text = 'undefined'
+      else if (abs(x) > huge(x)) then
+         text = 'infinite'
+      else
+         text = to_text(x, digits)
+      end if
+   end function number
+
+   !> Bytes for people.
+   pure function bytes(n) result(text)
+      integer(lp), intent(in) :: n
+      character(len=:), allocatable :: text
+      integer(lp), parameter :: KIB = 1024_lp, MIB = KIB*KIB, GIB = KIB*MIB
+
+      if (n < KIB) then
+         text = to_text(n)//' bytes'
+      else if (n < MIB) then
+         text = to_text(real(n, wp)/real(KIB, wp), 4)//' KiB'
+      else if (n < GIB) then
+         text = to_text(real(n, wp)/real(MIB, wp), 4)//' MiB'
+      else
+         text = to_text(real(n, wp)/real(GIB, wp), 4)//' GiB'
+      end if
+   end function bytes
+
+   !> `1 body`, `2 bodies`.
+   pure function plural(n, one, many) result(text)
+      integer(ip), intent(in) :: n
+      character(len=*), intent(in) :: one, many
+      character(len=:), allocatable :: text
+
+      if (n == 1_ip) then
+         text = '1 '//one
+      else
+         text = to_text(n)//' '//many
+      end if
+   end function plural
+
+end module atrito_page

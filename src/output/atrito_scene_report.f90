@@ -1,0 +1,137 @@
+!> What a scene needs and what it does without, for the listing and for `atrito check`.
+module atrito_scene_report
+   use atrito_kinds, only: ip
+   use atrito_strings, only: to_text
+   use atrito_results, only: scene_t, body_result_t, pair_scene_t
+   use atrito_page, only: page_t, add_line, add_blank, add_entry, add_paragraph, left, right, number, bytes, plural
+   implicit none (type, external)
+   private
+   public :: describe_needs, describe_bodies, describe_pairs
+
+contains
+
+   !> Unknowns, loops and memory, and what was left out.
+   subroutine describe_needs(page, scene)
+      type(page_t), intent(inout) :: page
+      type(scene_t), intent(in) :: scene
+      integer :: i
+
+      call add_entry(page, 'bodies', to_text(body_count(scene)))
+      call add_entry(page, 'free displacements', to_text(scene%n_dofs))
+      call add_entry(page, 'normal unknowns', to_text(scene%n_normal))
+      call add_entry(page, 'tangential unknowns', to_text(scene%n_tangential))
+      call add_entry(page, 'rigid motions as unknowns', to_text(scene%n_rigid))
+      if (scene%outer_loop) then
+         call add_entry(page, 'outer loop', 'on the friction bound')
+      else
+         call add_entry(page, 'outer loop', 'none')
+      end if
+      call add_entry(page, 'memory, predicted', bytes(scene%memory))
+      if (.not. allocated(scene%left_out)) return
+      if (size(scene%left_out) == 0) return
+      call add_blank(page)
+      call add_line(page, '   Left out, because this scene does not need it:')
+      do i = 1, size(scene%left_out)
+         call add_paragraph(page, '- '//scene%left_out(i)%s, 3)
+      end do
+   end subroutine describe_needs
+
+   pure integer(ip) function body_count(scene)
+      type(scene_t), intent(in) :: scene
+
+      body_count = 0
+      if (allocated(scene%bodies)) body_count = size(scene%bodies, kind=ip)
+   end function body_count
+
+   !> A row a body: its size, storage and why.
+   subroutine describe_bodies(page, scene, factored)
+      type(page_t), intent(inout) :: page
+      type(scene_t), intent(in) :: scene
+      logical, intent(in) :: factored               !< lost digits and signs are known
+      integer(ip) :: i
+
+      if (body_count(scene) == 0) return
+      call add_line(page, '   '//left('body', 16)//right('elements', 9)//right('equations', 10)//right('contact', 8)// &
+                    right('free', 5)//'  '//left('storage', 8)//right('entries', 11)//right('memory', 11))
+      do i = 1, body_count(scene)
+         call add_body(page, scene%bodies(i))
+      end do
+      do i = 1, body_count(scene)
+         call add_solver_remarks(page, scene%bodies(i), factored)
+      end do
+   end subroutine describe_bodies
+
+   subroutine add_body(page, body)
+      type(page_t), intent(inout) :: page
+      type(body_result_t), intent(in) :: body
+
+      call add_line(page, '   '//left(text_of(body%name), 16)//right(to_text(body%n_elements), 9)// &
+                    right(to_text(body%n_equations), 10)//right(to_text(body%n_contact_equations), 8)// &
+                    right(to_text(body%n_free_motions), 5)//'  '//left(text_of(body%storage), 8)// &
+                    right(to_text(body%profile), 11)//right(bytes(body%memory), 11))
+   end subroutine add_body
+
+   subroutine add_solver_remarks(page, body, factored)
+      type(page_t), intent(inout) :: page
+      type(body_result_t), intent(in) :: body
+      logical, intent(in) :: factored
+
+      if (allocated(body%reason)) then
+         call add_paragraph(page, text_of(body%name)//': '//text_of(body%storage)//', '//body%reason// &
+                            ' (half bandwidth '//to_text(body%half_bandwidth)//')', 3)
+      end if
+      if (.not. factored) return
+      if (body%worst_node > 0) then
+         call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most, at node '// &
+                            to_text(body%worst_node)//' along '//to_text(body%worst_dof)//'; '// &
+                            plural(body%sign_changes, 'sign change', 'sign changes'), 3)
+      end if
+   end subroutine add_solver_remarks
+
+   pure function text_of(text) result(given)
+      character(len=:), allocatable, intent(in) :: text
+      character(len=:), allocatable :: given
+
+      given = '-'
+      if (allocated(text)) given = text
+   end function text_of
+
+   !> A row a contact pair before the solution.
+   subroutine describe_pairs(page, scene)
+      type(page_t), intent(inout) :: page
+      type(scene_t), intent(in) :: scene
+      integer(ip) :: i
+
+      if (.not. allocated(scene%pairs)) return
+      if (size(scene%pairs) == 0) return
+      call add_line(page, '   '//left('pair', 5)//left('slave / master', 37)//right('points', 7)// &
+                    right('least gap', 13)//right('greatest gap', 13))
+      do i = 1, size(scene%pairs, kind=ip)
+         associate (pair => scene%pairs(i))
+            call add_line(page, '   '//left(to_text(i), 5)//left(pair%slave//' / '//pair%master, 37)// &
+                          right(to_text(pair%n_points), 7)//right(number(pair%least_gap, 5), 13)// &
+                          right(number(pair%greatest_gap, 5), 13))
+         end associate
+      end do
+      do i = 1, size(scene%pairs, kind=ip)
+         call add_paragraph(page, 'pair '//to_text(i)//': '//pair_text(scene%pairs(i)), 3)
+      end do
+   end subroutine describe_pairs
+
+   pure function pair_text(pair) result(text)
+      type(pair_scene_t), intent(in) :: pair
+      character(len=:), allocatable :: text
+
+      text = 'interaction '//text_of(pair%interaction)
+      if (pair%master_is_rigid) then
+         text = text//', the master is a rigid surface'
+      else if (pair%matching) then
+         text = text//', the sides match'
+      else
+         text = text//', the sides do not match'
+      end if
+      if (pair%n_left_out > 0) text = text//', '//plural(pair%n_left_out, 'slave face', 'slave faces')// &
+                                      ' without a master left out'
+   end function pair_text
+
+end module atrito_scene_report

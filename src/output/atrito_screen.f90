@@ -1,0 +1,222 @@
+!> The closing summary of a run: at most a screen of 80 columns by 24 lines.
+module atrito_screen
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, to_text
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
+   use atrito_timers, only: phase_time_t, get_phases, peak_memory
+   use atrito_model, only: model_t, METHOD_NAME
+   use atrito_results, only: results_t, scene_t
+   use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, bytes, plural
+   use atrito_summary, only: pair_summary_t, summarise_pair
+   implicit none (type, external)
+   private
+   public :: compose_summary
+
+   integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
+   integer, parameter :: MOST_PAIRS = 2             !< pairs on the screen; the rest is in the listing
+   integer, parameter :: DIGITS = 5
+   integer, parameter :: LABEL_WIDTH = 34           !< columns of a pair's name
+
+contains
+
+   !> Composes the summary. folder and files: where the run was written.
+   subroutine compose_summary(model, results, folder, files, page)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: files(:)        !< names without folder
+      type(page_t), intent(out) :: page
+
+      call begin_page(page, WIDTH)
+      call add_rule(page, '=')
+      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION//'   '//model%deck_path, WIDTH))
+      if (allocated(model%heading)) then
+         if (size(model%heading) > 0) call add_line(page, left(model%heading(1)%s, WIDTH))
+      end if
+      call add_rule(page, '-')
+      call add_verdict(page, results)
+      call add_sizes(page, model, results)
+      call add_pairs(page, results)
+      call add_rule(page, '-')
+      call add_closing(page, folder, files)
+      call add_rule(page, '=')
+   end subroutine compose_summary
+
+   !> `label     value`
+   subroutine add_item(page, label, value)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: label, value
+
+      call add_line(page, left(left(label, 13)//value, WIDTH))
+   end subroutine add_item
+
+   subroutine add_verdict(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+
+      if (results%converged .and. results%law_holds) return
+      call add_line(page, 'NOT CONVERGED: the tables hold the last iterate, not a solution.')
+      if (allocated(results%verdict)) call add_line(page, left(results%verdict, WIDTH))
+   end subroutine add_verdict
+
+   subroutine add_sizes(page, model, results)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+
+      associate (scene => results%scene)
+         call add_item(page, 'solved', plural(body_count(scene), 'body', 'bodies')//', '// &
+                       plural(model%mesh%n_elements, 'element', 'elements')//', '// &
+                       plural(model%mesh%n_nodes, 'node', 'nodes')//', '//to_text(scene%n_dofs)//' free displacements')
+         call add_item(page, 'contact', contact_text(scene))
+         call add_item(page, 'solver', storages(scene)//iteration_text(model, results))
+      end associate
+      if (results%converged .and. results%law_holds) then
+         call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)// &
+                       ' of the largest force; the contact law holds')
+      else
+         call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force')
+      end if
+   end subroutine add_sizes
+
+   pure integer(ip) function body_count(scene)
+      type(scene_t), intent(in) :: scene
+
+      body_count = 0
+      if (allocated(scene%bodies)) body_count = size(scene%bodies, kind=ip)
+   end function body_count
+
+   pure function contact_text(scene) result(text)
+      type(scene_t), intent(in) :: scene
+      character(len=:), allocatable :: text
+      integer(ip) :: n
+
+      n = 0
+      if (allocated(scene%pairs)) n = size(scene%pairs, kind=ip)
+      if (n == 0) then
+         text = 'none'
+      else
+         text = plural(n, 'pair', 'pairs')//', '//plural(sum(scene%pairs%n_points), 'point', 'points')//': '// &
+                to_text(scene%n_normal)//' normal and '//to_text(scene%n_tangential)//' tangential unknowns'
+      end if
+   end function contact_text
+
+   !> The storages in use, each once.
+   pure function storages(scene) result(text)
+      type(scene_t), intent(in) :: scene
+      character(len=:), allocatable :: text
+      integer(ip) :: i
+
+      text = ''
+      do i = 1, body_count(scene)
+         if (.not. allocated(scene%bodies(i)%storage)) cycle
+         if (index(text, scene%bodies(i)%storage) > 0) cycle
+         if (len(text) > 0) text = text//' and '
+         text = text//scene%bodies(i)%storage
+      end do
+   end function storages
+
+   pure function iteration_text(model, results) result(text)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: text
+
+      text = ', '//plural(int(results%linear_solves, ip), 'linear solve', 'linear solves')
+      if (.not. allocated(model%pairs)) return
+      if (size(model%pairs) == 0) return
+      if (results%scene%outer_loop) then
+         text = ', '//trim(METHOD_NAME(model%controls%method))//': '// &
+                plural(int(results%outer_iterations, ip), 'outer iteration', 'outer iterations')//text
+      else
+         text = ', no outer loop'//text
+      end if
+   end function iteration_text
+
+   !> A row a pair as in Quadro I of the paper, and a line of tractions.
+   subroutine add_pairs(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      integer(ip) :: i, shown
+
+      if (.not. allocated(results%contact)) return
+      if (size(results%contact) == 0) return
+      shown = min(size(results%contact, kind=ip), int(MOST_PAIRS, ip))
+      call add_rule(page, '-')
+      call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
+      call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
+      do i = 1, shown
+         call add_pair(page, pair_label(results, i), summarise_pair(results%contact(i)))
+      end do
+      if (shown < size(results%contact)) then
+         call add_line(page, '... and '//to_text(size(results%contact, kind=ip) - shown)//' more pairs in the listing')
+      end if
+   end subroutine add_pairs
+
+   pure function row_text(label, area, uniform, triangular, distance) result(text)
+      character(len=*), intent(in) :: label, area, uniform, triangular, distance
+      character(len=:), allocatable :: text
+
+      text = left(label, LABEL_WIDTH)//right(area, 10)//right(uniform, 10)//right(triangular, 11)//right(distance, 14)
+   end function row_text
+
+   subroutine add_pair(page, label, summary)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: label
+      type(pair_summary_t), intent(in) :: summary
+
+      call add_line(page, row_text(label, number(summary%effective_area_percent, DIGITS), &
+                                   number(summary%max_pressure_over_uniform, DIGITS), &
+                                   number(summary%max_pressure_over_triangular, DIGITS), &
+                                   number(summary%resultant_from_end, DIGITS)))
+      call add_line(page, left('  normal '//number(summary%normal_resultant, DIGITS)//', shear '// &
+                               number(summary%shear_resultant, DIGITS)//' [F]; max. p '//number(summary%max_pressure, DIGITS)// &
+                               ' [F/L^2]; '//to_text(summary%open_points)//' open, '//to_text(summary%stick_points)// &
+                               ' stick, '//to_text(summary%slip_points)//' slip', WIDTH))
+   end subroutine add_pair
+
+   pure function pair_label(results, i) result(text)
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
+
+      text = 'pair '//to_text(i)
+      if (.not. allocated(results%scene%pairs)) return
+      if (i > size(results%scene%pairs)) return
+      text = to_text(i)//' '//results%scene%pairs(i)%slave//' on '//results%scene%pairs(i)%master
+   end function pair_label
+
+   subroutine add_closing(page, folder, files)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: files(:)
+      type(phase_time_t), allocatable :: phases(:)
+      character(len=:), allocatable :: tables
+      integer :: i, length
+
+      phases = get_phases()
+      call add_item(page, 'time', seconds(sum(phases%wall))//' s ('//seconds(sum(phases%cpu))//' s of processor), '// &
+                    bytes(peak_memory())//'; '//plural(count_messages(SEVERITY_WARNING), 'warning', 'warnings')//', '// &
+                    plural(count_messages(SEVERITY_NOTE), 'note', 'notes'))
+      tables = ''
+      do i = 1, size(files)
+         length = len(files(i)%s)
+         if (files(i)%s(length - 3:) == '.tab') then
+            tables = tables//' '//files(i)%s(:length - 4)
+         else
+            call add_line(page, left('listing', 13)//folder//'/'//files(i)%s)
+         end if
+      end do
+      call add_line(page, left('tables in', 13)//folder)
+      call add_line(page, left('', 12)//left(tables, WIDTH - 12))
+   end subroutine add_closing
+
+   !> Seconds to the millisecond.
+   pure function seconds(time) result(text)
+      real(wp), intent(in) :: time
+      character(len=:), allocatable :: text
+
+      text = number(1.0e-3_wp*anint(1.0e3_wp*time), DIGITS)
+   end function seconds
+
+end module atrito_screen

@@ -1,0 +1,196 @@
+!> The quantities of a pair and of a step that summary.tab, the listing and the screen tell alike.
+module atrito_summary
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
+   implicit none (type, external)
+   private
+   public :: pair_summary_t, quantity_t, scales_t
+   public :: summarise_pair, pair_quantities, step_quantities, measure_fields
+
+   !> What the contact tractions of one pair come to.
+   type :: pair_summary_t
+      real(wp) :: candidate_area = 0.0_wp          !< [L^2]
+      real(wp) :: effective_area = 0.0_wp          !< [L^2] weights with p > 0
+      real(wp) :: effective_area_percent = 0.0_wp
+      real(wp) :: normal_resultant = 0.0_wp        !< [F]
+      real(wp) :: shear_resultant = 0.0_wp         !< [F] along T, on the slave
+      real(wp) :: max_pressure = 0.0_wp            !< [F/L^2]
+      real(wp) :: max_pressure_over_uniform = 0.0_wp
+      real(wp) :: max_pressure_over_triangular = 0.0_wp
+      real(wp) :: resultant_from_start = 0.0_wp    !< [L] along s
+      real(wp) :: resultant_from_end = 0.0_wp      !< [L] along s
+      real(wp) :: max_abs_shear = 0.0_wp           !< [F/L^2]
+      real(wp) :: max_abs_slip = 0.0_wp            !< [L], all points
+      real(wp) :: max_penetration = 0.0_wp         !< [L]
+      integer(ip) :: open_points = 0, stick_points = 0, slip_points = 0
+   end type pair_summary_t
+
+   !> A row of summary.tab.
+   type :: quantity_t
+      character(len=32) :: name = ''
+      character(len=8) :: dimension = '-'
+      real(wp) :: value = 0.0_wp
+      real(wp) :: scale = 0.0_wp                   !< of its field; 0: nothing is rounding
+      logical :: is_count = .false.
+   end type quantity_t
+
+   !> The largest value of each field.
+   type :: scales_t
+      real(wp) :: length = 0.0_wp                  !< coordinates [L]
+      real(wp) :: displacement = 0.0_wp            !< [L]
+      real(wp) :: pressure = 0.0_wp                !< contact pressure, all pairs [F/L^2]
+      real(wp) :: stress = 0.0_wp                  !< stresses and pressure [F/L^2]
+      real(wp) :: force = 0.0_wp                   !< reactions and applied resultants [F]
+      real(wp) :: area = 0.0_wp                    !< largest candidate area of a pair [L^2]
+   end type scales_t
+
+contains
+
+   !> Summarises the fields at the quadrature points of a pair. A ratio that is not defined, for want of points or of pressure,
+   !> is NaN.
+   pure function summarise_pair(contact) result(summary)
+      type(contact_result_t), intent(in) :: contact
+      type(pair_summary_t) :: summary
+      real(wp) :: moment
+      integer(ip) :: n
+
+      n = contact%n
+      if (n > 0) then
+         associate (w => contact%weight(:n), p => contact%pressure(:n))
+            summary%candidate_area = sum(w)
+            summary%effective_area = sum(w, mask=p > 0.0_wp)
+            summary%normal_resultant = sum(w*p)
+            summary%shear_resultant = sum(w*contact%shear(:n))
+            summary%max_pressure = max(maxval(p), 0.0_wp)
+            moment = sum(w*p*contact%s(:n))
+         end associate
+         summary%max_abs_shear = maxval(abs(contact%shear(:n)))
+         summary%max_abs_slip = maxval(abs(contact%slip(:n)))
+         summary%max_penetration = max(0.0_wp, maxval(-contact%gap(:n)))
+         summary%open_points = count(contact%status(:n) == POINT_OPEN, kind=ip)
+         summary%stick_points = count(contact%status(:n) == POINT_STICK, kind=ip)
+         summary%slip_points = count(contact%status(:n) == POINT_SLIP, kind=ip)
+      else
+         moment = 0.0_wp
+      end if
+      associate (s => summary)
+         s%effective_area_percent = 100.0_wp*ratio(s%effective_area, s%candidate_area)
+         s%max_pressure_over_uniform = ratio(s%max_pressure*s%candidate_area, s%normal_resultant)
+         s%max_pressure_over_triangular = 0.5_wp*s%max_pressure_over_uniform
+         s%resultant_from_start = ratio(moment, s%normal_resultant)
+         s%resultant_from_end = contact%s_end - s%resultant_from_start
+      end associate
+   end function summarise_pair
+
+   !> a/b, NaN where b is not positive.
+   pure real(wp) function ratio(a, b)
+      real(wp), intent(in) :: a, b
+
+      if (b > 0.0_wp) then
+         ratio = a/b
+      else
+         ratio = ieee_value(1.0_wp, ieee_quiet_nan)
+      end if
+   end function ratio
+
+   !> The rows of a pair, in the order of summary.tab.
+   pure function pair_quantities(summary, scales) result(list)
+      type(pair_summary_t), intent(in) :: summary
+      type(scales_t), intent(in) :: scales
+      type(quantity_t), allocatable :: list(:)
+      real(wp) :: force
+
+      force = scales%pressure*scales%area
+      associate (s => summary)
+         list = [quantity('candidate_area', 'L^2', s%candidate_area, 0.0_wp), &
+                 quantity('effective_area', 'L^2', s%effective_area, 0.0_wp), &
+                 quantity('effective_area_percent', '-', s%effective_area_percent, 0.0_wp), &
+                 quantity('normal_resultant', 'F', s%normal_resultant, force), &
+                 quantity('shear_resultant', 'F', s%shear_resultant, force), &
+                 quantity('max_pressure', 'F/L^2', s%max_pressure, scales%pressure), &
+                 quantity('max_pressure_over_uniform', '-', s%max_pressure_over_uniform, 0.0_wp), &
+                 quantity('max_pressure_over_triangular', '-', s%max_pressure_over_triangular, 0.0_wp), &
+                 quantity('resultant_from_start', 'L', s%resultant_from_start, scales%length), &
+                 quantity('resultant_from_end', 'L', s%resultant_from_end, scales%length), &
+                 quantity('max_abs_shear', 'F/L^2', s%max_abs_shear, scales%pressure), &
+                 quantity('max_abs_slip', 'L', s%max_abs_slip, scales%displacement), &
+                 quantity('max_penetration', 'L', s%max_penetration, scales%displacement), &
+                 counted('open_points', s%open_points), &
+                 counted('stick_points', s%stick_points), &
+                 counted('slip_points', s%slip_points)]
+      end associate
+   end function pair_quantities
+
+   !> The rows of a step (pair 0), in the order of summary.tab.
+   pure function step_quantities(results) result(list)
+      type(results_t), intent(in) :: results
+      type(quantity_t), allocatable :: list(:)
+
+      list = [counted('picard_iterations', int(results%outer_iterations, ip)), &
+              counted('linear_solves', int(results%linear_solves, ip)), &
+              quantity('equilibrium_residual', '-', results%equilibrium_residual, 0.0_wp), &
+              quantity('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
+              quantity('external_work', 'F L', results%external_work, 0.0_wp)]
+   end function step_quantities
+
+   pure function quantity(name, dimension, value, scale)
+      character(len=*), intent(in) :: name, dimension
+      real(wp), intent(in) :: value, scale
+      type(quantity_t) :: quantity
+
+      quantity%name = name
+      quantity%dimension = dimension
+      quantity%value = value
+      quantity%scale = scale
+   end function quantity
+
+   pure function counted(name, value)
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: value
+      type(quantity_t) :: counted
+
+      counted%name = name
+      counted%value = real(value, wp)
+      counted%is_count = .true.
+   end function counted
+
+   !> Finds the scales of all fields. What is not there counts as 0.
+   pure function measure_fields(model, results) result(scales)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(scales_t) :: scales
+      integer :: i
+
+      scales%length = largest(model%mesh%x)
+      if (allocated(results%u)) scales%displacement = largest(results%u)
+      if (allocated(results%reaction)) scales%force = largest(results%reaction)
+      scales%force = max(scales%force, maxval(abs(results%balance%applied)))
+      do i = 1, number_of(results%contact)
+         associate (contact => results%contact(i))
+            if (contact%n == 0) cycle
+            scales%pressure = max(scales%pressure, maxval(abs(contact%pressure(:contact%n))))
+            scales%area = max(scales%area, sum(contact%weight(:contact%n)))
+         end associate
+      end do
+      scales%stress = scales%pressure
+      if (allocated(results%stress)) scales%stress = max(scales%stress, largest(results%stress))
+   end function measure_fields
+
+   pure integer function number_of(list)
+      type(contact_result_t), allocatable, intent(in) :: list(:)
+
+      number_of = 0
+      if (allocated(list)) number_of = size(list)
+   end function number_of
+
+   !> Largest absolute value; 0 for an empty array.
+   pure real(wp) function largest(values)
+      real(wp), intent(in) :: values(:, :)
+
+      largest = 0.0_wp
+      if (size(values) > 0) largest = maxval(abs(values))
+   end function largest
+
+end module atrito_summary

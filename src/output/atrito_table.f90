@@ -1,0 +1,279 @@
+!> A table: named columns with dimensions, and how it becomes a text file that people, numpy and gnuplot read.
+module atrito_table
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, append_string
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_status, only: status_t
+   use atrito_number_text, only: put_real, put_integer, real_width, integer_width
+   implicit none (type, external)
+   private
+   public :: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table
+   public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE
+
+   character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
+   character(len=*), parameter :: MARK_COLUMNS = '# columns:'
+   character(len=*), parameter :: MARK_DIMENSIONS = '# dimensions:'
+   !> A value below this share of its field's scale is rounding and is written as 0.
+   real(wp), parameter :: ZERO_SHARE = 1.0e-14_wp
+
+   integer, parameter :: KIND_REAL = 1, KIND_INTEGER = 2, KIND_WORD = 3
+
+   type :: column_t
+      character(len=:), allocatable :: name, dimension
+      integer :: kind = KIND_REAL
+      real(wp) :: zero = 0.0_wp                    !< smaller values are written as 0
+      logical :: on_the_left = .false.             !< within its field
+      integer :: first = 0, last = 0               !< its place in a line
+      real(wp), allocatable :: reals(:)
+      integer(ip), allocatable :: integers(:)
+      type(string_t), allocatable :: words(:)
+   end type column_t
+
+   type :: table_t
+      character(len=:), allocatable :: name        !< file name without .tab
+      character(len=:), allocatable :: title       !< what a row is
+      type(string_t), allocatable :: remarks(:)    !< further comment lines
+      integer(ip) :: n_rows = 0
+      type(column_t), allocatable :: columns(:)
+   end type table_t
+
+   !> Where tables come from: the comment lines at their top.
+   type :: origin_t
+      character(len=:), allocatable :: deck        !< file name, without folder
+      type(string_t), allocatable :: heading(:)
+      logical :: not_converged = .false.
+   end type origin_t
+
+contains
+
+   !> Begins a table without columns.
+   pure subroutine begin_table(table, name, title, n_rows)
+      type(table_t), intent(out) :: table
+      character(len=*), intent(in) :: name, title
+      integer(ip), intent(in) :: n_rows
+
+      table%name = name
+      table%title = title
+      table%n_rows = n_rows
+      allocate (table%columns(0), table%remarks(0))
+   end subroutine begin_table
+
+   !> Adds a column of reals.
+   pure subroutine add_reals(table, name, dimension, values, scale)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: dimension     !< in F and L; '-' for none
+      real(wp), intent(in) :: values(:)             !< (n_rows)
+      real(wp), intent(in) :: scale                 !< largest value of the field; 0: nothing is rounding
+      type(column_t) :: column
+
+      column%kind = KIND_REAL
+      column%zero = ZERO_SHARE*scale
+      column%reals = values
+      call add_column(table, name, dimension, column)
+   end subroutine add_reals
+
+   !> Adds a column of integers.
+   pure subroutine add_integers(table, name, values)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: values(:)          !< (n_rows)
+      type(column_t) :: column
+
+      column%kind = KIND_INTEGER
+      column%integers = values
+      call add_column(table, name, '-', column)
+   end subroutine add_integers
+
+   !> Adds a column of words; none may be empty or hold a blank.
+   pure subroutine add_words(table, name, dimension, values, on_the_left)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: name, dimension
+      type(string_t), intent(in) :: values(:)       !< (n_rows)
+      logical, intent(in) :: on_the_left            !< names; numbers stand on the right
+      type(column_t) :: column
+
+      column%kind = KIND_WORD
+      column%on_the_left = on_the_left
+      column%words = values
+      call add_column(table, name, dimension, column)
+   end subroutine add_words
+
+   pure subroutine add_column(table, name, dimension, column)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: name, dimension
+      type(column_t), intent(inout) :: column
+      type(column_t), allocatable :: longer(:)
+      integer :: i, n
+
+      n = size(table%columns)
+      allocate (longer(n + 1))
+      do i = 1, n
+         call move_column(table%columns(i), longer(i))
+      end do
+      call move_column(column, longer(n + 1))
+      longer(n + 1)%name = name
+      longer(n + 1)%dimension = dimension
+      call move_alloc(longer, table%columns)
+   end subroutine add_column
+
+   !> Hands a column on without a copy of its numbers.
+   pure subroutine move_column(from, to)
+      type(column_t), intent(inout) :: from, to
+
+      to%kind = from%kind
+      to%zero = from%zero
+      to%on_the_left = from%on_the_left
+      if (allocated(from%name)) call move_alloc(from%name, to%name)
+      if (allocated(from%dimension)) call move_alloc(from%dimension, to%dimension)
+      if (allocated(from%reals)) call move_alloc(from%reals, to%reals)
+      if (allocated(from%integers)) call move_alloc(from%integers, to%integers)
+      if (allocated(from%words)) call move_alloc(from%words, to%words)
+   end subroutine move_column
+
+   !> Writes <name>.tab into a set of files.
+   !>
+   !> status: STATUS_FILE when it could not be written.
+   subroutine write_table(set, table, origin, digits, status)
+      type(file_set_t), intent(inout) :: set
+      type(table_t), intent(inout) :: table         !< its columns get their places
+      type(origin_t), intent(in) :: origin
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(status_t), intent(out) :: status
+      type(text_file_t) :: file
+
+      call open_text(set, table%name//'.tab', file)
+      call place_columns(table, digits)
+      call write_top(file, table, origin)
+      call write_rows(file, table, digits)
+      call close_text(file, status)
+   end subroutine write_table
+
+   !> Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
+   pure subroutine place_columns(table, digits)
+      type(table_t), intent(inout) :: table
+      integer, intent(in) :: digits
+      integer :: i, last, width
+
+      last = len(MARK_DIMENSIONS)
+      do i = 1, size(table%columns)
+         associate (column => table%columns(i))
+            width = max(len(column%name), len(column%dimension), value_width(column, digits))
+            column%first = last + 2
+            column%last = last + 1 + width
+            last = column%last
+         end associate
+      end do
+   end subroutine place_columns
+
+   pure integer function value_width(column, digits) result(width)
+      type(column_t), intent(in) :: column
+      integer, intent(in) :: digits
+      integer :: i
+
+      width = 1
+      select case (column%kind)
+      case (KIND_REAL)
+         width = real_width(digits)
+      case (KIND_INTEGER)
+         if (size(column%integers) == 0) return
+         width = max(integer_width(maxval(column%integers)), integer_width(minval(column%integers)))
+      case (KIND_WORD)
+         do i = 1, size(column%words)
+            width = max(width, len(column%words(i)%s))
+         end do
+      end select
+   end function value_width
+
+   subroutine write_top(file, table, origin)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      type(origin_t), intent(in) :: origin
+      type(string_t), allocatable :: names(:), dimensions(:)
+      integer :: i
+
+      if (origin%not_converged) call put_line(file, MARK_NOT_CONVERGED)
+      call put_line(file, '# program: '//PROGRAM_NAME//' '//PROGRAM_VERSION)
+      call put_line(file, '# deck: '//origin%deck)
+      do i = 1, size(origin%heading)
+         call put_line(file, '# heading: '//origin%heading(i)%s)
+      end do
+      call put_line(file, '# table: '//table%name//', '//table%title)
+      do i = 1, size(table%remarks)
+         call put_line(file, '# '//table%remarks(i)%s)
+      end do
+      do i = 1, size(table%columns)
+         call append_string(names, table%columns(i)%name)
+         call append_string(dimensions, table%columns(i)%dimension)
+      end do
+      call put_line(file, title_line(table, MARK_COLUMNS, names))
+      call put_line(file, title_line(table, MARK_DIMENSIONS, dimensions))
+   end subroutine write_top
+
+   pure function title_line(table, mark, titles) result(line)
+      type(table_t), intent(in) :: table
+      character(len=*), intent(in) :: mark
+      type(string_t), intent(in) :: titles(:)
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = repeat(' ', table%columns(size(table%columns))%last)
+      line(:len(mark)) = mark
+      do i = 1, size(titles)
+         call put_word(titles(i)%s, table%columns(i)%on_the_left, line(table%columns(i)%first:table%columns(i)%last))
+      end do
+   end function title_line
+
+   subroutine write_rows(file, table, digits)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: digits
+      character(len=:), allocatable :: line
+      integer(ip) :: row
+      integer :: i
+
+      line = repeat(' ', table%columns(size(table%columns))%last)
+      do row = 1, table%n_rows
+         do i = 1, size(table%columns)
+            call put_value(table%columns(i), row, digits, line(table%columns(i)%first:table%columns(i)%last))
+         end do
+         call put_line(file, line)
+      end do
+   end subroutine write_rows
+
+   pure subroutine put_value(column, row, digits, field)
+      type(column_t), intent(in) :: column
+      integer(ip), intent(in) :: row
+      integer, intent(in) :: digits
+      character(len=*), intent(out) :: field
+
+      select case (column%kind)
+      case (KIND_REAL)
+         call put_real(without_rounding(column%reals(row), column%zero), digits, field)
+      case (KIND_INTEGER)
+         call put_integer(column%integers(row), field)
+      case (KIND_WORD)
+         call put_word(column%words(row)%s, column%on_the_left, field)
+      end select
+   end subroutine put_value
+
+   pure subroutine put_word(word, on_the_left, field)
+      character(len=*), intent(in) :: word
+      logical, intent(in) :: on_the_left
+      character(len=*), intent(out) :: field
+
+      field = word
+      if (.not. on_the_left) field = adjustr(field)
+   end subroutine put_word
+
+   elemental real(wp) function without_rounding(x, zero)
+      use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+      real(wp), intent(in) :: x, zero
+
+      without_rounding = x
+      if (ieee_is_nan(x)) return
+      if (abs(x) < zero) without_rounding = 0.0_wp
+   end function without_rounding
+
+end module atrito_table

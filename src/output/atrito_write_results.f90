@@ -1,0 +1,47 @@
+!> Writes a run: all tables and the listing, which appear together or not at all.
+module atrito_write_results
+   use atrito_strings, only: string_t
+   use atrito_status, only: status_t, is_ok
+   use atrito_files, only: file_set_t, begin_files, commit_files, discard_files
+   use atrito_timers, only: start_phase, stop_phase
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t
+   use atrito_write_tables, only: write_tables, write_timing, list_table_files
+   use atrito_listing, only: write_listing
+   implicit none (type, external)
+   private
+   public :: write_results
+
+contains
+
+   !> Writes everything into a folder, which is made where it is missing, and removes the tables of an earlier run that this one
+   !> does not write.
+   !>
+   !> status: STATUS_FILE, and then what the folder held before is untouched.
+   subroutine write_results(model, results, digits, folder, written, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer, intent(in) :: digits                     !< significant digits of the tables, 6..17
+      character(len=*), intent(in) :: folder
+      type(string_t), allocatable, intent(out) :: written(:) !< names of the files, without folder
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+
+      allocate (written(0))
+      call begin_files(set, folder, status)
+      if (.not. is_ok(status)) return
+      call start_phase('write')
+      call write_tables(model, results, digits, set, status)
+      call stop_phase('write')
+      ! these two tell the time, that of writing the tables included
+      if (is_ok(status)) call write_timing(model, results, digits, set, status)
+      if (is_ok(status)) call write_listing(model, results, set, status)
+      if (is_ok(status)) then
+         call commit_files(set, list_table_files(), status)
+      else
+         call discard_files(set)
+      end if
+      if (is_ok(status)) written = set%names
+   end subroutine write_results
+
+end module atrito_write_results

@@ -1,0 +1,389 @@
+!> The tables of a run, docs/user/tables.md: what is in them and when each is written.
+module atrito_write_tables
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_status, only: status_t, is_ok
+   use atrito_files, only: file_set_t
+   use atrito_timers, only: phase_time_t, get_phases, peak_memory
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t
+   use atrito_number_text, only: trimmed_real
+   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table, ZERO_SHARE
+   implicit none (type, external)
+   private
+   public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
+
+   !> Every table that atrito can write.
+   character(len=10), parameter :: TABLE_NAMES(7) = &
+      [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', 'iterations', 'timing']
+
+contains
+
+   !> File names of every table that atrito can write: what a new run replaces or removes.
+   pure function list_table_files() result(names)
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(TABLE_NAMES)
+         call append_string(names, trim(TABLE_NAMES(i))//'.tab')
+      end do
+   end function list_table_files
+
+   !> The comment lines at the top of all tables of a run.
+   pure function origin_of(model, results) result(origin)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(origin_t) :: origin
+
+      origin%deck = model%deck_path(index(model%deck_path, '/', back=.true.) + 1:)
+      allocate (origin%heading(0))
+      if (allocated(model%heading)) origin%heading = model%heading
+      origin%not_converged = .not. (results%converged .and. results%law_holds)
+   end function origin_of
+
+   !> Writes all tables of a run but timing.tab, which comes last.
+   !>
+   !> status: STATUS_FILE when one could not be written; the rest is not tried then.
+   subroutine write_tables(model, results, digits, set, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(file_set_t), intent(inout) :: set
+      type(status_t), intent(out) :: status
+      type(scales_t) :: scales
+      type(table_t) :: table
+      type(origin_t) :: origin
+      integer :: i
+
+      origin = origin_of(model, results)
+      scales = measure_fields(model, results)
+      do i = 1, size(TABLE_NAMES)
+         if (.not. is_wanted(TABLE_NAMES(i), model, results)) cycle
+         select case (TABLE_NAMES(i))
+         case ('contact')
+            call build_contact(results, scales, table)
+         case ('summary')
+            call build_summary(results, scales, digits, table)
+         case ('nodes')
+            call build_nodes(model, results, scales, table)
+         case ('reactions')
+            call build_reactions(model, results, scales, table)
+         case ('stress')
+            call build_stress(model, results, scales, table)
+         case ('iterations')
+            call build_iterations(results, table)
+         end select
+         call write_table(set, table, origin, digits, status)
+         if (.not. is_ok(status)) return
+      end do
+   end subroutine write_tables
+
+   !> Contact whenever there is a pair; summary and iterations always; the rest when the deck asks; timing is not written here.
+   pure logical function is_wanted(name, model, results)
+      character(len=*), intent(in) :: name
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+
+      select case (name)
+      case ('contact')
+         is_wanted = pair_count(results) > 0
+      case ('summary', 'iterations')
+         is_wanted = .true.
+      case ('nodes')
+         is_wanted = model%requests%nodes .and. allocated(results%u)
+      case ('reactions')
+         is_wanted = model%requests%reactions .and. allocated(results%reaction)
+      case ('stress')
+         is_wanted = model%requests%stress .and. allocated(results%stress)
+      case default
+         is_wanted = .false.
+      end select
+   end function is_wanted
+
+   pure integer(ip) function pair_count(results)
+      type(results_t), intent(in) :: results
+
+      pair_count = 0
+      if (allocated(results%contact)) pair_count = size(results%contact, kind=ip)
+   end function pair_count
+
+   !> A row a quadrature point, by pair, then along s.
+   subroutine build_contact(results, scales, table)
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      integer(ip), allocatable :: pair(:), point(:), point_status(:)
+      real(wp), allocatable :: field(:, :)
+      integer(ip) :: first, last, n, i, j
+
+      n = sum(results%contact%n)
+      allocate (pair(n), point(n), point_status(n), field(n, 9))
+      last = 0
+      do i = 1, pair_count(results)
+         first = last + 1
+         last = last + results%contact(i)%n
+         pair(first:last) = i
+         point(first:last) = [(j, j=1, results%contact(i)%n)]
+         point_status(first:last) = results%contact(i)%status(:results%contact(i)%n)
+         call copy_fields(field(first:last, :), results, i)
+      end do
+      call begin_table(table, 'contact', 'a row a quadrature point of the slave surface', n)
+      call add_integers(table, 'step', spread(results%step, 1, n))
+      call add_integers(table, 'pair', pair)
+      call add_integers(table, 'point', point)
+      call add_reals(table, 's', 'L', field(:, 1), scales%length)
+      call add_reals(table, 'x', 'L', field(:, 2), scales%length)
+      call add_reals(table, 'y', 'L', field(:, 3), scales%length)
+      call add_reals(table, 'gap', 'L', field(:, 4), scales%displacement)
+      call add_reals(table, 'pressure', 'F/L^2', field(:, 5), scales%pressure)
+      call add_reals(table, 'weighted_pressure', 'F/L^2', field(:, 6), scales%pressure)
+      call add_reals(table, 'shear', 'F/L^2', field(:, 7), scales%pressure)
+      call add_reals(table, 'slip', 'L', field(:, 8), scales%displacement)
+      call add_integers(table, 'status', point_status)
+      call add_reals(table, 'weight', 'L^2', field(:, 9), 0.0_wp)
+   end subroutine build_contact
+
+   pure subroutine copy_fields(field, results, i)
+      real(wp), intent(out) :: field(:, :)
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: i
+
+      associate (contact => results%contact(i), n => results%contact(i)%n)
+         field(:, 1) = contact%s(:n)
+         field(:, 2) = contact%x(1, :n)
+         field(:, 3) = contact%x(2, :n)
+         field(:, 4) = contact%gap(:n)
+         field(:, 5) = contact%pressure(:n)
+         field(:, 6) = contact%weighted_pressure(:n)
+         field(:, 7) = contact%shear(:n)
+         field(:, 8) = contact%slip(:n)
+         field(:, 9) = contact%weight(:n)
+      end associate
+   end subroutine copy_fields
+
+   !> A row a quantity: the pairs, then the step as pair 0.
+   subroutine build_summary(results, scales, digits, table)
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      integer, intent(in) :: digits
+      type(table_t), intent(out) :: table
+      type(quantity_t), allocatable :: list(:), more(:)
+      integer(ip), allocatable :: pair(:)
+      type(string_t), allocatable :: names(:), values(:)
+      integer(ip) :: i, n
+
+      allocate (list(0), pair(0))
+      do i = 1, pair_count(results)
+         more = pair_quantities(summarise_pair(results%contact(i)), scales)
+         list = [list, more]
+         pair = [pair, spread(i, 1, size(more))]
+      end do
+      more = step_quantities(results)
+      list = [list, more]
+      pair = [pair, spread(0_ip, 1, size(more))]
+      n = size(list, kind=ip)
+      allocate (names(n), values(n))
+      do i = 1, n
+         names(i)%s = trim(list(i)%name)
+         values(i)%s = quantity_text(list(i), digits)
+      end do
+      call begin_table(table, 'summary', 'a row a quantity, by pair; pair 0 is the step', n)
+      call add_integers(table, 'step', spread(results%step, 1, n))
+      call add_integers(table, 'pair', pair)
+      call add_words(table, 'quantity', '-', names, on_the_left=.true.)
+      call add_words(table, 'value', 'mixed', values, on_the_left=.false.)
+      call describe_dimensions(table, list)
+   end subroutine build_summary
+
+   pure function quantity_text(quantity, digits) result(text)
+      type(quantity_t), intent(in) :: quantity
+      integer, intent(in) :: digits
+      character(len=:), allocatable :: text
+
+      if (quantity%is_count) then
+         text = to_text(nint(quantity%value, ip))
+      else if (abs_is_below(quantity%value, ZERO_SHARE*quantity%scale)) then
+         text = '0'
+      else
+         text = trimmed_real(quantity%value, digits)
+      end if
+   end function quantity_text
+
+   !> |x| < limit, false for NaN, which must not meet an ordered comparison while invalid operations are trapped.
+   pure logical function abs_is_below(x, limit)
+      use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+      real(wp), intent(in) :: x, limit
+
+      abs_is_below = .false.
+      if (.not. ieee_is_nan(x)) abs_is_below = abs(x) < limit
+   end function abs_is_below
+
+   !> The dimensions of the column `value`, one comment line a dimension.
+   pure subroutine describe_dimensions(table, list)
+      type(table_t), intent(inout) :: table
+      type(quantity_t), intent(in) :: list(:)
+      character(len=8), parameter :: DIMENSIONS(5) = [character(len=8) :: 'L', 'L^2', 'F', 'F/L^2', 'F L']
+      character(len=:), allocatable :: names
+      integer :: i, j
+
+      do i = 1, size(DIMENSIONS)
+         names = ''
+         do j = 1, size(list)
+            if (list(j)%dimension /= DIMENSIONS(i)) cycle
+            if (index(names//' ', ' '//trim(list(j)%name)//' ') == 0) names = names//' '//trim(list(j)%name)
+         end do
+         if (len(names) > 0) call append_string(table%remarks, '['//trim(DIMENSIONS(i))//']:'//names)
+      end do
+   end subroutine describe_dimensions
+
+   subroutine build_nodes(model, results, scales, table)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      integer(ip), allocatable :: node(:)
+      integer(ip) :: n
+
+      node = places(model%requests%node_u, model%mesh%n_nodes)
+      n = size(node, kind=ip)
+      call begin_table(table, 'nodes', 'a row a node', n)
+      call add_integers(table, 'step', spread(results%step, 1, n))
+      call add_integers(table, 'node', model%mesh%node_id(node))
+      call add_reals(table, 'x', 'L', model%mesh%x(1, node), scales%length)
+      call add_reals(table, 'y', 'L', model%mesh%x(2, node), scales%length)
+      call add_reals(table, 'u1', 'L', results%u(1, node), scales%displacement)
+      call add_reals(table, 'u2', 'L', results%u(2, node), scales%displacement)
+   end subroutine build_nodes
+
+   subroutine build_reactions(model, results, scales, table)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      integer(ip), allocatable :: node(:)
+      integer(ip) :: n
+
+      node = places(model%requests%node_rf, model%mesh%n_nodes)
+      node = pack(node, any(results%prescribed(:, node), dim=1))
+      n = size(node, kind=ip)
+      call begin_table(table, 'reactions', 'a row a node with a prescribed displacement', n)
+      call add_integers(table, 'step', spread(results%step, 1, n))
+      call add_integers(table, 'node', model%mesh%node_id(node))
+      call add_reals(table, 'r1', 'F', results%reaction(1, node), scales%force)
+      call add_reals(table, 'r2', 'F', results%reaction(2, node), scales%force)
+   end subroutine build_reactions
+
+   !> Places of the nodes asked for; all where nothing is said.
+   pure function places(mask, n) result(list)
+      logical, allocatable, intent(in) :: mask(:)
+      integer(ip), intent(in) :: n
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i
+
+      list = [(i, i=1, n)]
+      if (allocated(mask)) list = pack(list, mask)
+   end function places
+
+   subroutine build_stress(model, results, scales, table)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      character(len=5), parameter :: NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
+      integer(ip) :: n
+      integer :: i
+
+      n = size(results%stress_element, kind=ip)
+      call begin_table(table, 'stress', 'a row a quadrature point of an element', n)
+      call add_integers(table, 'step', spread(results%step, 1, n))
+      call add_integers(table, 'element', model%mesh%element_id(results%stress_element))
+      call add_integers(table, 'point', results%stress_point)
+      call add_reals(table, 'x', 'L', results%stress_x(1, :), scales%length)
+      call add_reals(table, 'y', 'L', results%stress_x(2, :), scales%length)
+      do i = 1, size(NAMES)
+         call add_reals(table, trim(NAMES(i)), 'F/L^2', results%stress(i, :), scales%stress)
+      end do
+   end subroutine build_stress
+
+   !> A row an inner solve.
+   subroutine build_iterations(results, table)
+      type(results_t), intent(in) :: results
+      type(table_t), intent(out) :: table
+      integer(ip) :: n
+
+      n = 0
+      if (allocated(results%iterations)) n = size(results%iterations, kind=ip)
+      call begin_table(table, 'iterations', 'a row an inner solve', n)
+      if (n == 0) then
+         call add_iteration_columns(results%step, empty_results(), table)
+      else
+         call add_iteration_columns(results%step, results, table)
+      end if
+   end subroutine build_iterations
+
+   pure function empty_results() result(results)
+      type(results_t) :: results
+
+      allocate (results%iterations(0))
+   end function empty_results
+
+   subroutine add_iteration_columns(step, results, table)
+      integer(ip), intent(in) :: step
+      type(results_t), intent(in) :: results
+      type(table_t), intent(inout) :: table
+
+      associate (rows => results%iterations)
+         call add_integers(table, 'step', spread(step, 1, size(rows)))
+         call add_integers(table, 'outer', (rows%outer))
+         call add_integers(table, 'inner', (rows%inner))
+         call add_reals(table, 'change_displacement', '-', (rows%change_displacement), 0.0_wp)
+         call add_reals(table, 'change_pressure', '-', (rows%change_pressure), 0.0_wp)
+         call add_reals(table, 'change_friction', '-', (rows%change_friction), 0.0_wp)
+         call add_integers(table, 'open', (rows%open))
+         call add_integers(table, 'stick', (rows%stick))
+         call add_integers(table, 'slip', (rows%slip))
+         call add_reals(table, 'residual', '-', (rows%residual), 0.0_wp)
+      end associate
+   end subroutine add_iteration_columns
+
+   !> Writes timing.tab: the phases that have ended, their sum, and the peak memory as a comment.
+   subroutine write_timing(model, results, digits, set, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer, intent(in) :: digits
+      type(file_set_t), intent(inout) :: set
+      type(status_t), intent(out) :: status
+      type(phase_time_t), allocatable :: phases(:)
+      type(string_t), allocatable :: names(:)
+      type(table_t) :: table
+      integer :: i
+
+      phases = get_phases()
+      allocate (names(0))
+      do i = 1, size(phases)
+         call append_string(names, one_word(trim(phases(i)%name)))
+      end do
+      call append_string(names, 'total')
+      call begin_table(table, 'timing', 'a row a phase, seconds', size(names, kind=ip))
+      call append_string(table%remarks, 'peak memory [bytes]: '//to_text(peak_memory()))
+      call add_words(table, 'phase', '-', names, on_the_left=.true.)
+      call add_reals(table, 'wall', 's', [phases%wall, sum(phases%wall)], 0.0_wp)
+      call add_reals(table, 'cpu', 's', [phases%cpu, sum(phases%cpu)], 0.0_wp)
+      call write_table(set, table, origin_of(model, results), digits, status)
+   end subroutine write_timing
+
+   !> Underscores for blanks.
+   pure function one_word(text) result(word)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: word
+      integer :: i
+
+      word = text
+      do i = 1, len(text)
+         if (text(i:i) == ' ') word(i:i) = '_'
+      end do
+   end function one_word
+
+end module atrito_write_tables
