@@ -271,6 +271,7 @@ contains
       logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
       type(string_t), allocatable :: near(:)
+      logical :: is_file
 
       ok = .false.
       if (size(names) == 0) then
@@ -278,7 +279,8 @@ contains
          return
       end if
       near = nearest_names(names(1)%s, string_list(COMMANDS), 2)
-      if (scan(names(1)%s, './') == 0 .and. size(near) > 0 .and. .not. file_exists(names(1)%s)) then
+      is_file = file_exists(names(1)%s)
+      if (scan(names(1)%s, './') == 0 .and. size(near) > 0 .and. .not. is_file) then
          error = wrong('unknown command '//names(1)%s, nearest=near)
       else if (size(names) > 1) then
          error = wrong('one deck at a time; '//names(2)%s//' is too much', expected=expected)

@@ -4,8 +4,8 @@ module atrito_driver
    use atrito_kinds, only: ip
    use atrito_strings, only: string_t, join, upper_case, to_text, nearest_names
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
-   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR, &
-                            STATUS_FILE
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, &
+                            STATUS_SINGULAR, STATUS_FILE
    use atrito_messages, only: message_t, count_messages, get_message, sort_messages, format_message, clear_messages, &
                               SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
    use atrito_timers, only: start_phase, stop_phase, reset_timers
@@ -88,22 +88,29 @@ contains
       if (code /= STATUS_OK) return
       call solve_static(model, solve_options(command), reporter, results, status)
       call print_messages(command%quiet, told + 1)
-      if (status%code == STATUS_NOT_CONVERGED) call mark_failure(status, results)
+      if (is_ok(status) .or. status%code == STATUS_NOT_CONVERGED) call agree_on_outcome(status, results)
       if (.not. is_ok(status)) call print_status(status, model%deck_path)
       code = status%code
       if (code /= STATUS_OK .and. code /= STATUS_NOT_CONVERGED) return
-      if (.not. (results%converged .and. results%law_holds)) code = STATUS_NOT_CONVERGED
       call write_run(command, reporter, model, results, code)
    end subroutine run_deck
 
-   !> A failed run is marked as such whatever else the solver left in its results.
-   subroutine mark_failure(status, results)
-      type(status_t), intent(in) :: status
+   !> The status and the results say the same of a run: solved, or not converged and why.
+   subroutine agree_on_outcome(status, results)
+      type(status_t), intent(inout) :: status
       type(results_t), intent(inout) :: results
+      character(len=:), allocatable :: text
 
-      results%law_holds = .false.
-      if (.not. allocated(results%verdict) .and. allocated(status%text)) results%verdict = status%text
-   end subroutine mark_failure
+      if (is_ok(status) .and. results%converged .and. results%law_holds) return
+      text = 'not converged'
+      if (allocated(results%verdict)) text = results%verdict
+      if (.not. is_ok(status)) then
+         if (allocated(status%text)) text = status%text
+         results%law_holds = .false.
+      end if
+      if (.not. allocated(results%verdict)) results%verdict = text
+      call set_status(status, STATUS_NOT_CONVERGED, text//'; the last iterate is written')
+   end subroutine agree_on_outcome
 
    subroutine write_run(command, reporter, model, results, code)
       type(command_t), intent(in) :: command

@@ -159,7 +159,7 @@ contains
       comparison%n_tables = comparison%n_tables + 1
       before = comparison%n_differences
       if (a%not_converged .neqv. b%not_converged) then
-         call report(comparison, a%name//': NOT CONVERGED in the '//merge('first ', 'second', a%not_converged)//' only')
+         call report(comparison, a%name//': NOT CONVERGED in the '//trim(merge('first ', 'second', a%not_converged))//' only')
       end if
       call match_columns(a, b, comparison, column_in_b)
       if (kind_of(a) == 'summary' .and. kind_of(b) == 'summary') then

@@ -171,7 +171,7 @@ contains
                                    number(summary%resultant_from_end, DIGITS)))
       call add_line(page, left('  normal '//number(summary%normal_resultant, DIGITS)//', shear '// &
                                number(summary%shear_resultant, DIGITS)//' [F]; max. p '//number(summary%max_pressure, DIGITS)// &
-                               ' [F/L^2]; '//to_text(summary%open_points)//' open, '//to_text(summary%stick_points)// &
+                               '; '//to_text(summary%open_points)//' open, '//to_text(summary%stick_points)// &
                                ' stick, '//to_text(summary%slip_points)//' slip', WIDTH))
    end subroutine add_pair
 

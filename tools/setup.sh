@@ -1,0 +1,64 @@
+# Shared by ./run and ./check: installs what is missing, configures and builds. POSIX sh, to be sourced.
+# The caller sets `top`, the folder of the sources.
+
+say() { printf '%s\n' "atrito: $*" >&2; }
+
+fail() {
+   say "$*"
+   exit 9
+}
+
+# The packages that Debian and Ubuntu lack for the build, by what they would provide.
+missing_packages() {
+   command -v gfortran >/dev/null 2>&1 || printf ' gfortran'
+   command -v cc >/dev/null 2>&1 || printf ' gcc'
+   command -v cmake >/dev/null 2>&1 || printf ' cmake'
+   command -v make >/dev/null 2>&1 || printf ' make'
+   found_openblas || printf ' libopenblas-dev'
+}
+
+found_openblas() {
+   for folder in /usr/lib /usr/lib64 /usr/lib/*-linux-gnu /usr/local/lib; do
+      [ -e "$folder/libopenblas.so" ] && return 0
+   done
+   return 1
+}
+
+# Installs what is missing; nothing to do is nothing said, and no network is needed then.
+install_missing() {
+   packages=$(missing_packages)
+   [ -n "$packages" ] || return 0
+   as_root=
+   if [ "$(id -u)" -ne 0 ]; then
+      command -v sudo >/dev/null 2>&1 || fail "please install$packages (no sudo here)"
+      as_root=sudo
+   fi
+   command -v apt-get >/dev/null 2>&1 || fail "please install$packages (no apt-get here)"
+   say "installing$packages"
+   mkdir -p "$top/build"
+   log=$top/build/install.log
+   if ! { $as_root apt-get update && $as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y --no-install-recommends $packages; } >"$log" 2>&1; then
+      tail -n 20 "$log" >&2
+      fail "could not install$packages; the whole output is in $log"
+   fi
+}
+
+# build_preset NAME: configures build/NAME where that was not done, and builds what has changed.
+build_preset() {
+   preset=$1
+   log=$top/build/$preset.log
+   mkdir -p "$top/build"
+   if [ ! -f "$top/build/$preset/CMakeCache.txt" ] || [ ! -f "$top/build/$preset/Makefile" ]; then
+      say "configuring build/$preset"
+      (cd "$top" && cmake --preset "$preset") >"$log" 2>&1 || show_log "configuring failed"
+      say "building (about a minute)"
+   fi
+   (cd "$top" && cmake --build "build/$preset" -j "$(nproc 2>/dev/null || echo 2)") >>"$log" 2>&1 ||
+      show_log "building failed"
+}
+
+show_log() {
+   tail -n 30 "$log" >&2
+   fail "$1; the whole output is in $log"
+}
