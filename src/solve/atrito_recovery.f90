@@ -6,7 +6,7 @@ module atrito_recovery
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: first_motion
-   use atrito_contact_rows, only: contact_rows_t
+   use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
    use atrito_element, only: element_stress
@@ -91,10 +91,12 @@ contains
    end subroutine add_rigid_motions
 
    !> The fields of every pair at its points.
-   pure subroutine recover_contact(line, points, solution, contact)
+   pure subroutine recover_contact(line, rows, points, solution, u, contact)
       type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows
       type(contact_points_t), intent(in) :: points(:)
       type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       type(contact_result_t), allocatable, intent(out) :: contact(:)
       real(wp) :: weighted(line%n)
       integer(ip) :: i, j, k, first
@@ -114,7 +116,7 @@ contains
                c%pressure(j) = max(solution%p(k), 0.0_wp)
                c%weighted_pressure(j) = weighted(k)
                c%shear(j) = -solution%t(k)
-               call place_of_point(line, solution, k, c%gap(j), c%slip(j))
+               call place_of_point(line, rows, solution, u, k, c%gap(j), c%slip(j))
                c%status(j) = status_of(line, solution, k, c%pressure(j), c%slip(j))
             end do
             c%s_end = 0.0_wp
@@ -125,10 +127,13 @@ contains
       end do
    end subroutine recover_contact
 
-   !> Gap and slip of a point: of an active one from its law, of a free one from the displacements.
-   pure subroutine place_of_point(line, solution, j, gap, slip)
+   !> Gap and slip of a point: of an active one from its law, of a free one from the displacements (without friction there is no
+   !> unknown to tell them).
+   pure subroutine place_of_point(line, rows, solution, u, j, gap, slip)
       type(contact_line_t), intent(in) :: line
+      type(contact_rows_t), intent(in) :: rows
       type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: u(:, :)
       integer(ip), intent(in) :: j
       real(wp), intent(out) :: gap, slip             !< [L]
       integer(ip) :: i
@@ -142,10 +147,12 @@ contains
          gap = -solution%state%r(i)
       end if
       i = line%tangential(j)
-      slip = line%known_slip(j)
-      if (i == 0) return
-      slip = solution%bounds%d(i)*solution%state%q(i)
-      if (solution%state%state(i) /= FREE) slip = slip + solution%state%r(i)
+      if (i == 0) then
+         slip = row_value(rows, j, rows%tangent(:, j), u)
+      else
+         slip = solution%bounds%d(i)*solution%state%q(i)
+         if (solution%state%state(i) /= FREE) slip = slip + solution%state%r(i)
+      end if
    end subroutine place_of_point
 
    pure integer(ip) function status_of(line, solution, j, pressure, slip) result(status)

@@ -313,7 +313,7 @@ contains
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
       results%external_work = sum(data%f*results%u) + sum(results%reaction*results%u)
-      call recover_contact(data%line, data%points, solution, results%contact)
+      call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call recover_stress(model, data%fem, results)
       call balance_forces(data, contact, results)
       call copy_history(solution, results)
