@@ -21,6 +21,7 @@ module atrito_active_set
       logical :: solved = .false.
       logical :: moves = .false.                  !< no equilibrium: a free motion under the load
       real(wp), allocatable :: motion(:)          !< (k) that motion
+      real(wp), allocatable :: idle(:)            !< (k) a motion that nothing holds and nothing drives; else not allocated
       real(wp) :: condition = 1.0_wp
       integer(ip) :: dependent = 0                !< unknown whose row depends on others
       logical :: used_dual_steps = .false.
@@ -52,7 +53,9 @@ contains
          if (solution%moves) exit
          call change_all(problem, bounds, state, changes)
          outcome%solved = changes == 0
-         if (outcome%solved) return
+         if (.not. outcome%solved) cycle
+         if (allocated(solution%idle)) outcome%idle = solution%idle
+         return
       end do
       outcome%used_dual_steps = .true.
       call take_dual_steps(problem, bounds, state, history, solution, outcome%solved, status)

@@ -47,6 +47,7 @@ module atrito_box_problem
    type :: equality_solution_t
       logical :: moves = .false.                 !< the free set does not hold a motion that the load works on
       real(wp), allocatable :: motion(:)         !< (k) that motion, in the direction of the load
+      real(wp), allocatable :: idle(:)           !< (k) a motion that neither the free set nor the load touches; else not allocated
       real(wp) :: condition = 1.0_wp             !< of the scaled matrix of the free set
       integer(ip) :: dependent = 0               !< an unknown whose row depends on others; 0: none
    end type equality_solution_t
@@ -219,6 +220,8 @@ contains
             a = a + vectors(:, j)*(part/values(j))
          else if (abs(part) > NO_LOAD*size_of_load*maxval(abs(vectors(:, j)*column_scale))) then
             motion = motion + vectors(:, j)*part
+         else
+            solution%idle = vectors(:, j)*column_scale
          end if
       end do
       a = a*column_scale

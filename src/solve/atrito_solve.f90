@@ -1,6 +1,7 @@
 !> One static step, from the model to the results.
 module atrito_solve
    use atrito_assembly, only: fem_t, body_profile, internal_forces
+   use atrito_blas_info, only: set_blas_threads
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
    use atrito_condensed_body, only: condensed_body_t, condense_body, choose_storage, set_load, motion_text
    use atrito_contact_line, only: contact_line_t
@@ -78,6 +79,7 @@ contains
       type(contact_solution_t) :: solution
       type(outer_controls_t) :: controls
 
+      call set_blas_threads(int(options%threads, ip))
       call start_phase('order')
       call prepare(model, data)
       call describe_scene(model, data, options, results%scene)
@@ -102,7 +104,7 @@ contains
       call start_phase('check')
       call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
       call stop_phase('check')
-      call warn(model, solution, results)
+      call warn(model, data, solution, results)
    end subroutine solve_static
 
    subroutine prepare(model, data)
@@ -276,7 +278,7 @@ contains
          text = 'the contact opens or slides beyond friction (tangential force above nu times normal force), and no support' &
                 //' holds it'
       else if (data%line%n > 0) then
-         text = 'the load does not press it on the contact, and no support holds it'
+         text = 'the contact opens, or slides since it has no friction, and no support holds it'
       else
          text = 'no support holds it'
       end if
@@ -351,13 +353,19 @@ contains
    end subroutine copy_history
 
    !> What a careful user should know of a solution.
-   subroutine warn(model, solution, results)
+   subroutine warn(model, data, solution, results)
       type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(in) :: results
       integer(ip) :: b
-      real(wp) :: nu
+      real(wp) :: nu, mode(3)
 
+      if (allocated(solution%inner%idle)) then
+         call motion_body(data%fem, solution%inner%idle, b, mode)
+         call add_warning('W-IDLE', motion_text(data%fem, b, mode)//': no load does it and nothing prevents it; the least' &
+                          //' motion is given')
+      end if
       do b = 1, size(results%scene%bodies, kind=ip)
          associate (body => results%scene%bodies(b))
             if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
