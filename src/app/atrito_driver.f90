@@ -2,6 +2,7 @@
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use atrito_kinds, only: ip
+   use atrito_blas_info, only: set_blas_threads
    use atrito_strings, only: string_t, join, upper_case, to_text, nearest_names
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, &
@@ -41,6 +42,7 @@ contains
       type(page_t) :: page
       logical :: ok
 
+      call set_blas_threads(1_ip)
       call clear_messages()
       call reset_timers()
       call fetch_arguments(arguments)

@@ -20,6 +20,11 @@ module atrito_blas_info
          import :: c_int
          integer(c_int), value :: threads
       end subroutine openblas_set_num_threads
+#ifdef ATRITO_BLAS_SHUTDOWN
+      integer(c_int) function blas_thread_shutdown() bind(C, name='blas_thread_shutdown_')
+         import :: c_int
+      end function blas_thread_shutdown
+#endif
    end interface
 #else
    logical, parameter :: HAS_OPENBLAS = .false.
@@ -48,12 +53,19 @@ contains
                           (index(STEM, 'libblas') == 1 .or. index(STEM, 'liblapack') == 1 .or. index(STEM, 'librefblas') == 1)
    end function is_reference_blas
 
-   !> Threads that BLAS may use from now on; without effect where the library offers no such call.
+   !> Threads that BLAS may use from now on; without effect where the library offers no such call. OpenBLAS starts a thread a core
+   !> while the program is loaded, and they spin: for one thread the others are ended, else a small run would count three to
+   !> four times its wall time as processor time.
    subroutine set_blas_threads(n)
       integer(ip), intent(in) :: n              !< >= 1
 
 #ifdef ATRITO_OPENBLAS
       call openblas_set_num_threads(int(max(n, 1_ip), c_int))
+#ifdef ATRITO_BLAS_SHUTDOWN
+      if (n <= 1) then
+         if (blas_thread_shutdown() /= 0_c_int) return
+      end if
+#endif
 #else
       if (n < 1) return
 #endif

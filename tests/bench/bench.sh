@@ -17,6 +17,6 @@ one_run() {
 printf '%-36s %8s %8s %8s\n' 'deck, CPU seconds of a run' least median most
 for deck in "$top"/input/*.inp; do
    one_run "$deck" >/dev/null
-   for i in 1 2 3 4 5 6 7 8 9 10 11; do one_run "$deck"; done | sort -n |
+   for i in 1 2 3 4 5 6 7 8 9 10 11; do one_run "$deck"; done | sort -g |
       awk -v deck="$(basename "$deck")" '{ t[NR] = $1 } END { printf "%-36s %8.4f %8.4f %8.4f\n", deck, t[1], t[6], t[NR] }'
 done
