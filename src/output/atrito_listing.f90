@@ -1,5 +1,6 @@
 !> The printed listing of a run, <deck name>.lst: made to be read and handed in.
 module atrito_listing
+   use atrito_blas_info, only: blas_name
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -60,6 +61,8 @@ contains
       call describe_needs(page, results%scene)
       call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
       call describe_bodies(page, results%scene, factored=.true.)
+      call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
+      call add_entry(page, 'BLAS', trim(blas_name()))
       call add_entry(page, 'factorisations', to_text(int(results%factorisations, ip)))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
       call add_heading(page, '4  ITERATIONS')

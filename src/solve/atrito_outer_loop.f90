@@ -19,7 +19,7 @@ module atrito_outer_loop
    character(len=*), parameter :: FREE_MOTION = 'free motion'
 
    integer(ip), parameter :: MOST_STEPS_BACK = 6
-   integer(ip), parameter :: LAST_RESORT_ITERATIONS = 400
+   integer(ip), parameter :: LAST_RESORT_FACTOR = 4       !< times MAXIT
    real(wp), parameter :: LAST_RESORT_MIXING = 0.3_wp
    integer(ip), parameter :: LONGEST_CYCLE = 6
 
@@ -144,7 +144,7 @@ contains
       call anderson%reset()
       anderson%mixing = LAST_RESORT_MIXING
       patient = controls
-      patient%max_iterations = LAST_RESORT_ITERATIONS
+      patient%max_iterations = LAST_RESORT_FACTOR*controls%max_iterations
       tau = first_tau
       call iterate(problem, line, patient, reporter, anderson, tau, solution, status)
    end subroutine iterate_with_fallbacks

@@ -1,7 +1,7 @@
 !> One static step, from the model to the results.
 module atrito_solve
    use atrito_assembly, only: fem_t, body_profile, internal_forces
-   use atrito_blas_info, only: set_blas_threads
+   use atrito_blas_info, only: set_blas_threads, is_reference_blas
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
    use atrito_condensed_body, only: condensed_body_t, condense_body, choose_storage, set_load, motion_text
    use atrito_contact_line, only: contact_line_t
@@ -361,6 +361,8 @@ contains
       integer(ip) :: b
       real(wp) :: nu, mode(3)
 
+      if (is_reference_blas()) call add_warning('W-BLAS', 'this program was linked with the reference BLAS; with OpenBLAS' &
+                                                //' it is about three times as fast')
       if (allocated(solution%inner%idle)) then
          call motion_body(data%fem, solution%inner%idle, b, mode)
          call add_warning('W-IDLE', motion_text(data%fem, b, mode)//': no load does it and nothing prevents it; the least' &
