@@ -3,7 +3,7 @@ module atrito_build_supports
    use atrito_build_loads, only: in_no_element
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_draft, only: draft_t, place_text, ids_text, find_nodes
+   use atrito_draft, only: draft_t, place_text, ids_text, find_nodes, has_errors
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_prescribed, trim_prescribed
@@ -101,7 +101,7 @@ contains
       logical :: loose(size(nodes))
 
       loose = in_no_element(draft, nodes)
-      if (any(loose)) call report_note(deck, line_item(deck, line, 1_ip), 'N-NODE', 'node '// &
+      if (any(loose) .and. .not. has_errors()) call report_note(deck, line_item(deck, line, 1_ip), 'N-NODE', 'node '// &
                                        ids_text(pack(model%mesh%node_id(nodes), loose))// &
                                        ' belongs to no element; the support has no effect there', keyword='BOUNDARY')
    end subroutine note_loose

@@ -71,6 +71,7 @@ contains
             return
          end if
          call order_chain(model%mesh, surface%faces, report)
+         if (has_errors()) return            ! the chain may be broken by what was told already
          if (report%branch_node > 0) then
             call report_error(deck, place, 'E-CHAIN', 'the slave branches at node '// &
                               to_text(model%mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
@@ -108,6 +109,7 @@ contains
       type(token_t), intent(in) :: place
       character(len=*), intent(in) :: name
 
+      if (has_errors()) return               ! elements are missing, and that was told
       call report_error(deck, place, 'E-SURFACE', 'surface '//name//' has no faces: others join it everywhere', &
                         expected='a surface on the outline of a body', keyword='CONTACT PAIR')
    end subroutine report_no_faces
@@ -151,8 +153,9 @@ contains
 
       if (draft%pairs_unsure) return
       do i = 1, size(model%interactions, kind=ip)
-         if (all(model%pairs%interaction /= i)) call report_note(deck, draft%interactions(i), 'N-UNUSED', &
-            'no *CONTACT PAIR uses the surface interaction '//model%interactions(i)%name, keyword='CONTACT PAIR')
+         if (any(model%pairs%interaction == i) .or. has_errors()) cycle
+         call report_note(deck, draft%interactions(i), 'N-UNUSED', &
+                          'no *CONTACT PAIR uses the surface interaction '//model%interactions(i)%name, keyword='CONTACT PAIR')
       end do
    end subroutine note_unused_interactions
 

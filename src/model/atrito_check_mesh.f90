@@ -200,7 +200,8 @@ contains
          if (first == 0) first = i
          call add_number(loose, model%mesh%node_id(i))
       end do
-      if (first > 0) call report_note(deck, place_token(deck, draft%node_place(first)), 'N-NODE', 'node '// &
+      if (first == 0 .or. has_errors()) return
+      call report_note(deck, place_token(deck, draft%node_place(first)), 'N-NODE', 'node '// &
                                       ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
    end subroutine note_loose_nodes
 

@@ -86,7 +86,7 @@ contains
    end function check_balance
 
    !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
-   !> and, where it does not, the verdict.
+   !> and, where a converged solution breaks it, the verdict.
    subroutine check_law(rows, line, tolerance, results)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
@@ -109,6 +109,7 @@ contains
          call judge_friction(line, j, t(j), tau(j), slip(j), maxval(tau), place_scale, tolerance, wrong)
          if (len(wrong) == 0) cycle
          results%law_holds = .false.
+         if (.not. results%converged) return
          results%verdict = 'the contact law does not hold at x = ('//to_text(point_x(results, j, 1_ip))//', ' &
                            //to_text(point_x(results, j, 2_ip))//'): '//wrong
          return
