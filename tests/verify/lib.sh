@@ -1,0 +1,110 @@
+# What the checks of tests/verify share. POSIX sh and awk. To be sourced with: ATRITO CASE_FOLDER INPUT_FOLDER.
+# The check runs in a fresh folder below the build folder; every assertion prints what it measured.
+set -u
+atrito=$1
+here=$2
+input=$3
+failures=0
+
+complain() {
+   echo "FAILED: $*"
+   failures=$((failures + 1))
+}
+
+# run CODE DECK FOLDER [options]: runs a deck and expects an exit code.
+run() {
+   wanted=$1
+   deck=$2
+   folder=$3
+   shift 3
+   rm -rf "$folder"
+   "$atrito" "$deck" -o "$folder" "$@" >"$folder.out" 2>"$folder.err"
+   found=$?
+   [ "$found" -eq "$wanted" ] || { complain "$deck $*: exit $found, expected $wanted"; cat "$folder.err"; }
+}
+
+# summary FOLDER QUANTITY: a value of summary.tab.
+summary() {
+   awk -v q="$2" '!/^#/ && $3 == q { print $4 }' "$1/summary.tab"
+}
+
+# column FILE NAME: a column of a table.
+column() {
+   awk -v name="$2" '/^# columns:/ { for (i = 3; i <= NF; i++) if ($i == name) k = i - 2 } !/^#/ { print $k }' "$1"
+}
+
+# near WHAT VALUE EXPECTED TOLERANCE: |value - expected| <= tolerance. Nothing but a finite number passes.
+near() {
+   awk -v what="$1" -v a="$2" -v b="$3" -v tol="$4" 'BEGIN {
+      number = "^[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?$"
+      good = a ~ number && b ~ number && tol ~ number
+      d = a - b; if (d < 0) d = -d
+      good = good && d <= tol + 0
+      printf "%s: %s, expected %s, off by %.2e of %s\n", what, a, b, d, tol
+      exit !good }' </dev/null || complain "$1"
+}
+
+# below WHAT VALUE LIMIT: 0 <= value < limit.
+below() {
+   near "$1" "$2" 0 "$3"
+}
+
+# all_near WHAT FILE COLUMN EXPECTED TOLERANCE: every row of a column, and at least one.
+all_near() {
+   worst=$(column "$2" "$3" | awk -v b="$4" '
+      $1 !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ { bad = 1 }
+      { d = $1 - b; if (d < 0) d = -d; if (d > worst) worst = d }
+      END { if (bad || NR == 0) print "none"; else printf "%.17g", worst }')
+   near "$1: worst difference from $4" "$worst" 0 "$5"
+}
+
+# same_tables WHAT A B TOLERANCE [NAME=FACTOR ...]: A times the factors equals B, column by column, relative to the largest value
+# of the column; columns without a factor that hold integers must be equal.
+same_tables() {
+   what=$1
+   a=$2
+   b=$3
+   tol=$4
+   shift 4
+   [ -s "$a" ] && [ -s "$b" ] || { complain "$what: a table is missing"; return; }
+   if ! awk -v tol="$tol" -v factors="$*" -v what="$what" '
+      BEGIN { n = split(factors, list, " "); for (i = 1; i <= n; i++) { split(list[i], f, "="); factor[f[1]] = f[2] } }
+      FNR == 1 { file++ }
+      /^# columns:/ { for (i = 3; i <= NF; i++) name[i - 2] = $i; columns = NF - 2 }
+      /^#/ { next }
+      file == 1 { na++; for (i = 1; i <= NF; i++) first[na, i] = $i; next }
+      { nb++
+        for (i = 1; i <= NF; i++) {
+           x = first[nb, i]; y = $i
+           if (!(name[i] in factor) && x ~ /^-?[0-9]+$/ && y ~ /^-?[0-9]+$/) { if (x != y) { bad = 1; print what ": row " nb " " name[i] ": " x " and " y } continue }
+           if (x !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ || y !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/) { if (x != y || x ~ /[nN]a[nN]/) { bad = 1; print what ": " x " and " y } continue }
+           s = (name[i] in factor) ? factor[name[i]] : 1
+           d = x*s - y; if (d < 0) d = -d
+           if (d > worst[i]) worst[i] = d
+           z = (y < 0) ? -y : y; if (z > largest[i]) largest[i] = z } }
+      END {
+        if (na != nb || nb == 0) { print what ": " na + 0 " and " nb + 0 " rows"; exit 1 }
+        for (i = 1; i <= columns; i++) if (worst[i] > 0) {
+           r = (largest[i] > 0) ? worst[i]/largest[i] : 1e300
+           if (r > most) most = r
+           if (!(r <= tol + 0)) { bad = 1; print what ": " name[i] " differs by " r } }
+        printf "%s: worst difference %.2e of %s\n", what, most, tol
+        exit bad }' "$a" "$b"; then
+      complain "$what"
+   fi
+}
+
+# says WHAT FILE TEXT: a file holds a text.
+says() {
+   grep -qF -- "$3" "$2" || complain "$1: not found: $3"
+}
+
+# absent FOLDER: nothing was written.
+absent() {
+   [ ! -e "$1" ] || complain "$1 was written"
+}
+
+finish() {
+   [ "$failures" -eq 0 ] && echo "all hold"
+   exit $((failures > 0))
+}

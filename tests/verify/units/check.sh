@@ -1,0 +1,23 @@
+. "$(dirname "$0")/../lib.sh"
+run 0 "$here/plate.inp" m --digits 17 --quiet
+compare_with() { # NAME L F: the same in other units
+   run 0 "$here/plate.inp" "$1" --digits 17 --quiet --set L="$2" --set F="$3"
+   l=$2
+   s=$(awk -v l="$2" -v f="$3" 'BEGIN { printf "%.17g", f/l/l }')
+   a=$(awk -v l="$2" 'BEGIN { printf "%.17g", l*l }')
+   e=$(awk -v l="$2" -v f="$3" 'BEGIN { printf "%.17g", l*f }')
+   same_tables "$1 contact" m/contact.tab "$1/contact.tab" 1e-12 s=$l x=$l y=$l gap=$l slip=$l pressure=$s \
+      weighted_pressure=$s shear=$s weight=$a
+   same_tables "$1 nodes" m/nodes.tab "$1/nodes.tab" 1e-12 x=$l y=$l u1=$l u2=$l
+   same_tables "$1 reactions" m/reactions.tab "$1/reactions.tab" 1e-12 r1=$3 r2=$3
+   same_tables "$1 stress" m/stress.tab "$1/stress.tab" 1e-12 x=$l y=$l s11=$s s22=$s s33=$s s12=$s mises=$s
+   for t in m "$1"; do # the counts of the iterations; the residuals at the end are round-off
+      awk '!/^#/ { print $2, $3, $7, $8, $9 }' $t/iterations.tab >"$t.counts"
+   done
+   cmp m.counts "$1.counts" || complain "$1: other iterations"
+   near "$1 energy" "$(summary "$1" strain_energy)" "$(awk -v a="$(summary m strain_energy)" -v e="$e" 'BEGIN { printf "%.17g", a*e }')" \
+      "$(awk -v a="$(summary "$1" strain_energy)" 'BEGIN { printf "%.17g", 1e-12*a }')"
+}
+compare_with mm 1e3 1e3
+compare_with far 1e-9 1e9
+finish
