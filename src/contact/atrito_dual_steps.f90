@@ -103,11 +103,11 @@ contains
          target = state
          target%q(i) = merge(bounds%lower(i), bounds%upper(i), bound == AT_LOWER)
          call solve_and_record(problem, bounds, target, history, solution, left, status)
-         if (.not. is_ok(status)) return
+         if (.not. is_ok(status)) exit
          if (solution%moves) then
             motion = opening_motion(problem, i, bound, solution%motion)
             call find_first_reached(problem, state, motion, first, t)
-            if (first == 0) return
+            if (first == 0) exit
             state%a = state%a + t*motion
             state%r = state%r + t*matmul(problem%g, motion)
             solution%moves = .false.
@@ -115,8 +115,7 @@ contains
             call first_crossing(state, target, first, t)
             if (first == 0) then
                state = target
-               state%state(i) = bound
-               return
+               exit
             end if
             state%q = state%q + t*(target%q - state%q)
             state%a = state%a + t*(target%a - state%a)
@@ -124,6 +123,7 @@ contains
          end if
          state%state(first) = FREE
       end do
+      state%state(i) = bound
    end subroutine drive_to_bound
 
    subroutine solve_and_record(problem, bounds, state, history, solution, left, status)

@@ -196,7 +196,7 @@ contains
          has_good = .true.
          call accelerator%update(good, image, tau)
          call find_cycle(visited, tau, solution%residual, cycle_length)
-         if (cycle_length > 1) then
+         if (cycle_length > 1 .and. steps_back == 0) then
             solution%verdict = 'the loop cycles between '//to_text(cycle_length) &
                                //' states; METHOD=ANDERSON or NEWTON may find the solution'
             return
