@@ -39,8 +39,7 @@ contains
       real(wp), intent(in) :: rho          !< [L], >= 0
       integer(ip), intent(in) :: kernel
       type(average_t) :: w
-      real(wp) :: row(size(length))
-      integer(ip) :: j, k, n, filled
+      integer(ip) :: j, k, n
       logical :: near(size(length))
 
       n = size(length, kind=ip)
@@ -50,24 +49,37 @@ contains
       end if
       w%n = n
       w%is_identity = .false.
-      allocate (w%first(n + 1), w%column(0), w%entry(0))
+      allocate (w%first(n + 1))
       w%first(1) = 1
       do j = 1, n
-         do k = 1, n
-            row(k) = kernel_value(norm2(x(:, k) - x(:, j))/rho)*length(k)
-         end do
-         if (kernel == KERNEL_LINE) then
-            row = row*(KERNEL_CONSTANT/rho)
-         else
-            row = row/sum(row)
-         end if
-         near = row > 0.0_wp
-         filled = count(near, kind=ip)
-         w%column = [w%column, pack([(k, k=1, n)], near)]
-         w%entry = [w%entry, pack(row, near)]
-         w%first(j + 1) = w%first(j) + filled
+         near = within(x, j, rho)
+         w%first(j + 1) = w%first(j) + count(near, kind=ip)
+      end do
+      allocate (w%column(w%first(n + 1) - 1), w%entry(w%first(n + 1) - 1))
+      do j = 1, n
+         near = within(x, j, rho)
+         associate (first => w%first(j), last => w%first(j + 1) - 1)
+            w%column(first:last) = pack([(k, k=1, n)], near)
+            do k = first, last
+               w%entry(k) = kernel_value(norm2(x(:, w%column(k)) - x(:, j))/rho)*length(w%column(k))
+            end do
+            if (kernel == KERNEL_LINE) then
+               w%entry(first:last) = w%entry(first:last)*(KERNEL_CONSTANT/rho)
+            else
+               w%entry(first:last) = w%entry(first:last)/sum(w%entry(first:last))
+            end if
+         end associate
       end do
    end function build_average
+
+   !> Which points lie within rho of point j.
+   pure function within(x, j, rho) result(near)
+      real(wp), intent(in) :: x(:, :), rho
+      integer(ip), intent(in) :: j
+      logical :: near(size(x, 2))
+
+      near = (x(1, :) - x(1, j))**2 + (x(2, :) - x(2, j))**2 < rho**2
+   end function within
 
    !> exp(rho^2/(r^2 - rho^2)) at q = r/rho, zero from q = 1 on.
    pure real(wp) function kernel_value(q)

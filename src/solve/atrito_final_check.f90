@@ -169,6 +169,7 @@ contains
       real(wp), intent(in) :: p, gap, delta, pressure_scale, place_scale
       character(len=:), allocatable, intent(inout) :: wrong
 
+      if (len(wrong) > 0) return
       if (p < 0.0_wp) wrong = 'tension '//to_text(p)
       if (p > 0.0_wp .and. abs(gap + delta*p) > SIGN_TOLERANCE*max(place_scale, delta*pressure_scale)) &
          wrong = 'pressure '//to_text(p)//' at gap '//to_text(gap)
@@ -182,6 +183,7 @@ contains
       character(len=:), allocatable, intent(inout) :: wrong
       real(wp) :: allowed, limit
 
+      if (len(wrong) > 0) return
       if (line%law(j)%kind == FRICTION_NONE) then
          if (t /= 0.0_wp) wrong = 'shear without friction'
          return

@@ -104,6 +104,25 @@ absent() {
    [ ! -e "$1" ] || complain "$1 was written"
 }
 
+# field_near WHAT FILE COLUMN EXPRESSION TOLERANCE: every row of a column is an awk expression in node (the column behind step), x, y.
+field_near() {
+   worst=$(awk -v wanted="$3" '
+      /^# columns:/ { for (i = 3; i <= NF; i++) place[$i] = i - 2; next }
+      /^#/ { next }
+      { rows++
+        x = $place["x"]; y = $place["y"]; node = $2; found = $place[wanted]
+        expected = ('"$4"')
+        if (found !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ || !(expected - expected == 0)) bad = 1
+        d = found - expected; if (d < 0) d = -d; if (d > most) most = d }
+      END { if (bad || rows == 0 || !(wanted in place)) print "none"; else printf "%.17g", most }' "$2")
+   near "$1: worst difference from $4" "$worst" 0 "$5"
+}
+
+# value EXPRESSION: its value by awk, all digits.
+value() {
+   awk "BEGIN { printf \"%.17g\", ($1) }" </dev/null
+}
+
 finish() {
    [ "$failures" -eq 0 ] && echo "all hold"
    exit $((failures > 0))
