@@ -78,7 +78,7 @@ contains
       integer(ip), intent(in) :: j
       logical :: near(size(x, 2))
 
-      near = (x(1, :) - x(1, j))**2 + (x(2, :) - x(2, j))**2 < rho**2
+      near = hypot(x(1, :) - x(1, j), x(2, :) - x(2, j)) < rho
    end function within
 
    !> exp(rho^2/(r^2 - rho^2)) at q = r/rho, zero from q = 1 on.

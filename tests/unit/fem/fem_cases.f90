@@ -1,0 +1,91 @@
+!> Elements and small meshes for the tests of fem.
+module fem_cases
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: find_bodies, number_equations
+   use atrito_elasticity, only: elastic_t
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: add_element, add_node, trim_mesh, Q1_NODES, Q2_NODES
+   implicit none (type, external)
+   private
+   public :: SHAPES, PLACES, node_places, distorted, linear_field, row_of_elements, dense_stiffness
+
+   integer(ip), parameter :: SHAPES(2) = [Q1_NODES, Q2_NODES]
+   !> Places in the parent element where functions are tried.
+   real(wp), parameter :: PLACES(2, 4) = reshape([0.0_wp, 0.0_wp, 0.3_wp, -0.7_wp, -1.0_wp, 0.45_wp, 0.9_wp, 1.0_wp], [2, 4])
+   !> Places of the nodes: corners, mid-sides, centre.
+   real(wp), parameter :: GRID(2, Q2_NODES) = reshape([-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, &
+                                                       0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, &
+                                                       0.0_wp, 0.0_wp], [2, 9])
+
+contains
+
+   !> The parent coordinates of an element's nodes.
+   pure function node_places(n_nodes) result(xi)
+      integer(ip), intent(in) :: n_nodes
+      real(wp) :: xi(2, n_nodes)
+
+      xi = GRID(:, :n_nodes)
+   end function node_places
+
+   !> A quadrilateral of no symmetry, straight-sided, its corners far from the origin by `shift`; nodes between the corners are
+   !> where the bilinear map puts them.
+   pure function distorted(n_nodes, shift) result(x)
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(in) :: shift
+      real(wp) :: x(2, n_nodes)
+      real(wp), parameter :: CORNERS(2, 4) = reshape([0.0_wp, 0.0_wp, 2.0_wp, 0.3_wp, 2.5_wp, 1.9_wp, -0.2_wp, 1.4_wp], [2, 4])
+      integer(ip) :: i, k
+
+      do i = 1, n_nodes
+         x(:, i) = shift
+         do k = 1, 4
+            x(:, i) = x(:, i) + CORNERS(:, k)*0.25_wp*(1 + GRID(1, k)*GRID(1, i))*(1 + GRID(2, k)*GRID(2, i))
+         end do
+      end do
+   end function distorted
+
+   !> u = gradient x, (2, n).
+   pure function linear_field(gradient, x) result(u)
+      real(wp), intent(in) :: gradient(2, 2), x(:, :)
+      real(wp) :: u(2, size(x, 2))
+
+      u = matmul(gradient, x)
+   end function linear_field
+
+   !> Q1 elements side by side with the given widths, height 1; none is held, the nodes on the right side are the contact's.
+   subroutine row_of_elements(widths, state, fem)
+      real(wp), intent(in) :: widths(:)
+      integer(ip), intent(in) :: state(:)              !< of each element
+      type(fem_t), intent(out) :: fem
+      logical, allocatable :: held(:, :)
+      logical :: known
+      integer(ip) :: i, n
+
+      n = size(widths, kind=ip)
+      do i = 0, n
+         call add_node(fem%mesh, 2*i + 1, [sum(widths(:i)), 0.0_wp], known)
+         call add_node(fem%mesh, 2*i + 2, [sum(widths(:i)), 1.0_wp], known)
+      end do
+      do i = 1, n
+         call add_element(fem%mesh, i, state(i), [2*i - 1, 2*i + 1, 2*i + 2, 2*i], known)
+      end do
+      call trim_mesh(fem%mesh)
+      fem%sections = [elastic_t(200.0_wp, 0.3_wp, 0.5_wp, 0.0_wp), elastic_t(90.0_wp, 0.2_wp, 1.0_wp, 0.0_wp)]
+      allocate (fem%section_of(n), source=1_ip)
+      call find_bodies(fem%mesh, fem%bodies)
+      allocate (held(2, fem%mesh%n_nodes), source=.false.)
+      call number_equations(fem%mesh, fem%bodies, 1_ip, held, [2*n + 1, 2*n + 2])
+   end subroutine row_of_elements
+
+   !> The full matrix of some element stiffnesses, in the order u1, u2 of node 1, of node 2, ...
+   pure subroutine dense_stiffness(nodes, k, dense)
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: k(:, :)
+      real(wp), intent(inout) :: dense(:, :)
+      integer(ip) :: dofs(2*size(nodes)), i
+
+      dofs = [(2*nodes(i) - 1, 2*nodes(i), i=1, size(nodes))]
+      dense(dofs, dofs) = dense(dofs, dofs) + k
+   end subroutine dense_stiffness
+
+end module fem_cases
