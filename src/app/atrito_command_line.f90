@@ -45,20 +45,20 @@ module atrito_command_line
 
    logical, parameter :: Y = .true., N = .false.
    type(option_t), parameter :: OPTIONS(14) = [ &
-      option_t('-o       ', Y, [Y, N, N, N], Y), &
-      option_t('--set    ', Y, [Y, Y, N, N], Y), &
-      option_t('--solver ', Y, [Y, Y, N, N], Y), &
-      option_t('--threads', Y, [Y, Y, N, N], Y), &
-      option_t('--digits ', Y, [Y, N, N, N], Y), &
-      option_t('--quiet  ', N, [Y, Y, Y, N], Y), &
-      option_t('--rtol   ', Y, [N, N, Y, N], Y), &
-      option_t('--atol   ', Y, [N, N, Y, N], Y), &
-      option_t('--refine ', Y, [Y, Y, N, N], N), &
-      option_t('--plot   ', N, [Y, N, N, N], N), &
-      option_t('--levels ', Y, [N, N, N, N], N), &
-      option_t('--vary   ', Y, [N, N, N, N], N), &
-      option_t('--help   ', N, [Y, Y, Y, Y], Y), &
-      option_t('--version', N, [Y, Y, Y, Y], Y)]
+                                option_t('-o       ', Y, [Y, N, N, N], Y), &
+                                option_t('--set    ', Y, [Y, Y, N, N], Y), &
+                                option_t('--solver ', Y, [Y, Y, N, N], Y), &
+                                option_t('--threads', Y, [Y, Y, N, N], Y), &
+                                option_t('--digits ', Y, [Y, N, N, N], Y), &
+                                option_t('--quiet  ', N, [Y, Y, Y, N], Y), &
+                                option_t('--rtol   ', Y, [N, N, Y, N], Y), &
+                                option_t('--atol   ', Y, [N, N, Y, N], Y), &
+                                option_t('--refine ', Y, [Y, Y, N, N], N), &
+                                option_t('--plot   ', N, [Y, N, N, N], N), &
+                                option_t('--levels ', Y, [N, N, N, N], N), &
+                                option_t('--vary   ', Y, [N, N, N, N], N), &
+                                option_t('--help   ', N, [Y, Y, Y, Y], Y), &
+                                option_t('--version', N, [Y, Y, Y, Y], Y)]
 
    !> An option as it was given.
    type :: given_t

@@ -281,7 +281,7 @@ contains
                                                            ' '//trim(WORD(i)))], error_unit)
       end do
       if (n(SEVERITY_ERROR) > 0) call print_lines([string_t(to_text(n(SEVERITY_ERROR))//' '// &
-                                                   trim(merge('error ', 'errors', n(SEVERITY_ERROR) == 1))//' in the deck')], &
+                                                        trim(merge('error ', 'errors', n(SEVERITY_ERROR) == 1))//' in the deck')], &
                                                   error_unit)
    end subroutine print_messages
 

@@ -5,5 +5,5 @@ program atrito_main
    integer :: code
 
    call run_program(code)
-   stop code, quiet=.true.
+   stop code, quiet = .true.
 end program atrito_main

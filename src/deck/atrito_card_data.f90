@@ -291,7 +291,7 @@ contains
       type(tally_t), intent(inout) :: tally
 
       if (.not. tally%noted) call report_note(deck, token, 'N-IGNORED', '*'//trim(card%name)//': data without effect, '// &
-                                                text)
+                                              text)
       tally%noted = .true.
    end subroutine note_once
 

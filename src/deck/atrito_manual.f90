@@ -9,20 +9,20 @@ module atrito_manual
    public :: help_manual
 
    character(len=96), parameter :: INTRODUCTION(14) = [character(len=96) :: &
-      '# Keywords of a deck', &
-      '', &
-      'This page is printed by `atrito help all > docs/user/keywords.md` from the table that the deck', &
-      'reader uses; do not edit it. `atrito help KEYWORD` prints one section.', &
-      '', &
-      'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. Dimensions are in', &
-      'force F, length L and time T; the units are yours, if they are consistent.', &
-      '', &
-      'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between', &
-      'commas. `**` begins a comment. A comma at the end of a keyword line continues it. Names are', &
-      'without case and have at most 80 characters; "quotes" may stand round them; all digits means a', &
-      'number. A real may be written as an integer, an integer not as a real. An empty item takes its', &
-      'default.', &
-      '']
+                                                       '# Keywords of a deck', &
+                                                       '', &
+                                 'This page is printed by `atrito help all > docs/user/keywords.md` from the table that the deck', &
+                                                       'reader uses; do not edit it. `atrito help KEYWORD` prints one section.', &
+                                                       '', &
+                                 'A + marks what is atrito''s own; the rest is read by Abaqus or CalculiX too. Dimensions are in', &
+                                                     'force F, length L and time T; the units are yours, if they are consistent.', &
+                                                       '', &
+                                    'A deck is made of lines `*KEYWORD, OPTION=value`, each with its data lines of items between', &
+                                    'commas. `**` begins a comment. A comma at the end of a keyword line continues it. Names are', &
+                                 'without case and have at most 80 characters; "quotes" may stand round them; all digits means a', &
+                                 'number. A real may be written as an integer, an integer not as a real. An empty item takes its', &
+                                                       'default.', &
+                                                       '']
 
 contains
 

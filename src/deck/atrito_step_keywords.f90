@@ -9,7 +9,7 @@ module atrito_step_keywords
 
    !> Output requests and marks of other programs.
    character(len=16), parameter :: HARMLESS(11) = [character(len=16) :: 'OUTPUT', 'NODE OUTPUT', 'ELEMENT OUTPUT', &
-      'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'RESTART', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
+                         'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'RESTART', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
 
 contains
 

@@ -18,7 +18,7 @@ module atrito_mesh
       integer(ip), allocatable :: element_id(:)     !< the user's numbers
       integer(ip), allocatable :: shape(:)          !< Q1_NODES or Q2_NODES
       integer(ip), allocatable :: state(:)          !< PLANE_STRAIN or PLANE_STRESS
-      integer(ip), allocatable :: nodes(:, :)       !< (Q2_NODES, n_elements): corners counter-clockwise, mid-sides, centre; 0 beyond
+      integer(ip), allocatable :: nodes(:, :)       !< (Q2_NODES, n_elements): corners counter-clockwise, mid-sides, centre
       type(id_map_t) :: node_map, element_map
    end type mesh_t
 

@@ -145,9 +145,10 @@ contains
             if (option_word(deck, card, 'KERNEL') == 'LINE') interaction%kernel = KERNEL_LINE
          else
             interaction%friction = FRICTION_LOCAL
-            if (.not. is_empty_token(line_item(deck, line, 2_ip))) &
+            if (.not. is_empty_token(line_item(deck, line, 2_ip))) then
                call get_value(deck, card, line_item(deck, line, 2_ip), 'stick slope, a real > 0 [F/L^3]', &
                               interaction%stick_slope, ok, positive=.true.)
+            end if
          end if
       end associate
       ! without a coefficient there are no tangential unknowns at all

@@ -103,7 +103,7 @@ contains
       n = size(nodes, kind=ip)
       is_new_corner = all(nodes(:n - 1) /= nodes(n))
       if (.not. is_new_corner) call report_error(deck, line_item(deck, line, n + 1), 'E-SHAPE', &
-         'the element has this node twice', expected='different nodes, corners counter-clockwise', keyword='ELEMENT')
+                        'the element has this node twice', expected='different nodes, corners counter-clockwise', keyword='ELEMENT')
    end function is_new_corner
 
    !> Adds an element and keeps where it comes from; a number given twice is an error.

@@ -168,8 +168,9 @@ contains
       call read_integer(label(2:2), face, outcome)
       do i = 1, size(elements, kind=ip)
          call add_element_load(model%element_loads, elements(i), LOAD_PRESSURE, face, [pressure, 0.0_wp])
-         if (.not. is_outer_face(model%mesh, draft%around, elements(i), face)) &
+         if (.not. is_outer_face(model%mesh, draft%around, elements(i), face)) then
             call add_number(inside, model%mesh%element_id(elements(i)))
+         end if
       end do
       if (inside%n > 0) call report_warning(deck, line_item(deck, line, 2_ip), 'W-FACE', 'the pressure acts inside the mesh, '// &
                                             'too, on face '//label(2:2)//' of element '//ids_text(numbers_of(inside)), &

@@ -75,7 +75,7 @@ contains
       end if
       model%materials = [model%materials, material]
       draft%elastic_given = [draft%elastic_given, .false.]
-      draft%elastic_spoiled = [draft%elastic_spoiled, .not. card%ok]
+      draft%elastic_spoiled = [draft%elastic_spoiled,.not. card%ok]
       call keep_token(draft%materials, place)
       call keep_token(draft%poisson, place)
       current = size(model%materials, kind=ip)
@@ -93,7 +93,7 @@ contains
 
       if (draft%elastic_given(i)) then
          if (card%ok) call report_error(deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
-                           expected='one *ELASTIC a material', keyword='ELASTIC')
+                                        expected='one *ELASTIC a material', keyword='ELASTIC')
          return
       end if
       draft%elastic_given(i) = .true.
@@ -130,7 +130,7 @@ contains
          if (.not. line%ok) return
          call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%density, ok, keyword='DENSITY')
          if (ok .and. material%density < 0.0_wp) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', &
-            'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
+                                        'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
       end associate
    end subroutine read_density_card
 

@@ -143,8 +143,8 @@ contains
       if (keyword_name(deck%cards(draft%set_card(i))) /= 'NSET') return
       is_earlier = draft%set_card(i) < i_card
       if (.not. is_earlier) call report_error(deck, token, 'E-SET', 'node set '//token_text(deck, token)// &
-         ' is defined later, in '//place_text(deck, deck%cards(draft%set_card(i))%place, token), &
-         expected='a node set that is defined above', keyword='NSET')
+                                           ' is defined later, in '//place_text(deck, deck%cards(draft%set_card(i))%place, token), &
+                                              expected='a node set that is defined above', keyword='NSET')
    end function is_earlier
 
    !> *ELSET.
@@ -235,8 +235,8 @@ contains
       is_range = step > 0 .and. last >= first
       if (is_range) is_range = modulo(last - first, step) == 0
       if (.not. is_range) call report_error(deck, line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), 'E-VALUE', &
-         'steps of '//to_text(step)//' do not lead from '//to_text(first)//' to '//to_text(last), &
-         expected='first <= last, and an increment > 0 that divides their difference', keyword=keyword)
+                                          'steps of '//to_text(step)//' do not lead from '//to_text(first)//' to '//to_text(last), &
+                                      expected='first <= last, and an increment > 0 that divides their difference', keyword=keyword)
    end function is_range
 
 end module atrito_build_sets

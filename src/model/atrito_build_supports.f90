@@ -102,8 +102,8 @@ contains
 
       loose = in_no_element(draft, nodes)
       if (any(loose) .and. .not. has_errors()) call report_note(deck, line_item(deck, line, 1_ip), 'N-NODE', 'node '// &
-                                       ids_text(pack(model%mesh%node_id(nodes), loose))// &
-                                       ' belongs to no element; the support has no effect there', keyword='BOUNDARY')
+                                                                ids_text(pack(model%mesh%node_id(nodes), loose))// &
+                                                      ' belongs to no element; the support has no effect there', keyword='BOUNDARY')
    end subroutine note_loose
 
    !> Prescribes a dof of some nodes. A value that differs from an earlier one is an error, told once a line.

@@ -47,8 +47,9 @@ contains
       end if
       call check_slave(deck, model, draft, slave, draft%slaves(i))
       call check_master(deck, model, draft, master, draft%masters(i))
-      if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) &
+      if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
          call check_shared_nodes(deck, model, slave, master, draft%masters(i))
+      end if
    end subroutine check_sides
 
    subroutine check_slave(deck, model, draft, i, place)
@@ -97,7 +98,7 @@ contains
          if (is_spoiled(draft, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
             if (.not. surface%is_rigid_body) call report_error(deck, place, 'E-PAIR', 'the drawn surface '//surface%name// &
-               ' belongs to no body', expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
+                             ' belongs to no body', expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
          else if (surface%faces%n == 0) then
             call report_no_faces(deck, place, surface%name)
          end if
@@ -220,11 +221,12 @@ contains
       type(contact_points_t), intent(in) :: points
 
       if (points%n_left_out > 0) call report_note(deck, draft%slaves(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
-         to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
-      if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) &
+               to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
+      if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) then
          call report_error(deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides do not match, and MORTAR, the '// &
                            'quadrature for such sides, is not built yet', expected='QUADRATURE=NODAL, or sides whose nodes '// &
                            'face each other', keyword='CONTACT PAIR')
+      end if
       call judge_radius(deck, draft%interactions(model%pairs(i)%interaction), model%interactions(model%pairs(i)%interaction), &
                         least_spacing(points))
    end subroutine judge_points

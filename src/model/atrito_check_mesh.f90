@@ -161,9 +161,10 @@ contains
       do i = 1, size(model%materials, kind=ip)
          associate (material => model%materials(i))
             if (.not. draft%elastic_given(i)) then
-               if (.not. (draft%elastic_spoiled(i) .and. has_errors())) &
+               if (.not. (draft%elastic_spoiled(i) .and. has_errors())) then
                   call report_error(deck, draft%materials(i), 'E-MATERIAL', 'material '//material%name//' has no *ELASTIC', &
                                     expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
+               end if
             else if (strained(i) .and. .not. draft%elastic_spoiled(i)) then
                call check_strained(deck, material%poisson, draft%poisson(i))
             end if
@@ -202,7 +203,7 @@ contains
       end do
       if (first == 0 .or. has_errors()) return
       call report_note(deck, place_token(deck, draft%node_place(first)), 'N-NODE', 'node '// &
-                                      ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
+                       ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
    end subroutine note_loose_nodes
 
 end module atrito_check_mesh

@@ -30,7 +30,7 @@ module atrito_results
       integer(ip) :: outer = 0, inner = 0
       real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
       integer(ip) :: open = 0, stick = 0, slip = 0
-      real(wp) :: residual = 0.0_wp                 !< |nu S_rho(p) - tau| / |tau| at the end of an outer iteration, else of the last one
+      real(wp) :: residual = 0.0_wp                 !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
    end type iteration_t
 
    !> How a body was handled.

@@ -16,7 +16,7 @@ module atrito_number_text
    !> Powers of ten that a double holds exactly.
    integer, parameter :: EXACT_POWERS = 22
    real(wp), parameter :: POWER(0:EXACT_POWERS) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, 1e8_wp, &
-      1e9_wp, 1e10_wp, 1e11_wp, 1e12_wp, 1e13_wp, 1e14_wp, 1e15_wp, 1e16_wp, 1e17_wp, 1e18_wp, 1e19_wp, 1e20_wp, 1e21_wp, 1e22_wp]
+        1e9_wp, 1e10_wp, 1e11_wp, 1e12_wp, 1e13_wp, 1e14_wp, 1e15_wp, 1e16_wp, 1e17_wp, 1e18_wp, 1e19_wp, 1e20_wp, 1e21_wp, 1e22_wp]
    !> Decimal digits of the largest power of two below a number.
    real(wp), parameter :: LOG10_OF_2 = 0.30102999566398119521_wp
    !> Closer than this to a half, the double-length product does not decide the rounding (its error is below 1e-12).

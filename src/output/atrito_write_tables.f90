@@ -16,7 +16,7 @@ module atrito_write_tables
 
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(7) = &
-      [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', 'iterations', 'timing']
+                                 [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', 'iterations', 'timing']
 
 contains
 

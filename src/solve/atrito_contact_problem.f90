@@ -60,8 +60,9 @@ contains
       law%kind = interaction%friction
       law%nu = interaction%nu
       law%eps = interaction%eps
-      if (interaction%friction == FRICTION_LOCAL .and. interaction%stick_slope > 0.0_wp) &
+      if (interaction%friction == FRICTION_LOCAL .and. interaction%stick_slope > 0.0_wp) then
          law%compliance = 1.0_wp/interaction%stick_slope
+      end if
    end function law_of
 
    !> True when the row of a point has an entry on a free dof. (A matrix entry could vanish by cancellation; the row tells.)

@@ -158,11 +158,13 @@ contains
       logical, intent(in) :: has_tangential
       character(len=:), allocatable, intent(inout) :: wrong
 
-      if (abs(rows%gap(j) - row_value(rows, j, rows%normal(:, j), results%u) - gap) > PLACE_TOLERANCE*scale) &
+      if (abs(rows%gap(j) - row_value(rows, j, rows%normal(:, j), results%u) - gap) > PLACE_TOLERANCE*scale) then
          wrong = 'the gap is not that of the displacements'
+      end if
       if (.not. has_tangential) return
-      if (abs(row_value(rows, j, rows%tangent(:, j), results%u) - slip) > PLACE_TOLERANCE*scale) &
+      if (abs(row_value(rows, j, rows%tangent(:, j), results%u) - slip) > PLACE_TOLERANCE*scale) then
          wrong = 'the slip is not that of the displacements'
+      end if
    end subroutine judge_place
 
    pure subroutine judge_normal(p, gap, delta, pressure_scale, place_scale, wrong)
@@ -171,8 +173,9 @@ contains
 
       if (len(wrong) > 0) return
       if (p < 0.0_wp) wrong = 'tension '//to_text(p)
-      if (p > 0.0_wp .and. abs(gap + delta*p) > SIGN_TOLERANCE*max(place_scale, delta*pressure_scale)) &
+      if (p > 0.0_wp .and. abs(gap + delta*p) > SIGN_TOLERANCE*max(place_scale, delta*pressure_scale)) then
          wrong = 'pressure '//to_text(p)//' at gap '//to_text(gap)
+      end if
       if (p == 0.0_wp .and. gap < -SIGN_TOLERANCE*place_scale) wrong = 'penetration '//to_text(-gap)//' without pressure'
    end subroutine judge_normal
 
@@ -195,8 +198,9 @@ contains
          if (abs(t - sign(tau, slip)) > allowed) wrong = 'slip without full friction against it'
       else if (limit > SIGN_TOLERANCE*place_scale) then
          ! the law is steep here: compare the stress within what the slip leaves open
-         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale)/limit) &
+         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale)/limit) then
             wrong = 'shear off the friction law'
+         end if
       end if
    end subroutine judge_friction
 

@@ -170,8 +170,9 @@ contains
       if (i > 0) then
          if (solution%state%state(i) == FREE) status = POINT_STICK
       else
-         if (abs(slip) <= sticking_slip(line%law(j), solution%tau(j)) .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) &
+         if (abs(slip) <= sticking_slip(line%law(j), solution%tau(j)) .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) then
             status = POINT_STICK
+         end if
       end if
    end function status_of
 

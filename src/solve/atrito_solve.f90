@@ -181,12 +181,15 @@ contains
 
       allocate (scene%left_out(0))
       if (size(data%points) == 0) call append_string(scene%left_out, 'no contact pair: no contact line, one solve a body')
-      if (size(data%points) > 0 .and. .not. data%line%has_friction) &
+      if (size(data%points) > 0 .and. .not. data%line%has_friction) then
          call append_string(scene%left_out, 'no friction: no tangential unknowns, no outer loop')
-      if (any(data%points%rigid)) &
+      end if
+      if (any(data%points%rigid)) then
          call append_string(scene%left_out, 'rigid surface: no second body and no matrix for it')
-      if (data%line%has_friction .and. data%line%average%is_identity) &
+      end if
+      if (data%line%has_friction .and. data%line%average%is_identity) then
          call append_string(scene%left_out, 'local friction: no averaging of the pressure')
+      end if
    end subroutine list_left_out
 
    !> Hard contact cannot take an overlap of prescribed dofs.
@@ -371,14 +374,14 @@ contains
       do b = 1, size(results%scene%bodies, kind=ip)
          associate (body => results%scene%bodies(b))
             if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
-               //to_text(body%worst_node)//' dof '//to_text(body%worst_dof)//' lost '//to_text(body%digits_lost, 3) &
-               //' digits: a very slender body, or one that is barely held there')
+                              //to_text(body%worst_node)//' dof '//to_text(body%worst_dof)//' lost '//to_text(body%digits_lost, 3) &
+                                                                 //' digits: a very slender body, or one that is barely held there')
          end associate
       end do
       nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
       if (nu >= LARGE_FRICTION) call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu) &
-         //': there may be other solutions than the one found (measured contraction of the outer loop ' &
-         //to_text(solution%contraction, 3)//')')
+                                    //': there may be other solutions than the one found (measured contraction of the outer loop ' &
+                                                 //to_text(solution%contraction, 3)//')')
    end subroutine warn
 
 end module atrito_solve

@@ -59,7 +59,7 @@ contains
    subroutine finish_tests()
       if (tests_passed + tests_failed == 0) write (output_unit, '(a)') 'FAIL no test found'
       write (output_unit, '(i0, a, i0, a)') tests_passed, ' passed, ', tests_failed, ' failed'
-      if (tests_failed > 0 .or. tests_passed == 0) stop 2, quiet=.true.
+      if (tests_failed > 0 .or. tests_passed == 0) stop 2, quiet = .true.
    end subroutine finish_tests
 
    logical function anyExceptions()

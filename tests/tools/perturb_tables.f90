@@ -35,8 +35,8 @@ program perturb_tables
    end do
    print '(a)', to_text(int(n_tables, ip))//' tables, '//to_text(int(n_changed, ip))//' changes, '// &
       to_text(int(n_missed, ip))//' not noticed'
-   if (n_changed == 0) stop 2, quiet=.true.
-   if (n_missed > 0) stop 1, quiet=.true.
+   if (n_changed == 0) stop 2, quiet = .true.
+   if (n_missed > 0) stop 1, quiet = .true.
 
 contains
 
@@ -52,7 +52,7 @@ contains
       if (command_argument_count() < 2) return
       call get_command_argument(2, argument)
       call read_real(trim(argument), tolerance, outcome)
-      if (outcome /= NUMBER_OK) stop 2, quiet=.true.
+      if (outcome /= NUMBER_OK) stop 2, quiet = .true.
    end subroutine read_arguments
 
    !> Changes each number of one table in turn.
@@ -67,7 +67,7 @@ contains
       call read_table(path, table, status)
       if (.not. is_ok(status)) then
          print '(a)', status%text
-         stop 2, quiet=.true.
+         stop 2, quiet = .true.
       end if
       if (differs(table, table%text)) then
          print '(a)', path//': differs from itself'
