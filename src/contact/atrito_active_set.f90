@@ -93,7 +93,7 @@ contains
          case (FREE)
             if (i <= problem%n_normal) then
                if (state%q(i)/problem%weight(i) < -OPENS*largest_pressure) state%state(i) = AT_LOWER
-            else if (abs(state%q(i)) > bounds%upper(i)*(1 + SLIPS)) then
+            else if (abs(state%q(i))/(1 + SLIPS) > bounds%upper(i)) then
                state%state(i) = merge(AT_UPPER, AT_LOWER, state%q(i) > 0.0_wp)
             end if
          case (AT_LOWER, AT_UPPER)

@@ -9,6 +9,7 @@ module atrito_cards
    use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names
    use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
    use atrito_lexer, only: find_equals, trim_place
+   use atrito_strings, only: string_t, nearest_names
    implicit none (type, external)
    private
    public :: make_card, check_options
@@ -209,8 +210,9 @@ contains
          do i = 1, size(options)
             if (options(i)%required .and. .not. any(card%options%spec == i)) then
                card%ok = .false.
-               call report_error(deck, card%place, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '// &
-                                 options(i)%name, expected=meaning(options(i)), keyword=trim(card%name))
+               if (.not. is_misspelt(deck, card, options(i)%name)) call report_error(deck, card%place, 'E-OPTION-MISSING', &
+                  '*'//trim(card%name)//' needs the option '//options(i)%name, expected=meaning(options(i)), &
+                  keyword=trim(card%name))
             end if
          end do
          do j = 1, size(card%options)
@@ -222,6 +224,22 @@ contains
          end do
       end associate
    end subroutine check_company
+
+   !> An unknown option, which was told, is nearest to this one.
+   logical function is_misspelt(deck, card, name)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      type(string_t), allocatable :: near(:)
+      integer :: i
+
+      is_misspelt = .false.
+      do i = 1, size(card%options)
+         if (card%options(i)%spec /= 0) cycle
+         near = nearest_names(token_text(deck, card%options(i)%name), option_names(deck%keywords(card%keyword)%options), 1)
+         if (size(near) > 0) is_misspelt = is_misspelt .or. near(1)%s == name
+      end do
+   end function is_misspelt
 
    !> `MATERIAL=name: their material`.
    pure function meaning(spec) result(text)

@@ -7,6 +7,7 @@ module atrito_build_block
    use atrito_build_elements, only: place_element, read_element_type
    use atrito_build_nodes, only: place_node, put_node_set, MOST_NODES
    use atrito_coincidence, only: match_points
+   use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, report_unknown
@@ -129,8 +130,8 @@ contains
          ok = ok .and. deck%lines(i)%ok
          if (.not. deck%lines(i)%ok) cycle
          do k = 1, 2
-            call get_real(deck, line_item(deck, deck%lines(i), k), 'coordinate of a corner, a real [L]', spec%corners(k, n), &
-                          good, keyword='BLOCK')
+            call get_coordinate(deck, line_item(deck, deck%lines(i), k), 'coordinate of a corner, a real [L]', &
+                                spec%corners(k, n), good, 'BLOCK')
             ok = ok .and. good
          end do
       end do
@@ -332,7 +333,7 @@ contains
       i_set = find_set(model%node_sets, other)
       ok = i_set > 0
       if (.not. ok) then
-         call report_unknown(deck, draft, place, 'node set above this line', 'E-SET', set_names(model%node_sets), 'BLOCK')
+         call report_unknown(deck, draft, place, 'earlier node set', 'E-SET', set_names(model%node_sets), 'BLOCK')
          return
       end if
       width = size(nodes, 1, kind=ip)

@@ -126,7 +126,7 @@ contains
       call find_elements(deck, model, draft, deck%tokens(line%first_token), elements, ok, 'DLOAD')
       label = upper_case(token_text(deck, line_item(deck, line, 2_ip)))
       call get_real(deck, line_item(deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
-      ok = ok .and. good
+      ok = ok .and. good .and. has_no_rest(deck, line, label)
       select case (label)
       case ('P1', 'P2', 'P3', 'P4')
          if (ok) call press_elements(deck, line, model, draft, elements, label, magnitude)
@@ -138,6 +138,17 @@ contains
          call weigh_elements(deck, line, model, draft, elements, magnitude, ok)
       end select
    end subroutine read_dload_line
+
+   !> Only gravity has a direction: 1,5 is no pressure of 1.5.
+   logical function has_no_rest(deck, line, label)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      character(len=*), intent(in) :: label
+
+      has_no_rest = line%n_tokens <= 3 .or. label == 'GRAV'
+      if (.not. has_no_rest) call report_error(deck, line_item(deck, line, 4_ip), 'E-ITEMS', to_text(line%n_tokens)// &
+         ' items, where 3 belong', expected='element, '//label//', '//magnitude_of(label), keyword='DLOAD')
+   end function has_no_rest
 
    pure function magnitude_of(label) result(what)
       character(len=*), intent(in) :: label

@@ -1,5 +1,6 @@
 !> *NODE, *NGEN and *NFILL: the nodes of the mesh, in the order of the deck.
 module atrito_build_nodes
+   use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, spoil_node, place_token, place_text, note_place, get_id, find_nodes, find_one_node
@@ -47,8 +48,8 @@ contains
       ok = line%ok
       if (line%ok) then
          call get_id(deck, deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
-         call get_real(deck, line_item(deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), keyword='NODE')
-         call get_real(deck, line_item(deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), keyword='NODE')
+         call get_coordinate(deck, line_item(deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE')
+         call get_coordinate(deck, line_item(deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE')
          if (line%n_tokens > 3) then
             call get_real(deck, line_item(deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, 'NODE')
             if (ok(4) .and. abs(z) > 0.0_wp) then

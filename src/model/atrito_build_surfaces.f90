@@ -1,12 +1,14 @@
 !> *SURFACE and *RIGID BODY, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
+   use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, ids_text, find_elements, &
                            report_unknown, is_spoiled
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
-   use atrito_items, only: get_real, option_text, option_word
+   use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: FACES
    use atrito_model, only: model_t, surface_t, SURFACE_ELEMENTS, SURFACE_SEGMENTS
    use atrito_model_names, only: surface_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -137,7 +139,25 @@ contains
          if (good) call take_faces(deck, deck%lines(i), model, draft, elements, faces, good)
          ok = ok .and. good
       end do
+      call keep_once(model%mesh%n_elements, faces)
    end subroutine read_faces
+
+   !> Faces that several lines name are faces of the surface once: a pressure would act twice on them.
+   pure subroutine keep_once(n_elements, faces)
+      integer(ip), intent(in) :: n_elements
+      type(face_list_t), intent(inout) :: faces
+      logical, allocatable :: seen(:, :)
+      type(face_list_t) :: once
+      integer(ip) :: i
+
+      allocate (seen(FACES, n_elements), source=.false.)
+      do i = 1, faces%n
+         if (seen(faces%face(i), faces%element(i))) cycle
+         seen(faces%face(i), faces%element(i)) = .true.
+         call add_face(once, faces%element(i), faces%face(i))
+      end do
+      faces = once
+   end subroutine keep_once
 
    !> The face of each element that a line names, or all their outer faces.
    subroutine take_faces(deck, line, model, draft, elements, faces, ok)
@@ -194,8 +214,8 @@ contains
       do i = card%first_line, card%first_line + card%n_lines - 1
          good = deck%lines(i)%ok
          if (good(1)) then
-            call get_real(deck, line_item(deck, deck%lines(i), 2_ip), 'x, a real [L]', x(1), good(1), keyword='SURFACE')
-            call get_real(deck, line_item(deck, deck%lines(i), 3_ip), 'y, a real [L]', x(2), good(2), keyword='SURFACE')
+            call get_coordinate(deck, line_item(deck, deck%lines(i), 2_ip), 'x, a real [L]', x(1), good(1), 'SURFACE')
+            call get_coordinate(deck, line_item(deck, deck%lines(i), 3_ip), 'y, a real [L]', x(2), good(2), 'SURFACE')
             good(3) = follows(deck, card, i)
          end if
          ok = ok .and. all(good)

@@ -2,7 +2,7 @@
 module atrito_check_contact
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
-   use atrito_draft, only: draft_t, ids_text, has_errors, is_spoiled
+   use atrito_draft, only: draft_t, ids_text, place_text, has_errors, is_spoiled
    use atrito_faces, only: order_chain, chain_report_t, face_list_t, face_normal
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
@@ -36,13 +36,22 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i
-      integer(ip) :: slave, master
+      integer(ip) :: slave, master, k
 
       slave = model%pairs(i)%slave
       master = model%pairs(i)%master
       if (slave == master) then
          call report_error(deck, draft%masters(i), 'E-PAIR', 'slave and master are the same surface', &
                            expected='two surfaces that face each other', keyword='CONTACT PAIR')
+         return
+      end if
+      do k = 1, i - 1
+         if (model%pairs(k)%slave == slave .and. model%pairs(k)%master == master) exit
+      end do
+      if (k < i) then
+         call report_error(deck, draft%slaves(i), 'E-TWICE', 'this pair is given twice, first in '// &
+                           place_text(deck, draft%slaves(k), draft%slaves(i)), expected='each pair of surfaces once', &
+                           keyword='CONTACT PAIR')
          return
       end if
       call check_slave(deck, model, draft, slave, draft%slaves(i))

@@ -37,6 +37,7 @@ module atrito_draft
 
    type :: draft_t
       type(string_t), allocatable :: spoiled(:)        !< names whose definition is faulty
+      type(string_t), allocatable :: unsure(:)         !< nouns: one of these should have been defined, its name is not known
       type(id_map_t) :: spoiled_nodes, spoiled_elements
       integer(ip) :: greatest_node = 0, greatest_element = 0        !< ids
       integer(ip), allocatable :: node_place(:), element_place(:)   !< > 0: token; < 0: card
@@ -62,17 +63,72 @@ contains
       type(draft_t), intent(out) :: draft
       integer(ip) :: i
 
-      allocate (draft%spoiled(0), draft%blocks(0), draft%set_card(0), draft%node_place(64), draft%element_place(64))
+      allocate (draft%spoiled(0), draft%unsure(0), draft%blocks(0), draft%set_card(0), draft%node_place(64), draft%element_place(64))
       allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
       allocate (draft%slaves(0), draft%masters(0), draft%elastic_given(0), draft%elastic_spoiled(0))
       allocate (draft%card_done(deck%n_cards), source=.false.)
       if (.not. has_errors()) return
       do i = 1, deck%n_cards
+         call note_nameless(deck, deck%cards(i), draft)
          if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
          call spoil_options(deck, deck%cards(i), draft)
          if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck, deck%cards(i), draft)
       end do
    end subroutine prepare_draft
+
+   !> A definition without its name, or with one that cannot be read: any unknown name may be the one that was meant.
+   subroutine note_nameless(deck, card, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(draft_t), intent(inout) :: draft
+
+      select case (keyword_name(card))
+      case ('MATERIAL')
+         if (is_nameless(deck, card, 'NAME')) call append_string(draft%unsure, 'material')
+      case ('SURFACE INTERACTION')
+         if (is_nameless(deck, card, 'NAME')) call append_string(draft%unsure, 'surface interaction')
+      case ('SURFACE')
+         if (is_nameless(deck, card, 'NAME')) call append_string(draft%unsure, 'surface')
+      case ('NSET')
+         if (is_nameless(deck, card, 'NSET')) call append_string(draft%unsure, 'node set')
+      case ('ELSET')
+         if (is_nameless(deck, card, 'ELSET')) call append_string(draft%unsure, 'element set')
+      case ('BLOCK')
+         if (.not. is_nameless(deck, card, 'ELSET')) return
+         call append_string(draft%unsure, 'node set')
+         call append_string(draft%unsure, 'earlier node set')
+         call append_string(draft%unsure, 'element set')
+         call append_string(draft%unsure, 'surface')
+      end select
+   end subroutine note_nameless
+
+   !> The option that names a thing is not there or cannot be read; misspelt options are left to spoil_options.
+   logical function is_nameless(deck, card, option)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: option
+      character(len=:), allocatable :: name
+      integer :: i
+
+      is_nameless = .true.
+      if (.not. allocated(card%options)) return
+      do i = 1, size(card%options)
+         if (.not. card%options(i)%has_value) cycle
+         if (same_name(token_text(deck, card%options(i)%name), option)) then
+            name = token_text(deck, card%options(i)%value)
+            is_nameless = len(name) == 0 .or. has_control(name)
+            return
+         end if
+         if (card%options(i)%spec == 0) is_nameless = .false.
+      end do
+   end function is_nameless
+
+   pure logical function has_control(name)
+      character(len=*), intent(in) :: name
+      integer :: i
+
+      has_control = any([(iachar(name(i:i)) < iachar(' '), i=1, len(name))])
+   end function has_control
 
    subroutine spoil_options(deck, card, draft)
       type(deck_t), intent(in) :: deck
@@ -142,11 +198,14 @@ contains
       type(data_line_t), intent(in) :: line
       type(id_map_t), intent(inout) :: map
       integer(ip) :: id
+      character(len=:), allocatable :: text
       integer :: outcome
       logical :: known
 
       if (line%n_tokens == 0) return
-      call read_integer(token_text(deck, deck%tokens(line%first_token)), id, outcome)
+      text = token_text(deck, deck%tokens(line%first_token))
+      text = text(verify(text//' ', '-'):)             ! -6 and 6.0 are meant to be 6
+      call read_integer(text(:scan(text//'.', '.') - 1), id, outcome)
       if (outcome == NUMBER_OK .and. id > 0) call add_id(map, id, 1_ip, known)
    end subroutine spoil_id
 
@@ -377,12 +436,21 @@ contains
       character(len=*), intent(in) :: keyword
       character(len=:), allocatable :: expected
 
-      if (is_spoiled(draft, token_text(deck, token))) return
+      if (is_spoiled(draft, token_text(deck, token)) .or. is_unsure(draft, noun)) return
       expected = 'name of '//article(noun)//noun//' of this deck'
       if (size(known) == 0) expected = expected//'; there is none'
       call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token), expected=expected, known=known, &
                         keyword=keyword)
    end subroutine report_unknown
+
+   logical function is_unsure(draft, noun)
+      type(draft_t), intent(in) :: draft
+      character(len=*), intent(in) :: noun
+      integer :: i
+
+      is_unsure = .false.
+      if (has_errors()) is_unsure = any([(draft%unsure(i)%s == noun, i=1, size(draft%unsure))])
+   end function is_unsure
 
    pure function article(noun) result(text)
       character(len=*), intent(in) :: noun

@@ -266,7 +266,7 @@ contains
                   state(i) = FREE
                end if
             else if (old == FREE) then
-               if (abs(q(i)) > solution%bounds%upper(i)*(1 + SLIPS)) state(i) = merge(AT_UPPER, AT_LOWER, q(i) > 0.0_wp)
+               if (abs(q(i))/(1 + SLIPS) > solution%bounds%upper(i)) state(i) = merge(AT_UPPER, AT_LOWER, q(i) > 0.0_wp)
             else if (old /= FROZEN) then
                direction = merge(1.0_wp, -1.0_wp, old == AT_UPPER)
                if (direction*r(i) < -slack - SLIPS*abs(solution%bounds%d(i)*q(i))) state(i) = FREE

@@ -71,7 +71,7 @@ contains
       if (.not. is_ok(status)) return
       if (solution%inner%moves .and. line%has_friction) then
          call normal_bounds(line, problem, solution%bounds, solution%state)
-         none = HUGE_REAL
+         where (line%tangential > 0) none = HUGE_REAL
          call solve_with_bound(problem, line, none, solution, tau, status)
          if (.not. is_ok(status)) return
       end if
@@ -198,7 +198,7 @@ contains
          call find_cycle(visited, tau, solution%residual, cycle_length)
          if (cycle_length > 1 .and. steps_back == 0) then
             solution%verdict = 'the loop cycles between '//to_text(cycle_length) &
-                               //' states; METHOD=ANDERSON or NEWTON may find the solution'
+                               //' states; METHOD=ANDERSON may find the solution'
             return
          end if
       end do

@@ -33,13 +33,14 @@ column() {
    awk -v name="$2" '/^# columns:/ { for (i = 3; i <= NF; i++) if ($i == name) k = i - 2 } !/^#/ { print $k }' "$1"
 }
 
-# near WHAT VALUE EXPECTED TOLERANCE: |value - expected| <= tolerance. Nothing but a finite number passes.
+# near WHAT VALUE EXPECTED TOLERANCE: |value - expected| <= tolerance. Nothing but a finite number passes. (To mawk a NaN is equal to
+# everything, so NaNs are found by how they are written.)
 near() {
    awk -v what="$1" -v a="$2" -v b="$3" -v tol="$4" 'BEGIN {
       number = "^[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?$"
       good = a ~ number && b ~ number && tol ~ number
       d = a - b; if (d < 0) d = -d
-      good = good && d <= tol + 0
+      good = good && sprintf("%g", d) ~ number && d <= tol + 0
       printf "%s: %s, expected %s, off by %.2e of %s\n", what, a, b, d, tol
       exit !good }' </dev/null || complain "$1"
 }
@@ -53,7 +54,7 @@ below() {
 all_near() {
    worst=$(column "$2" "$3" | awk -v b="$4" '
       $1 !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ { bad = 1 }
-      { d = $1 - b; if (d < 0) d = -d; if (d > worst) worst = d }
+      { d = $1 - b; if (d < 0) d = -d; if (d > worst) worst = d; if (sprintf("%g", d) ~ /n/) bad = 1 }
       END { if (bad || NR == 0) print "none"; else printf "%.17g", worst }')
    near "$1: worst difference from $4" "$worst" 0 "$5"
 }
@@ -68,9 +69,12 @@ same_tables() {
    shift 4
    [ -s "$a" ] && [ -s "$b" ] || { complain "$what: a table is missing"; return; }
    if ! awk -v tol="$tol" -v factors="$*" -v what="$what" '
-      BEGIN { n = split(factors, list, " "); for (i = 1; i <= n; i++) { split(list[i], f, "="); factor[f[1]] = f[2] } }
+      BEGIN { n = split(factors, list, " "); for (i = 1; i <= n; i++) { split(list[i], f, "="); factor[f[1]] = f[2]
+            if (f[2] !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/) { bad = 1; print what ": factor " list[i] } } }
       FNR == 1 { file++ }
-      /^# columns:/ { for (i = 3; i <= NF; i++) name[i - 2] = $i; columns = NF - 2 }
+      /^# columns:/ { for (i = 3; i <= NF; i++) name[i - 2] = $i; columns = NF - 2
+         header = ""; for (i = 3; i <= NF; i++) header = header " " $i
+         if (file == 1) heading = header; else if (header != heading) { bad = 1; print what ": other columns" } }
       /^#/ { next }
       file == 1 { na++; for (i = 1; i <= NF; i++) first[na, i] = $i; next }
       { nb++
@@ -81,6 +85,7 @@ same_tables() {
            s = (name[i] in factor) ? factor[name[i]] : 1
            d = x*s - y; if (d < 0) d = -d
            if (d > worst[i]) worst[i] = d
+           if (sprintf("%g", d) ~ /n/) { bad = 1; print what ": " x " and " y }
            z = (y < 0) ? -y : y; if (z > largest[i]) largest[i] = z } }
       END {
         if (na != nb || nb == 0) { print what ": " na + 0 " and " nb + 0 " rows"; exit 1 }
@@ -112,8 +117,8 @@ field_near() {
       { rows++
         x = $place["x"]; y = $place["y"]; node = $2; found = $place[wanted]
         expected = ('"$4"')
-        if (found !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ || !(expected - expected == 0)) bad = 1
-        d = found - expected; if (d < 0) d = -d; if (d > most) most = d }
+        if (found !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ || sprintf("%g", expected) ~ /n/) bad = 1
+        d = found - expected; if (d < 0) d = -d; if (d > most) most = d; if (sprintf("%g", d) ~ /n/) bad = 1 }
       END { if (bad || rows == 0 || !(wanted in place)) print "none"; else printf "%.17g", most }' "$2")
    near "$1: worst difference from $4" "$worst" 0 "$5"
 }

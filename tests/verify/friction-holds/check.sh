@@ -19,4 +19,6 @@ hold coulomb '*FRICTION\n0.3'
 hold stick-slope '*FRICTION\n0.3, 1e4'
 hold local-eps '*FRICTION, NONLOCAL\n0.3, 1e-5, 0'
 hold local-exact '*FRICTION, NONLOCAL\n0.3, 0, 0'
+hold averaged '*FRICTION, NONLOCAL\n0.3, 1e-5, 0.6'
+hold averaged-exact '*FRICTION, NONLOCAL\n0.3, 0, 0.6'
 finish

@@ -9,6 +9,9 @@ for scene in support rigid-support; do
       same_tables "$scene nu=$nu delta 1e-18 and 0, u" "$scene-$nu-1e-18/nodes.tab" "$scene-$nu-0/nodes.tab" 1e-10
       same_tables "$scene nu=$nu delta 1e-18 and 0, stress" "$scene-$nu-1e-18/stress.tab" "$scene-$nu-0/stress.tab" 1e-10
    done
+   sed 's/OVERCLOSURE=PENALTY/OVERCLOSURE=HARD/; /^<delta>$/d' "$input/ex1-plate-on-$scene.inp" >hard.inp
+   run 0 hard.inp "$scene-hard" --digits 17 --quiet
+   same_tables "$scene HARD and delta = 0" "$scene-hard/contact.tab" "$scene-0.3-0/contact.tab" 0
    for eps in 0 1e-18; do
       run 0 "$input/ex1-plate-on-$scene.inp" "$scene-eps-$eps" --set delta=0 --set eps=$eps --digits 17 --quiet
    done
