@@ -63,6 +63,7 @@ contains
       outcome%condition = solution%condition
       outcome%moves = solution%moves
       if (solution%moves) outcome%motion = solution%motion
+      if (outcome%solved .and. allocated(solution%idle)) outcome%idle = solution%idle
    end subroutine solve_box
 
    !> Fixed unknowns take the values of their bounds.

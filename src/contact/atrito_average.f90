@@ -7,7 +7,7 @@ module atrito_average
    public :: average_t, identity_average, build_average, append_average, apply_average
 
    !> 1 / integral of exp(1/(r^2-1)) over (-1,1): the constant c of the kernel, times rho.
-   real(wp), parameter :: KERNEL_CONSTANT = 2.252283621_wp
+   real(wp), parameter :: KERNEL_CONSTANT = 2.252283621043581_wp
 
    !> W by rows: entries(first(j) : first(j+1)-1) stand in the columns of the same places.
    type :: average_t

@@ -218,7 +218,7 @@ contains
          part = dot_product(vectors(:, j), force*column_scale)
          if (values(j) > NULL_MOTION) then
             a = a + vectors(:, j)*(part/values(j))
-         else if (abs(part) > NO_LOAD*size_of_load*maxval(abs(vectors(:, j)*column_scale))) then
+         else if (abs(part)/maxval(abs(vectors(:, j)*column_scale)) > NO_LOAD*size_of_load) then
             motion = motion + vectors(:, j)*part
          else
             solution%idle = vectors(:, j)*column_scale

@@ -63,6 +63,7 @@ module atrito_deck
       type(token_t) :: place                       !< where it is defined
       integer(ip) :: order = 0                     !< in reading order
       logical :: known = .false.                   !< its expression has a value; if not, that is reported
+      logical :: overridden = .false.              !< by --set
    end type parameter_t
 
    !> The arrays have spare room: n_lines, n_tokens ... count. cards and parameters are cut to size when the deck is read.

@@ -89,6 +89,7 @@ contains
          if (.not. same_name(settings%names(i)%s, parameter%name)) cycle
          parameter%known = .true.
          parameter%value = settings%values(i)
+         parameter%overridden = .true.
       end do
    end subroutine apply_settings
 

@@ -82,6 +82,7 @@ contains
       do i = 1, deck%n_parameters
          model%parameters(i)%name = deck%parameters(i)%name
          model%parameters(i)%value = deck%parameters(i)%value
+         model%parameters(i)%overridden = deck%parameters(i)%overridden
       end do
    end subroutine take_parameters
 

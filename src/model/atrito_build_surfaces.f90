@@ -8,7 +8,7 @@ module atrito_build_surfaces
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: FACES
+   use atrito_mesh, only: MOST_FACES => FACES
    use atrito_model, only: model_t, surface_t, SURFACE_ELEMENTS, SURFACE_SEGMENTS
    use atrito_model_names, only: surface_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -150,7 +150,7 @@ contains
       type(face_list_t) :: once
       integer(ip) :: i
 
-      allocate (seen(FACES, n_elements), source=.false.)
+      allocate (seen(MOST_FACES, n_elements), source=.false.)
       do i = 1, faces%n
          if (seen(faces%face(i), faces%element(i))) cycle
          seen(faces%face(i), faces%element(i)) = .true.
@@ -258,7 +258,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(model_t), intent(inout) :: model
-      type(draft_t), intent(in) :: draft
+      type(draft_t), intent(inout) :: draft
       type(token_t) :: place
       character(len=:), allocatable :: name
       integer(ip) :: i
@@ -274,7 +274,9 @@ contains
                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
       else
          model%surfaces(i)%is_rigid_body = .true.
+         return
       end if
+      draft%rigid_unsure = .true.
    end subroutine read_rigid_body_card
 
 end module atrito_build_surfaces

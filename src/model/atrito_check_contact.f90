@@ -106,8 +106,9 @@ contains
       associate (surface => model%surfaces(i))
          if (is_spoiled(draft, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
-            if (.not. surface%is_rigid_body) call report_error(deck, place, 'E-PAIR', 'the drawn surface '//surface%name// &
-                             ' belongs to no body', expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
+            if (surface%is_rigid_body .or. (draft%rigid_unsure .and. has_errors())) return
+            call report_error(deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
+                              expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
          else if (surface%faces%n == 0) then
             call report_no_faces(deck, place, surface%name)
          end if

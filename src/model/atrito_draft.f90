@@ -49,6 +49,7 @@ module atrito_draft
       logical, allocatable :: elastic_given(:), elastic_spoiled(:)  !< for each material
       logical :: sections_unsure = .false.             !< a *SOLID SECTION could not be understood
       logical :: pairs_unsure = .false.                !< a *CONTACT PAIR could not be understood
+      logical :: rigid_unsure = .false.                !< a *RIGID BODY names another surface than it should
       integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in model%prescribed; 0: free
       integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
    end type draft_t
@@ -63,7 +64,8 @@ contains
       type(draft_t), intent(out) :: draft
       integer(ip) :: i
 
-      allocate (draft%spoiled(0), draft%unsure(0), draft%blocks(0), draft%set_card(0), draft%node_place(64), draft%element_place(64))
+      allocate (draft%spoiled(0), draft%unsure(0), draft%blocks(0), draft%set_card(0))
+      allocate (draft%node_place(64), draft%element_place(64))
       allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
       allocate (draft%slaves(0), draft%masters(0), draft%elastic_given(0), draft%elastic_spoiled(0))
       allocate (draft%card_done(deck%n_cards), source=.false.)

@@ -15,6 +15,7 @@ complain() {
    echo "$*"
    bad=1
 }
+[ -n "$(find "$work" "$case_folder" -name "*.tab")" ] && complain "a table was written"
 [ -e "$work/tables" ] && complain "an output folder was made"
 [ -s "$work/out" ] && complain "standard output is not empty"
 while read -r what rest; do
@@ -26,6 +27,9 @@ while read -r what rest; do
    *) complain "expect.txt: unknown line $what" ;;
    esac
 done <expect.txt
+# errors come in the order of the deck
+sed -n 's/^deck\.inp:\([0-9]*\):[0-9]*: error .*/\1/p' "$work/err" >"$work/lines"
+sort -n "$work/lines" | cmp -s - "$work/lines" || complain "the errors are not in the order of the deck"
 grep -q '^exit' expect.txt && grep -q '^contains' expect.txt || complain "expect.txt asks for nothing"
 [ $bad -eq 0 ] || cat "$work/err"
 exit $bad
