@@ -210,9 +210,9 @@ contains
          do i = 1, size(options)
             if (options(i)%required .and. .not. any(card%options%spec == i)) then
                card%ok = .false.
-               if (.not. is_misspelt(deck, card, options(i)%name)) call report_error(deck, card%place, 'E-OPTION-MISSING', &
-                  '*'//trim(card%name)//' needs the option '//options(i)%name, expected=meaning(options(i)), &
-                  keyword=trim(card%name))
+               if (is_misspelt(deck, card, options(i)%name)) cycle
+               call report_error(deck, card%place, 'E-OPTION-MISSING', '*'//trim(card%name)//' needs the option '// &
+                                 options(i)%name, expected=meaning(options(i)), keyword=trim(card%name))
             end if
          end do
          do j = 1, size(card%options)

@@ -146,8 +146,9 @@ contains
       character(len=*), intent(in) :: label
 
       has_no_rest = line%n_tokens <= 3 .or. label == 'GRAV'
-      if (.not. has_no_rest) call report_error(deck, line_item(deck, line, 4_ip), 'E-ITEMS', to_text(line%n_tokens)// &
-         ' items, where 3 belong', expected='element, '//label//', '//magnitude_of(label), keyword='DLOAD')
+      if (has_no_rest) return
+      call report_error(deck, line_item(deck, line, 4_ip), 'E-ITEMS', to_text(line%n_tokens)//' items, where 3 belong', &
+                        expected='element, '//label//', '//magnitude_of(label), keyword='DLOAD')
    end function has_no_rest
 
    pure function magnitude_of(label) result(what)

@@ -107,7 +107,7 @@ contains
 
       if (controls%method == METHOD_PICARD) return
       do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'CONTROLS') cycle
+         if (keyword_name(deck%cards(i)) /= 'CONTROLS' .or. .not. deck%cards(i)%ok) cycle
          call find_option(deck, deck%cards(i), 'RELAXATION', option, found)
          if (found) call report_error(deck, option%name, 'E-CONFLICT', 'RELAXATION= is for METHOD=PICARD; the method here is '// &
                                       trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=', &
