@@ -81,7 +81,7 @@ contains
       end do
    end function outer_faces
 
-   !> Adds a face to a list; one that is there already is kept once.
+   !> Adds a face to a list; order_chain drops those that stand there twice.
    pure subroutine add_face(list, element, face)
       type(face_list_t), intent(inout) :: list
       integer(ip), intent(in) :: element, face

@@ -53,7 +53,7 @@ module atrito_solve
 
 contains
 
-   !> What a scene needs, without solving it: for `check`, and for the listing.
+   !> What a scene needs, without solving it: for `check`, and for the listing. status: STATUS_DECK as in solve_static.
    subroutine survey_scene(model, options, scene, status)
       type(model_t), intent(in) :: model
       type(solve_options_t), intent(in) :: options
@@ -63,6 +63,7 @@ contains
 
       call prepare(model, data)
       call describe_scene(model, data, options, scene)
+      call check_known_points(data, status)
    end subroutine survey_scene
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed

@@ -17,12 +17,12 @@ module model_cases
 
    !> Two unit squares side by side.
    character(len=*), parameter :: PLATE = '*NODE|1, 0, 0|2, 1, 0|3, 2, 0|11, 0, 1|12, 1, 1|13, 2, 1|'// &
-      '*ELEMENT, TYPE=CPE4, ELSET=E|1, 1, 2, 12, 11|2, 2, 3, 13, 12|'
+                                  '*ELEMENT, TYPE=CPE4, ELSET=E|1, 1, 2, 12, 11|2, 2, 3, 13, 12|'
    character(len=*), parameter :: SECTION = '*MATERIAL, NAME=M|*ELASTIC|1000, 0.3|*SOLID SECTION, ELSET=E, MATERIAL=M|'
    character(len=*), parameter :: ENDING = '*STEP|*END STEP'
    !> A rigid floor under the plate.
    character(len=*), parameter :: FLOOR = '*SURFACE, NAME=LOW, TYPE=ELEMENT|E, S1|*SURFACE, NAME=FLOOR, TYPE=SEGMENTS|'// &
-      'START, -1, 0|LINE, 3, 0|*RIGID BODY, ANALYTICAL SURFACE=FLOOR|'
+                                  'START, -1, 0|LINE, 3, 0|*RIGID BODY, ANALYTICAL SURFACE=FLOOR|'
 
    character(len=*), parameter :: FOLDER = 'unit_model_files'
 
