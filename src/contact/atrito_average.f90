@@ -9,6 +9,9 @@ module atrito_average
    !> 1 / integral of exp(1/(r^2-1)) over (-1,1): the constant c of the kernel, times rho.
    real(wp), parameter :: KERNEL_CONSTANT = 2.252283621043581_wp
 
+   !> A weight below this is none: it would make a friction bound whose inverse, in eps/tau, overflows.
+   real(wp), parameter :: NO_WEIGHT = 1.0e-200_wp
+
    !> W by rows: entries(first(j) : first(j+1)-1) stand in the columns of the same places.
    type :: average_t
       integer(ip) :: n = 0
@@ -87,6 +90,7 @@ contains
 
       kernel_value = 0.0_wp
       if (q < 1.0_wp) kernel_value = exp(1.0_wp/((q - 1.0_wp)*(q + 1.0_wp)))
+      if (kernel_value < NO_WEIGHT) kernel_value = 0.0_wp
    end function kernel_value
 
    !> The least distance [L] of two points that follow each other.

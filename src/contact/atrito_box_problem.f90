@@ -150,7 +150,8 @@ contains
       x = rhs
       call solve_cholesky(factor, x)
       force = load - matmul(transpose(gs), x)
-      size_of_load = maxval([(sum(abs(problem%g(:, j)*held)) + abs(problem%h(j)), j=1, problem%k), 0.0_wp])
+      size_of_load = maxval([(sum(abs(problem%g(:, j)*held)) + sum(abs(gs(:, j)*x)) + abs(problem%h(j)), j=1, problem%k), &
+                             0.0_wp])
       call solve_motions(vectors, values, column_scale, force, size_of_load, a, solution)
       q = x + matmul(y, a)
       ! one refinement: the residual of both equations with the same factors

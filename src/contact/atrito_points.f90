@@ -3,7 +3,7 @@
 !> NODAL quadrature, as in the paper: the points are the slave's nodes, trapezoidal for Q1 and Simpson for Q2. Each looks along
 !> the slave's normal for the master, element faces or rigid segments.
 module atrito_points
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_faces, only: face_list_t, face_length, face_normal
    use atrito_shape_functions, only: face_shape_values
@@ -205,8 +205,19 @@ contains
       end do
       do i = 1, points%n
          points%normal(:, i) = points%normal(:, i)/norm2(points%normal(:, i))
+         call clear_round_off(points%x(:, i), points%length(i), points%normal(:, i))
       end do
    end subroutine place_points
+
+   !> A component of the normal that is round-off of the coordinates is none: along a symmetry line or a supported base the rows of
+   !> the points are zero only then.
+   pure subroutine clear_round_off(x, length, normal)
+      real(wp), intent(in) :: x(2), length
+      real(wp), intent(inout) :: normal(2)
+
+      where (abs(normal) < max(1.0e-13_wp, 8*EPS_MACH*maxval(abs(x))/length)) normal = 0.0_wp
+      normal = normal/norm2(normal)
+   end subroutine clear_round_off
 
    !> Trapezoidal or Simpson's rule on a face, nodes in the order of travel.
    pure subroutine nodal_rule(face, nodes, rule, where_on_face)

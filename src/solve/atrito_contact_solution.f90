@@ -1,9 +1,10 @@
 !> What the outer loop works on and what it finds: the contact line's state, its stresses, and the verdict.
 module atrito_contact_solution
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_active_set, only: box_outcome_t, solve_box
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, set_friction_bounds
-   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
    use atrito_solve_history, only: solve_history_t
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
@@ -58,6 +59,7 @@ contains
       if (size(tau) == 0) return
       scale = max(maxval(abs(tau)), maxval(abs(image)))
       if (scale > 0.0_wp) residual = maxval(abs(image/scale - tau/scale))
+      if (.not. all(ieee_is_finite(image))) residual = HUGE_REAL   ! maxval passes over what is not a number
    end function relative_residual
 
    !> The residual at which the outer loop stops: the tolerance, or what the matrix allows.

@@ -1,6 +1,7 @@
 !> The check at the end of every run, made afresh from the displacements and the stresses that are written: equilibrium of the
 !> full bodies, balance of the forces on them, and the contact law at every point.
 module atrito_final_check
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_assembly, only: fem_t, internal_forces
    use atrito_average, only: apply_average
    use atrito_bodies, only: mode_at
@@ -55,6 +56,8 @@ contains
       equilibrium%round_off = maxval(size_of_force)
       equilibrium%holds = equilibrium%residual <= FORCE_TOLERANCE*equilibrium%largest_force &
                           + ROUND_OFFS*EPS_MACH*equilibrium%round_off
+      ! maxval passes over what is not a number
+      equilibrium%holds = equilibrium%holds .and. all(ieee_is_finite(force)) .and. all(ieee_is_finite(u))
    end subroutine check_equilibrium
 
    !> Z'(f - B'q) of every rigid motion, relative to the forces; the worst.
@@ -99,6 +102,11 @@ contains
 
       if (line%n == 0) return
       call gather_fields(results, p, gap, slip, t)
+      if (.not. all(ieee_is_finite([p, gap, slip, t]))) then
+         results%law_holds = .false.
+         results%verdict = 'the solution holds what is not a number'
+         return
+      end if
       tau = line%law%nu*apply_average(line%average, p)
       pressure_scale = maxval(p)
       place_scale = max(maxval(abs(results%u)), maxval(abs(rows%gap)), maxval(abs(gap)))

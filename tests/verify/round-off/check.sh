@@ -1,0 +1,16 @@
+. "$(dirname "$0")/../lib.sh"
+solve() { # NAME DECK options
+   name=$1
+   deck=$2
+   shift 2
+   run 0 "$here/$deck" "$name" --quiet "$@"
+   grep -v '^#' "$name/contact.tab" "$name/summary.tab" | grep -qi 'nan\|inf' && complain "$name: not a number"
+   near "$name equilibrium" "$(summary "$name" equilibrium_residual)" 0 1e-10
+}
+solve tilted tilt.inp
+solve symmetry c3n.inp
+solve base c6.inp --set y0=0.1
+solve overlap c6.inp --set y0=0.3
+solve tail nan.inp --set rho=0.100068 --set eps=1e-2
+run 0 "$input/ex1-plate-on-support.inp" plate --set rho=0.100068 --quiet
+finish
