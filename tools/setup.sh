@@ -44,12 +44,31 @@ install_missing() {
    fi
 }
 
+# The presets need CMake 3.25; an older one would only say that it cannot read them.
+need_cmake() {
+   version=$(cmake --version | sed -n 's/^cmake version \([0-9]*\)\.\([0-9]*\).*/\1 \2/p')
+   major=${version% *}
+   minor=${version#* }
+   [ "${major:-0}" -gt 3 ] || { [ "${major:-0}" -eq 3 ] && [ "${minor:-0}" -ge 25 ]; } ||
+      fail "CMake 3.25 or later is needed, and $(command -v cmake) is $(cmake --version | sed -n '1s/.* //p')"
+}
+
+# A build folder that was moved or copied with its sources still builds the old ones.
+forget_moved_build() {
+   [ -f "$1/CMakeCache.txt" ] || return 0
+   grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$top" "$1/CMakeCache.txt" && return 0
+   say "$1 belongs to other sources; it is made anew"
+   rm -rf "$1"
+}
+
 # build_preset NAME: configures build/NAME where that was not done, and builds what has changed.
 build_preset() {
    preset=$1
    log=$top/build/$preset.log
    mkdir -p "$top/build"
+   forget_moved_build "$top/build/$preset"
    if [ ! -f "$top/build/$preset/CMakeCache.txt" ] || [ ! -f "$top/build/$preset/Makefile" ]; then
+      need_cmake
       say "configuring build/$preset"
       (cd "$top" && cmake --preset "$preset") >"$log" 2>&1 || show_log "configuring failed"
       say "building (about a minute)"
