@@ -7,7 +7,7 @@ module atrito_mesh_keywords
    private
    public :: define_mesh_keywords
 
-   character(len=*), parameter :: ELEMENT_TYPES = 'CPE4 CPS4 -CPE9+ -CPS9+'
+   character(len=*), parameter :: ELEMENT_TYPES = 'CPE4 CPS4 CPE9+ CPS9+'
 
 contains
 
@@ -150,7 +150,7 @@ contains
       call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE4|CPS4')
       call add_item(k, 'id', KIND_ID, 'number of the element, positive')
       call add_element_nodes(k, '1234')
-      call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE9|CPS9', built=.false.)
+      call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE9|CPS9')
       call add_item(k, 'id', KIND_ID, 'number of the element, positive')
       call add_element_nodes(k, '123456789')
       call add_example(k, '*ELEMENT, TYPE=CPE4, ELSET=plate|1, 1, 2, 102, 101')

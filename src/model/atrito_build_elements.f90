@@ -62,7 +62,6 @@ contains
       first = model%mesh%n_elements + 1
       associate (card => deck%cards(i_card))
          call read_element_type(deck, card, n_nodes, state, ok)
-         ok = ok .and. n_nodes == Q1_NODES   ! the others are not built, and that was told
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (ok .and. deck%lines(i)%ok) then
                call read_element_line(deck, deck%lines(i), n_nodes, state, model, draft)

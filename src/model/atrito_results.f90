@@ -88,6 +88,8 @@ module atrito_results
       integer(ip), allocatable :: stress_point(:)   !< (n_stress) 1.. in the element, xi fastest
       real(wp), allocatable :: stress_x(:, :)       !< (2, n_stress) [L]
       real(wp), allocatable :: stress(:, :)         !< (5, n_stress): s11 s22 s33 s12 mises [F/L^2]
+      real(wp), allocatable :: nodal_stress(:, :)   !< (5, n_nodes): s11 s22 s33 s12 mises recovered at the nodes [F/L^2]
+      real(wp) :: error_estimate = 0.0_wp           !< of the stresses, in the energy norm, relative [%]; Zienkiewicz and Zhu
       type(iteration_t), allocatable :: iterations(:)
       integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
       real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
