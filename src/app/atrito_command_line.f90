@@ -10,17 +10,18 @@ module atrito_command_line
    implicit none (type, external)
    private
    public :: command_t, parse_command, fetch_arguments
-   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_OPTIONS, TASK_VERSION
+   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_OPTIONS, TASK_VERSION
    public :: SOLVERS
 
    integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
-   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4
-   integer, parameter :: TASK_OPTIONS = 5           !< --help
-   integer, parameter :: TASK_VERSION = 6           !< --version
+   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4, TASK_SWEEP = 5
+   integer, parameter :: TASK_OPTIONS = 6           !< --help
+   integer, parameter :: TASK_VERSION = 7           !< --version
 
    character(len=7), parameter :: COMMANDS(5) = ['check  ', 'compare', 'study  ', 'sweep  ', 'help   ']
    character(len=7), parameter :: SOLVERS(4) = ['auto   ', 'skyline', 'banded ', 'sparse ']
    integer, parameter :: MOST_THREADS = 1024
+   integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
 
    !> What the user asks for.
    type :: command_t
@@ -29,7 +30,9 @@ module atrito_command_line
       character(len=:), allocatable :: folder       !< -o; not allocated: the default
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
       character(len=7) :: solver = 'auto'           !< one of SOLVERS
+      type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order
       integer(ip) :: threads = 1
+      integer(ip) :: refine = 0                     !< levels: each element into 4**refine
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: quiet = .false.
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
@@ -39,26 +42,28 @@ module atrito_command_line
    type :: option_t
       character(len=9) :: name
       logical :: has_value
-      logical :: for_task(TASK_HELP)                !< run, check, compare, help
+      logical :: for_task(TASK_SWEEP)               !< run, check, compare, help, sweep
       logical :: is_built
    end type option_t
 
+   character(len=*), parameter :: SWEEP_FORM = 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]'
+
    logical, parameter :: Y = .true., N = .false.
    type(option_t), parameter :: OPTIONS(14) = [ &
-                                option_t('-o       ', Y, [Y, N, N, N], Y), &
-                                option_t('--set    ', Y, [Y, Y, N, N], Y), &
-                                option_t('--solver ', Y, [Y, Y, N, N], Y), &
-                                option_t('--threads', Y, [Y, Y, N, N], Y), &
-                                option_t('--digits ', Y, [Y, N, N, N], Y), &
-                                option_t('--quiet  ', N, [Y, Y, Y, N], Y), &
-                                option_t('--rtol   ', Y, [N, N, Y, N], Y), &
-                                option_t('--atol   ', Y, [N, N, Y, N], Y), &
-                                option_t('--refine ', Y, [Y, Y, N, N], N), &
-                                option_t('--plot   ', N, [Y, N, N, N], N), &
-                                option_t('--levels ', Y, [N, N, N, N], N), &
-                                option_t('--vary   ', Y, [N, N, N, N], N), &
-                                option_t('--help   ', N, [Y, Y, Y, Y], Y), &
-                                option_t('--version', N, [Y, Y, Y, Y], Y)]
+                                option_t('-o       ', Y, [Y, N, N, N, Y], Y), &
+                                option_t('--set    ', Y, [Y, Y, N, N, Y], Y), &
+                                option_t('--solver ', Y, [Y, Y, N, N, Y], Y), &
+                                option_t('--threads', Y, [Y, Y, N, N, Y], Y), &
+                                option_t('--digits ', Y, [Y, N, N, N, Y], Y), &
+                                option_t('--quiet  ', N, [Y, Y, Y, N, Y], Y), &
+                                option_t('--rtol   ', Y, [N, N, Y, N, N], Y), &
+                                option_t('--atol   ', Y, [N, N, Y, N, N], Y), &
+                                option_t('--refine ', Y, [Y, Y, N, N, Y], Y), &
+                                option_t('--plot   ', N, [Y, N, N, N, Y], N), &
+                                option_t('--levels ', Y, [N, N, N, N, N], N), &
+                                option_t('--vary   ', Y, [N, N, N, N, Y], Y), &
+                                option_t('--help   ', N, [Y, Y, Y, Y, Y], Y), &
+                                option_t('--version', N, [Y, Y, Y, Y, Y], Y)]
 
    !> An option as it was given.
    type :: given_t
@@ -91,7 +96,7 @@ contains
       type(string_t), allocatable :: names(:)
       integer :: i
 
-      allocate (command%settings(0), command%names(0))
+      allocate (command%settings(0), command%vary(0), command%names(0))
       call sort_arguments(arguments, names, given, ok, error)
       if (.not. ok) return
       if (any(OPTIONS(given%option)%name == '--help')) command%task = TASK_OPTIONS
@@ -101,6 +106,9 @@ contains
       do i = 1, size(given)
          if (ok) call take_option(given(i), command, ok, error)
       end do
+      if (.not. ok .or. command%task /= TASK_SWEEP .or. size(command%vary) > 0) return
+      ok = .false.
+      error = wrong('a sweep needs the parameter that it varies', expected=SWEEP_FORM)
    end subroutine parse_command
 
    !> Sorts arguments into names and options with their values.
@@ -237,6 +245,8 @@ contains
          call check_deck(command%names, 'atrito DECK.inp [options]', ok, error)
       case (TASK_CHECK)
          call check_deck(command%names, 'atrito check DECK.inp', ok, error)
+      case (TASK_SWEEP)
+         call check_deck(command%names, SWEEP_FORM, ok, error)
       case (TASK_COMPARE)
          ok = size(command%names) == 2
          if (.not. ok) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
@@ -257,7 +267,9 @@ contains
          task = TASK_COMPARE
       case ('help')
          task = TASK_HELP
-      case ('study', 'sweep')
+      case ('sweep')
+         task = TASK_SWEEP
+      case ('study')
          task = 0
       case default
          task = TASK_RUN
@@ -312,6 +324,11 @@ contains
       case ('--set')
          call append_string(command%settings, given%value)
          ok = index(given%value, '=') > 1
+      case ('--vary')
+         call append_string(command%vary, given%value)
+         ok = index(given%value, '=') > 1
+      case ('--refine')
+         call take_integer(given%value, 0, MOST_LEVELS, command%refine, ok)
       case ('--solver')
          call take_solver(given%value, command, ok, error)
          return
@@ -332,7 +349,8 @@ contains
    pure function task_text(task) result(text)
       integer, intent(in) :: task
       character(len=:), allocatable :: text
-      character(len=14), parameter :: NAMES(4) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ']
+      character(len=14), parameter :: NAMES(TASK_SWEEP) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ', &
+                                                           'atrito sweep  ']
 
       text = trim(NAMES(task))
    end function task_text
@@ -347,6 +365,10 @@ contains
          text = 'a folder; it is made where it is missing'
       case ('--set')
          text = 'NAME=VALUE, VALUE an expression of numbers'
+      case ('--vary')
+         text = 'NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'
+      case ('--refine')
+         text = 'a whole number, 0 to '//to_text(int(MOST_LEVELS, ip))//': each element into 4, so many times'
       case ('--solver')
          text = 'auto, skyline or banded'
       case ('--threads')

@@ -155,7 +155,7 @@ contains
       told = 0
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('model')
-         call build_model(deck, model)
+         call build_model(deck, model, command%refine)
          call stop_phase('model')
       end if
       code = status%code

@@ -14,7 +14,8 @@ contains
 
       call begin_page(page, 80)
       call add_line(page, 'usage: atrito DECK.inp [options]')
-      call add_line(page, '       atrito check DECK.inp | compare A B | help [KEYWORD]')
+      call add_line(page, '       atrito check DECK.inp | sweep DECK.inp --vary NAME=v1,v2,...')
+      call add_line(page, '       atrito compare A B | help [KEYWORD]')
       call add_line(page, '       atrito --help | --version')
    end subroutine compose_usage
 
@@ -37,6 +38,7 @@ contains
 
       call add_line(page, 'atrito DECK.inp [options]   solve the deck and write tables')
       call add_line(page, 'atrito check DECK.inp       read and check everything, tell what the scene needs, solve nothing')
+      call add_line(page, 'atrito sweep DECK.inp       one run a value of a parameter: --vary NAME=v1,v2,... [--vary ...]')
       call add_line(page, 'atrito compare A B          compare two tables, or two folders of them')
       call add_line(page, 'atrito help [KEYWORD]       reference of the deck language; `atrito help all`: the whole of it')
       call add_line(page, 'atrito --help | --version')
@@ -45,9 +47,10 @@ contains
    subroutine add_options(page)
       type(page_t), intent(inout) :: page
 
-      call add_line(page, 'options of a run (check knows --set, --solver, --threads, --quiet)')
+      call add_line(page, 'options of a run and a sweep (check knows --set, --refine, --solver, --threads, --quiet)')
       call add_line(page, '  -o DIR             folder of the tables, made if missing; default ./output/<name of the deck>')
       call add_line(page, '  --set NAME=VALUE   value of a *PARAMETER of the deck; may be repeated')
+      call add_line(page, '  --refine K         each element into 4, K times; sets, surfaces, loads and supports follow')
       call add_line(page, '  --solver NAME      auto (default), skyline or banded')
       call add_line(page, '  --threads N        default 1')
       call add_line(page, '  --digits N         significant digits of the tables, 6 to 17, default 10')

@@ -8,6 +8,7 @@ module atrito_messages
    implicit none (type, external)
    private
    public :: message_t, add_message, add_warning, add_note, has_room, count_messages, get_message, clear_messages, sort_messages
+   public :: message_mark_t, mark_messages, forget_messages
    public :: format_message
    public :: SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE, MOST_ERRORS
 
@@ -30,6 +31,12 @@ module atrito_messages
       character(len=:), allocatable :: keyword  !< for `atrito help KEYWORD`
       integer(ip) :: order = huge(1_ip)         !< place in reading order: messages are told in it
    end type message_t
+
+   !> How many messages there were at some time.
+   type :: message_mark_t
+      integer(ip) :: stored = 0
+      integer(ip) :: counted(SEVERITY_ERROR:SEVERITY_NOTE) = 0
+   end type message_mark_t
 
    type(message_t), allocatable :: store(:)
    integer(ip) :: stored = 0
@@ -112,6 +119,21 @@ contains
       stored = 0
       counted = 0
    end subroutine clear_messages
+
+   !> Marks the messages that there are now.
+   function mark_messages() result(mark)
+      type(message_mark_t) :: mark
+
+      mark = message_mark_t(stored, counted)
+   end function mark_messages
+
+   !> Forgets what was told since a mark; the messages must not have been sorted in between.
+   subroutine forget_messages(mark)
+      type(message_mark_t), intent(in) :: mark
+
+      stored = mark%stored
+      counted = mark%counted
+   end subroutine forget_messages
 
    !> Puts the messages into the order of the deck; those without a place keep theirs at the end.
    subroutine sort_messages()

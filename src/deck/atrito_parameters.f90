@@ -1,7 +1,7 @@
-!> `*PARAMETER` and `--set`.
+!> `*PARAMETER` and `--set`, and expressions of parameters and of the place.
 module atrito_parameters
    use atrito_kinds, only: ip, wp
-   use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, reading_order
+   use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, reading_order, token_text
    use atrito_diagnostics, only: report_error
    use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name, &
                                  reserved_names
@@ -11,7 +11,7 @@ module atrito_parameters
    use atrito_strings, only: string_t, append_string, same_name, nearest_names, join, to_text
    implicit none (type, external)
    private
-   public :: settings_t, read_settings, define_parameter, check_settings
+   public :: settings_t, read_settings, define_parameter, check_settings, evaluate_function
 
    !> Values that override parameters.
    type :: settings_t
@@ -140,30 +140,75 @@ contains
       real(wp), intent(out) :: value
       logical, intent(out) :: known
       type(expression_fault_t) :: fault
-      type(token_t) :: place
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)
 
-      call collect_known(deck, names, values)
-      call evaluate_expression(deck%sources(expression%source)%text(expression%first:expression%last), names, values, value, &
-                               fault)
+      call collect_known(deck, expression, names, values)
+      call evaluate_expression(token_text(deck, expression), names, values, value, fault)
       known = .not. allocated(fault%text)
-      if (known) return
+      if (.not. known) call report_fault(deck, expression, fault, '', 'PARAMETER')
+   end subroutine evaluate
+
+   subroutine report_fault(deck, expression, fault, also, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      type(expression_fault_t), intent(in) :: fault
+      character(len=*), intent(in) :: also             !< names that the expression knows besides, e.g. 'x, y, '
+      character(len=*), intent(in) :: keyword
+      type(token_t) :: place
+
       place = expression
       place%first = expression%first + fault%first - 1
       place%last = min(expression%last, expression%first + fault%last - 1)
       place%column = expression%column + fault%first - 1
       if (.not. fault%unknown_name) then
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword='PARAMETER', &
-                           expected='numbers, earlier parameters, + - * / ** ( ), functions')
-      else if (index_of_parameter(deck, deck%sources(place%source)%text(place%first:place%last)) == 0) then
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword='PARAMETER', &
-                           known=[parameter_names(deck), reserved_names()], expected='an earlier parameter, a function or pi')
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
+                           expected='numbers, '//also//'earlier parameters, + - * / ** ( ), functions')
+      else if (index_of_parameter(deck, token_text(deck, place)) == 0) then
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=[parameter_names(deck), &
+                           reserved_names()], expected=also//'an earlier parameter, a function or pi')
       end if
-   end subroutine evaluate
+   end subroutine report_fault
 
-   subroutine collect_known(deck, names, values)
+   !> An expression in x, y and earlier parameters at some places.
+   subroutine evaluate_function(deck, expression, x, values, ok, keyword)
       type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      real(wp), intent(in) :: x(:, :)                  !< (2, n) [L]
+      real(wp), intent(out) :: values(:)               !< (n)
+      logical, intent(out) :: ok                       !< .false.: reported, once
+      character(len=*), intent(in) :: keyword
+      type(expression_fault_t) :: fault
+      type(string_t), allocatable :: names(:)
+      real(wp), allocatable :: known(:)
+      integer(ip) :: i
+
+      call collect_known(deck, expression, names, known)
+      values = 0.0_wp
+      do i = 1, size(names, kind=ip)
+         ok = .not. (same_name(names(i)%s, 'x') .or. same_name(names(i)%s, 'y'))
+         if (ok) cycle
+         call report_error(deck, expression, 'E-EXPRESSION', 'parameter '//names(i)%s//' has the name of a coordinate', &
+                           expected='another name of the parameter', keyword=keyword)
+         return
+      end do
+      call append_string(names, 'x')
+      call append_string(names, 'y')
+      ok = .true.
+      do i = 1, size(values, kind=ip)
+         call evaluate_expression(token_text(deck, expression), names, [known, x(:, i)], values(i), fault)
+         ok = .not. allocated(fault%text)
+         if (ok) cycle
+         if (.not. fault%unknown_name) fault%text = fault%text//' at x = '//to_text(x(1, i))//', y = '//to_text(x(2, i))
+         call report_fault(deck, expression, fault, 'x, y, ', keyword)
+         return
+      end do
+   end subroutine evaluate_function
+
+   !> The parameters that have values and are defined before a place.
+   subroutine collect_known(deck, place, names, values)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
       type(string_t), allocatable, intent(out) :: names(:)
       real(wp), allocatable, intent(out) :: values(:)
       integer(ip) :: i
@@ -171,6 +216,7 @@ contains
       allocate (names(0), values(0))
       do i = 1, deck%n_parameters
          if (.not. deck%parameters(i)%known) cycle
+         if (deck%parameters(i)%order >= reading_order(deck, place%source, place%line)) cycle
          call append_string(names, deck%parameters(i)%name)
          values = [values, deck%parameters(i)%value]
       end do

@@ -136,20 +136,23 @@ contains
 
       call define_keyword(k, 'BOUNDARY', LEVEL_BOTH, 'prescribed displacements', &
                           doc='Before *STEP zero values only, which hold in every step. Dof 1 is x and 2 is y; a dof 3 to 6 of '// &
-                          'value 0 is a note. Two different values for one dof in a step are an error.')
-      call add_option(k, 'FUNCTION', KIND_FLAG, 'the value is an expression in x and y', own=.true., built=.false.)
+                          'value 0 is a note. Two different values for one dof in a step are an error. FUNCTION: in the step, '// &
+                          'evaluated at each node.')
+      call add_option(k, 'FUNCTION', KIND_FLAG, 'the value is an expression in x and y', own=.true.)
       call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='-FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')
       call add_item(k, 'last dof', KIND_INTEGER, '1 or 2', default='first dof')
       call add_item(k, 'value', KIND_REAL, 'displacement', dimension='L', default='0')
-      call add_form(k, 'one support a line', 1, ANY_NUMBER, when='FUNCTION', built=.false.)
+      call add_form(k, 'one support a line', 1, ANY_NUMBER, when='FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')
-      call add_item(k, 'last dof', KIND_INTEGER, '1 or 2')
-      call add_item(k, 'value', KIND_TEXT, 'expression in x and y', dimension='L')
-      call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2')
+      call add_item(k, 'last dof', KIND_INTEGER, '1 or 2', default='first dof')
+      call add_item(k, 'value', KIND_TEXT, 'expression in x, y and earlier parameters, as in *PARAMETER', dimension='L', &
+                    repeats=.true.)
+      call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2|*STEP|*BOUNDARY, FUNCTION|pillar-TOP, 2, 2, '// &
+                       '-(0.10 - 0.001*x)')
    end subroutine define_boundary
 
 end module atrito_scene_keywords

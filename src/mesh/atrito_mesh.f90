@@ -5,6 +5,7 @@ module atrito_mesh
    implicit none (type, external)
    private
    public :: mesh_t, add_node, add_element, find_node, find_element, trim_mesh, face_nodes, face_end, opposite_face_count
+   public :: nodes_of_square
    public :: Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS, FACES, element_coordinates, signed_area
 
    integer(ip), parameter :: Q1_NODES = 4, Q2_NODES = 9    !< nodes of an element; also the name of its shape
@@ -160,6 +161,17 @@ contains
          end do
       end do
    end function opposite_face_count
+
+   !> The nodes of an element from their square of 2 x 2 (Q1) or 3 x 3 (Q2): corners counter-clockwise, mid-sides, centre.
+   pure function nodes_of_square(square) result(nodes)
+      integer(ip), intent(in) :: square(:, :)
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: n
+
+      n = size(square, 1, kind=ip)
+      nodes = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
+      if (n == 3) nodes = [nodes, square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
+   end function nodes_of_square
 
    !> Coordinates [L] of an element's nodes, (2, shape).
    pure function element_coordinates(mesh, element) result(x)

@@ -13,7 +13,7 @@ module atrito_build_block
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, report_unknown
    use atrito_items, only: get_real, option_text, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: Q1_NODES
+   use atrito_mesh, only: nodes_of_square, Q2_NODES
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_sets, only: find_set, grow_set, set_names
@@ -31,6 +31,7 @@ module atrito_build_block
    !> What a *BLOCK says.
    type :: spec_t
       integer(ip) :: state = 0
+      integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2: node intervals of an element along each direction
       integer(ip) :: n(2) = 0                          !< elements along and across
       real(wp) :: corners(2, CORNERS) = 0.0_wp         !< [L]
       real(wp) :: grade(2) = 1.0_wp
@@ -53,6 +54,7 @@ contains
       call read_spec(deck, deck%cards(i_card), spec, ok)
       block%card = i_card
       block%state = spec%state
+      block%order = spec%order
       if (ok .and. named) call place_block_nodes(deck, i_card, spec, model, draft, block, ok)
       if (ok .and. named) then
          call put_block_sets(model, draft, block)
@@ -71,16 +73,16 @@ contains
       logical :: good(5)
 
       call read_element_type(deck, card, n_nodes, spec%state, good(1))
-      good(1) = good(1) .and. n_nodes == Q1_NODES
+      if (n_nodes == Q2_NODES) spec%order = 2
       call read_count(deck, card, 'NX', spec%n(1), good(2))
       call read_count(deck, card, 'NY', spec%n(2), good(3))
       call read_corners(deck, card, spec, good(4))
       call read_divisions(deck, card, all(good(2:3)), spec, good(5))
       ok = all(good)
       if (.not. all(good(2:3))) return
-      if (int(spec%n(1), lp)*int(spec%n(2), lp) < int(MOST_NODES, lp)) return
+      if (product(int(spec%order*spec%n, lp)) < int(MOST_NODES, lp)) return
       ok = .false.
-      call report_error(deck, card%place, 'E-VALUE', 'a block of more than '//to_text(MOST_NODES)//' elements', &
+      call report_error(deck, card%place, 'E-VALUE', 'a block of more than '//to_text(MOST_NODES)//' nodes', &
                         expected='fewer elements NX, NY', keyword='BLOCK')
    end subroutine read_spec
 
@@ -277,18 +279,19 @@ contains
       type(block_t), intent(inout) :: block
       logical, intent(out) :: ok
       real(wp), allocatable :: x(:, :)
-      integer(ip) :: i, j, k
+      integer(ip) :: i, j, k, n(2)
 
-      allocate (x(2, (spec%n(1) + 1)*(spec%n(2) + 1)))
-      x = block_nodes(spec%corners, lines_of(spec%n(1), spec%grade(1), spec%along), &
-                      lines_of(spec%n(2), spec%grade(2), spec%across))
-      allocate (block%nodes(0:spec%n(1), 0:spec%n(2)), source=0_ip)
+      n = spec%order*spec%n
+      allocate (x(2, (n(1) + 1)*(n(2) + 1)))
+      x = block_nodes(spec%corners, node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order), &
+                      node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order))
+      allocate (block%nodes(0:n(1), 0:n(2)), source=0_ip)
       call share_nodes(deck, i_card, x, model, draft, block%nodes, ok)
       if (.not. ok) return
       ok = draft%greatest_node <= huge(1_ip) - size(x, 2)
       k = 0
-      do j = 0, spec%n(2)
-         do i = 0, spec%n(1)
+      do j = 0, n(2)
+         do i = 0, n(1)
             k = k + 1
             if (block%nodes(i, j) > 0) cycle
             if (ok) call place_node(deck, model, draft, draft%greatest_node + 1, x(:, k), -i_card, ok, 'BLOCK')
@@ -298,6 +301,19 @@ contains
       if (.not. ok) call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the node numbers of the block, which '// &
                                       'follow the greatest so far, are too large', keyword='BLOCK')
    end subroutine place_block_nodes
+
+   !> Lines of nodes: for Q2 also those in the middle between the lines of the elements.
+   pure function node_lines(lines, order) result(t)
+      real(wp), intent(in) :: lines(0:)                !< of the elements, 0..1
+      integer(ip), intent(in) :: order                 !< 1 or 2
+      real(wp), allocatable :: t(:)
+      integer(ip) :: n
+
+      n = ubound(lines, 1, kind=ip)
+      allocate (t(0:order*n))
+      t(0::order) = lines
+      if (order == 2) t(1::2) = 0.5_wp*(lines(:n - 1) + lines(1:))
+   end function node_lines
 
    pure function lines_of(n, grade, breaks) result(t)
       integer(ip), intent(in) :: n
@@ -419,7 +435,7 @@ contains
       integer(ip), intent(in) :: i_card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      integer(ip) :: b, i, j, k
+      integer(ip) :: b, i, j, k, m
       logical :: ok
 
       do b = 1, size(draft%blocks, kind=ip)
@@ -430,11 +446,12 @@ contains
       ok = draft%greatest_element <= huge(1_ip) - size(draft%blocks(b)%nodes)
       if (.not. ok) call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the element numbers of the block, which '// &
                                       'follow the greatest so far, are too large', keyword='BLOCK')
+      m = draft%blocks(b)%order
       associate (nodes => draft%blocks(b)%nodes)
-         do j = 0, ubound(nodes, 2, kind=ip) - 1
-            do i = 0, ubound(nodes, 1, kind=ip) - 1
+         do j = 0, ubound(nodes, 2, kind=ip) - m, m
+            do i = 0, ubound(nodes, 1, kind=ip) - m, m
                if (ok) call place_element(deck, model, draft, draft%greatest_element + 1, draft%blocks(b)%state, &
-                                          [nodes(i:i + 1, j), nodes(i + 1, j + 1), nodes(i, j + 1)], -i_card, ok, 'BLOCK')
+                                          nodes_of_square(nodes(i:i + m, j:j + m)), -i_card, ok, 'BLOCK')
             end do
          end do
       end associate

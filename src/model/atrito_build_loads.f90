@@ -12,6 +12,7 @@ module atrito_build_loads
    use atrito_model_names, only: surface_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
+   use atrito_refinement, only: is_on_side
    use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)
    private
@@ -71,6 +72,8 @@ contains
       logical :: ok(3)
 
       call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
+      ! a concentrated force stays where the deck puts it
+      if (draft%refinement%pieces > 1) nodes = pack(nodes, nodes <= draft%refinement%n_nodes)
       call get_integer(deck, line_item(deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
       call get_real(deck, line_item(deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
       if (.not. all(ok(2:))) return
@@ -179,6 +182,7 @@ contains
 
       call read_integer(label(2:2), face, outcome)
       do i = 1, size(elements, kind=ip)
+         if (.not. is_on_side(draft%refinement, elements(i), face)) cycle
          call add_element_load(model%element_loads, elements(i), LOAD_PRESSURE, face, [pressure, 0.0_wp])
          if (.not. is_outer_face(model%mesh, draft%around, elements(i), face)) then
             call add_number(inside, model%mesh%element_id(elements(i)))

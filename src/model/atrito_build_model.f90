@@ -17,7 +17,9 @@ module atrito_build_model
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip
    use atrito_mesh, only: trim_mesh
+   use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
+   use atrito_refine_model, only: refine_model
    use atrito_strings, only: append_string, lower_case
    implicit none (type, external)
    private
@@ -30,8 +32,28 @@ contains
    !>
    !> Cards are read by subject, not by place: a section may stand before the elements of its set. Only nodes, elements and sets
    !> are made in the order of the deck, since they follow from each other.
-   subroutine build_model(deck, model)
+   !>
+   !> With levels > 0 every element is refined into 4**levels. The model is built without it first: what is wrong with a deck is
+   !> told of the elements that stand in it.
+   subroutine build_model(deck, model, levels)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
+      type(model_t), intent(out) :: model
+      integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
+      type(message_mark_t) :: mark
+      logical :: refined
+
+      refined = .false.
+      if (present(levels)) refined = levels > 0
+      mark = mark_messages()
+      call build_once(deck, 0_ip, model)
+      if (.not. refined .or. has_errors()) return
+      call forget_messages(mark)
+      call build_once(deck, levels, model)
+   end subroutine build_model
+
+   subroutine build_once(deck, levels, model)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: levels
       type(model_t), intent(out) :: model
       type(draft_t) :: draft
 
@@ -42,6 +64,7 @@ contains
       call build_elements(deck, model, draft)
       call trim_mesh(model%mesh)
       draft%around = list_node_elements(model%mesh)
+      if (levels > 0) call refine_model(deck, levels, model, draft)
       call build_surfaces(deck, model, draft)
       call build_materials(deck, model, draft)
       call build_contact(deck, model, draft)
@@ -51,7 +74,7 @@ contains
       call check_mesh(deck, model, draft)
       call check_surfaces_of_pairs(deck, model, draft)
       if (.not. has_errors()) call check_points_of_pairs(deck, model, draft)
-   end subroutine build_model
+   end subroutine build_once
 
    subroutine take_titles(deck, model)
       type(deck_t), intent(in) :: deck

@@ -8,6 +8,8 @@ module atrito_build_supports
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_prescribed, trim_prescribed
    use atrito_model, only: model_t
+   use atrito_parameters, only: evaluate_function
+   use atrito_refinement, only: edge_place
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -17,6 +19,13 @@ module atrito_build_supports
    integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6
    character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
 
+   !> A refined mesh: what the lines of a card prescribe at single nodes, one after the other along an edge.
+   type :: by_number_t
+      integer(ip), allocatable :: line(:, :)           !< (2, nodes of the deck): place in deck%lines; 0: not prescribed
+      real(wp), allocatable :: value(:, :)             !< [L]
+      integer(ip) :: n = 0
+   end type by_number_t
+
 contains
 
    !> All prescribed displacements, those of the model and of the step.
@@ -24,31 +33,39 @@ contains
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
+      type(by_number_t) :: numbered
       integer(ip) :: i, k
 
       allocate (draft%dof_entry(PLANE_DOFS, model%mesh%n_nodes), draft%dof_token(PLANE_DOFS, model%mesh%n_nodes), source=0_ip)
       do i = 1, deck%n_cards
          associate (card => deck%cards(i))
             if (keyword_name(card) /= 'BOUNDARY') cycle
-            if (has_option(deck, card, 'FUNCTION')) cycle
+            call begin_numbers(model%mesh%n_nodes, draft, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
-               if (deck%lines(k)%ok) call read_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft)
+               if (.not. deck%lines(k)%ok) cycle
+               if (has_option(deck, card, 'FUNCTION')) then
+                  call read_function_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft)
+               else
+                  call read_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft, numbered)
+               end if
             end do
+            call hold_edges(deck, model, draft, numbered)
          end associate
       end do
       call trim_prescribed(model%prescribed)
    end subroutine build_supports
 
    !> Node or set, first dof[, last dof[, value]].
-   subroutine read_line(deck, line, in_model, model, draft)
+   subroutine read_line(deck, line, in_model, model, draft, numbered)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
+      type(by_number_t), intent(inout) :: numbered
       integer(ip), allocatable :: nodes(:)
       real(wp) :: value
-      integer(ip) :: first, last, dof
+      integer(ip) :: first, last, dof, i
       logical :: ok(4)
 
       call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
@@ -65,9 +82,115 @@ contains
       if (.not. all(ok)) return
       call note_loose(deck, line, model, draft, nodes)
       do dof = first, min(last, PLANE_DOFS)
-         call prescribe(deck, line, nodes, dof, value, model, draft)
+         call prescribe(deck, line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], model, draft)
       end do
+      if (size(nodes) == 1 .and. draft%refinement%pieces > 1) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
+
+   !> Node or set, first dof[, last dof], expression in x and y.
+   subroutine read_function_line(deck, line, in_model, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      logical, intent(in) :: in_model                  !< before *STEP
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(token_t) :: expression
+      integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: values(:)
+      integer(ip) :: first, last, dof
+      logical :: ok(4)
+
+      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
+      call get_integer(deck, line_item(deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
+      call get_integer(deck, line_item(deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      ! commas belong to the expression: max(x, y)
+      expression = line_item(deck, line, 4_ip)
+      expression%last = deck%tokens(line%first_token + line%n_tokens - 1)%last
+      ok(4) = .not. in_model
+      if (in_model) call report_error(deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
+                                      expected='*BOUNDARY, FUNCTION in the step', keyword='BOUNDARY')
+      if (.not. all(ok(2:))) return
+      ok(2) = last <= PLANE_DOFS
+      if (ok(2)) then
+         if (.not. are_dofs(deck, line, first, last, 0.0_wp)) return
+      else
+         call report_error(deck, line_item(deck, line, 3_ip), 'E-DOF', 'dof '//to_text(last)//' does not exist in the plane', &
+                           expected=WHAT_DOF, keyword='BOUNDARY')
+      end if
+      if (.not. all(ok)) return
+      allocate (values(size(nodes)))
+      call evaluate_function(deck, expression, model%mesh%x(:, nodes), values, ok(1), 'BOUNDARY')
+      if (.not. ok(1)) return
+      call note_loose(deck, line, model, draft, nodes)
+      do dof = first, last
+         call prescribe(deck, line, nodes, dof, values, model, draft)
+      end do
+   end subroutine read_function_line
+
+   subroutine begin_numbers(n_nodes, draft, numbered)
+      integer(ip), intent(in) :: n_nodes
+      type(draft_t), intent(in) :: draft
+      type(by_number_t), intent(inout) :: numbered
+
+      if (draft%refinement%pieces == 1) return
+      if (.not. allocated(numbered%line)) then
+         allocate (numbered%line(PLANE_DOFS, n_nodes), source=0_ip)
+         allocate (numbered%value(PLANE_DOFS, n_nodes), source=0.0_wp)
+      else if (numbered%n > 0) then
+         numbered%line = 0
+      end if
+      numbered%n = 0
+   end subroutine begin_numbers
+
+   pure subroutine take_number(line, node, first, last, value, numbered)
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: node, first, last
+      real(wp), intent(in) :: value
+      type(by_number_t), intent(inout) :: numbered
+      integer(ip) :: dof
+
+      do dof = first, min(last, PLANE_DOFS)
+         numbered%line(dof, node) = line%first_token
+         numbered%value(dof, node) = value
+      end do
+      numbered%n = numbered%n + 1
+   end subroutine take_number
+
+   !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
+   subroutine hold_edges(deck, model, draft, numbered)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(by_number_t), intent(in) :: numbered
+      type(data_line_t) :: line
+      integer(ip) :: edge, dof, k, n
+
+      if (numbered%n < 2) return
+      associate (fine => draft%refinement)
+         do edge = 1, fine%n_edges
+            if (fine%edge_element(2, edge) > 0) cycle
+            n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
+            do dof = 1, PLANE_DOFS
+               if (any(numbered%line(dof, fine%edge_node(:n, edge)) == 0)) cycle
+               line%first_token = numbered%line(dof, fine%edge_node(1, edge))
+               line%n_tokens = 1
+               do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
+                  call prescribe(deck, line, [k], dof, [edge_value(numbered%value(dof, fine%edge_node(:n, edge)), &
+                                                                   edge_place(fine, edge, k))], model, draft)
+               end do
+            end do
+         end do
+      end associate
+   end subroutine hold_edges
+
+   !> Value between the nodes of an edge: first, last[, middle].
+   pure real(wp) function edge_value(values, t) result(value)
+      real(wp), intent(in) :: values(:)                !< (2 or 3)
+      real(wp), intent(in) :: t                        !< 0..1
+
+      value = values(1) + t*(values(2) - values(1))
+      if (size(values) == 3) value = value + 4*t*(1 - t)*(values(3) - 0.5_wp*(values(1) + values(2)))
+   end function edge_value
 
    !> The dofs of a line exist, or are those of three dimensions and harmless.
    logical function are_dofs(deck, line, first, last, value)
@@ -111,10 +234,11 @@ contains
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: nodes(:), dof
-      real(wp), intent(in) :: value
+      real(wp), intent(in) :: value(:)                 !< of each node [L]
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: clashes
+      real(wp) :: first_value
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
 
@@ -123,14 +247,15 @@ contains
          if (loose(i)) cycle
          entry = draft%dof_entry(dof, nodes(i))
          if (entry == 0) then
-            call add_prescribed(model%prescribed, nodes(i), dof, value)
+            call add_prescribed(model%prescribed, nodes(i), dof, value(i))
             draft%dof_entry(dof, nodes(i)) = model%prescribed%n
             draft%dof_token(dof, nodes(i)) = line%first_token
-         else if (abs(model%prescribed%value(entry) - value) > 0.0_wp) then
+         else if (abs(model%prescribed%value(entry) - value(i)) > 0.0_wp) then
+            if (clashes%n == 0) first_value = value(i)
             call add_number(clashes, nodes(i))
          end if
       end do
-      if (clashes%n > 0) call report_clash(deck, line, model, draft, numbers_of(clashes), dof, value)
+      if (clashes%n > 0) call report_clash(deck, line, model, draft, numbers_of(clashes), dof, first_value)
    end subroutine prescribe
 
    subroutine report_clash(deck, line, model, draft, nodes, dof, value)

@@ -13,6 +13,7 @@ module atrito_build_surfaces
    use atrito_model_names, only: surface_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
+   use atrito_refinement, only: fine_elements, is_on_side
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -47,8 +48,8 @@ contains
       type(draft_t), intent(inout) :: draft
       integer(ip) :: nx, ny, i
 
-      nx = ubound(block%nodes, 1, kind=ip)
-      ny = ubound(block%nodes, 2, kind=ip)
+      nx = ubound(block%nodes, 1, kind=ip)/block%order
+      ny = ubound(block%nodes, 2, kind=ip)/block%order
       if (block%first_element + nx*ny - 1 > model%mesh%n_elements) return
       call put_side(1_ip, [(i, i=0, nx - 1)])
       call put_side(2_ip, [(nx - 1 + nx*i, i=0, ny - 1)])
@@ -61,6 +62,7 @@ contains
          integer(ip), intent(in) :: face
          integer(ip), intent(in) :: elements(:)        !< counted from the first of the block
          character(len=:), allocatable :: name
+         integer(ip), allocatable :: pieces(:)
          integer(ip) :: k, s
 
          name = block%name//trim(BLOCK_SIDES(face))
@@ -69,10 +71,10 @@ contains
             call add_surface(model, draft, surface_t(name=name), deck%cards(block%card)%place)
             s = size(model%surfaces, kind=ip)
          end if
-         do k = 1, size(elements, kind=ip)
-            associate (element => block%first_element + elements(k))
-               if (is_outer_face(model%mesh, draft%around, element, face)) call add_face(model%surfaces(s)%faces, element, face)
-            end associate
+         pieces = fine_elements(draft%refinement, block%first_element + elements)
+         do k = 1, size(pieces, kind=ip)
+            if (.not. is_on_side(draft%refinement, pieces(k), face)) cycle
+            if (is_outer_face(model%mesh, draft%around, pieces(k), face)) call add_face(model%surfaces(s)%faces, pieces(k), face)
          end do
       end subroutine put_side
 
@@ -185,6 +187,7 @@ contains
       end if
       call read_integer(word(2:), face, outcome)       ! S1..S4, checked by the reader
       do i = 1, size(elements, kind=ip)
+         if (.not. is_on_side(draft%refinement, elements(i), face)) cycle
          if (is_outer_face(model%mesh, draft%around, elements(i), face)) then
             call add_face(faces, elements(i), face)
          else

@@ -14,6 +14,7 @@ module atrito_draft
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_refinement, only: refinement_t, fine_elements
    use atrito_sets, only: set_list_t, find_set, set_names
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
@@ -31,7 +32,8 @@ module atrito_draft
       character(len=:), allocatable :: name
       integer(ip) :: card = 0                          !< place in deck%cards
       integer(ip) :: state = 0                         !< PLANE_STRAIN or PLANE_STRESS
-      integer(ip), allocatable :: nodes(:, :)          !< (0:nx, 0:ny), places
+      integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2
+      integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
    end type block_t
 
@@ -45,6 +47,8 @@ module atrito_draft
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
       logical, allocatable :: card_done(:)             !< *NSET cards all of whose members are known
       type(node_elements_t) :: around                  !< elements round each node
+      type(refinement_t) :: refinement                 !< how the mesh came from that of the deck; pieces = 1: it is that
+      type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
       logical, allocatable :: elastic_given(:), elastic_spoiled(:)  !< for each material
       logical :: sections_unsure = .false.             !< a *SOLID SECTION could not be understood
@@ -329,7 +333,7 @@ contains
                         range_text(model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
    end subroutine find_one_node
 
-   !> The place of the element whose number an item is.
+   !> The place of the element whose number an item is, in the mesh of the deck.
    subroutine find_one_element(deck, model, draft, token, element, ok, keyword)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
@@ -343,7 +347,11 @@ contains
       element = 0
       call get_id(deck, token, 'element number', id, ok, keyword)
       if (.not. ok) return
-      element = find_element(model%mesh, id)
+      if (draft%refinement%pieces > 1) then
+         element = find_id(draft%deck_elements, id)
+      else
+         element = find_element(model%mesh, id)
+      end if
       ok = element > 0
       if (ok) return
       if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0) return
@@ -398,6 +406,7 @@ contains
       if (is_id_token(deck, token)) then
          call find_one_element(deck, model, draft, token, element, ok, keyword)
          if (ok) members = [element]
+         if (ok .and. draft%refinement%pieces > 1) members = fine_elements(draft%refinement, members)
       else
          call find_members(deck, model%element_sets, draft, token, 'element', members, ok, keyword)
       end if

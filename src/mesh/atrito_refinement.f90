@@ -1,0 +1,384 @@
+!> Uniform refinement: every quadrilateral into pieces x pieces of the same shape, on the isoparametric map of its parent, so that
+!> curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then those inside elements.
+module atrito_refinement
+   use atrito_faces, only: node_elements_t
+   use atrito_id_map, only: add_id
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_mesh, only: mesh_t, face_end, nodes_of_square, FACES, Q1_NODES, Q2_NODES
+   implicit none (type, external)
+   private
+   public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, edge_place
+
+   !> How a fine mesh came from a coarse one.
+   type :: refinement_t
+      integer(ip) :: pieces = 1                     !< along an edge of a coarse element; 1: not refined
+      integer(ip) :: n_nodes = 0, n_elements = 0    !< of the coarse mesh
+      integer(ip) :: n_edges = 0                    !< of the coarse mesh
+      integer(ip), allocatable :: edge_node(:, :)   !< (3, n_edges): first, last, middle (0 for Q1), coarse places
+      integer(ip), allocatable :: edge_element(:, :) !< (2, n_edges): its elements; the second 0 on the outline
+      integer(ip), allocatable :: edge_first(:)     !< (n_edges + 1): place of its first new node
+      integer(ip), allocatable :: inner_first(:)    !< (n_elements + 1): place of an element's first new node inside
+      integer(ip), allocatable :: face_edge(:, :)   !< (4, n_elements)
+   end type refinement_t
+
+contains
+
+   !> Nodes of the refined mesh, before it is made.
+   pure integer(lp) function count_fine_nodes(mesh, pieces) result(n)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: pieces             !< along an edge, >= 1
+      integer(lp) :: intervals
+      integer(ip) :: e
+
+      n = mesh%n_nodes
+      do e = 1, mesh%n_elements
+         intervals = int(order_of(mesh, e), lp)*int(pieces, lp)
+         n = n + intervals**2 + 2*intervals         ! edges between two elements are counted twice, which is no matter here
+      end do
+   end function count_fine_nodes
+
+   !> Refines a mesh.
+   pure subroutine refine_mesh(mesh, around, pieces, fine, refinement)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around   !< elements round each node of mesh
+      integer(ip), intent(in) :: pieces             !< 2, 4, 8, ...: of each edge
+      type(mesh_t), intent(out) :: fine
+      type(refinement_t), intent(out) :: refinement
+
+      refinement%pieces = pieces
+      refinement%n_nodes = mesh%n_nodes
+      refinement%n_elements = mesh%n_elements
+      call list_edges(mesh, around, refinement)
+      call number_nodes(mesh, refinement)
+      call place_nodes(mesh, refinement, fine)
+      call place_elements(mesh, refinement, fine)
+   end subroutine refine_mesh
+
+   !> Node intervals along an element: 1 for Q1, 2 for Q2.
+   pure integer(ip) function order_of(mesh, element)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+
+      order_of = merge(1_ip, 2_ip, mesh%shape(element) == Q1_NODES)
+   end function order_of
+
+   !> The edges of all elements, each once; elements of different order do not share theirs.
+   pure subroutine list_edges(mesh, around, refinement)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      type(refinement_t), intent(inout) :: refinement
+      integer(ip) :: e, face, n, other, other_face
+
+      allocate (refinement%face_edge(FACES, mesh%n_elements), source=0_ip)
+      allocate (refinement%edge_node(3, FACES*mesh%n_elements), refinement%edge_element(2, FACES*mesh%n_elements), source=0_ip)
+      n = 0
+      do e = 1, mesh%n_elements
+         do face = 1, FACES
+            if (refinement%face_edge(face, e) > 0) cycle
+            n = n + 1
+            refinement%face_edge(face, e) = n
+            refinement%edge_node(:2, n) = [mesh%nodes(face, e), mesh%nodes(face_end(face), e)]
+            if (mesh%shape(e) == Q2_NODES) refinement%edge_node(3, n) = mesh%nodes(FACES + face, e)
+            refinement%edge_element(1, n) = e
+            call find_neighbour(mesh, around, e, face, other, other_face)
+            if (other == 0) cycle
+            refinement%face_edge(other_face, other) = n
+            refinement%edge_element(2, n) = other
+         end do
+      end do
+      refinement%n_edges = n
+      refinement%edge_node = refinement%edge_node(:, :n)
+      refinement%edge_element = refinement%edge_element(:, :n)
+   end subroutine list_edges
+
+   !> The element of the same order on the other side of a face; 0 when there is none.
+   pure subroutine find_neighbour(mesh, around, element, face, other, other_face)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: element, face
+      integer(ip), intent(out) :: other, other_face
+      integer(ip) :: k, a, b
+
+      a = mesh%nodes(face, element)
+      b = mesh%nodes(face_end(face), element)
+      do k = around%first(a), around%first(a + 1) - 1
+         other = around%list(k)
+         if (mesh%shape(other) /= mesh%shape(element)) cycle
+         do other_face = 1, FACES
+            if (mesh%nodes(other_face, other) == b .and. mesh%nodes(face_end(other_face), other) == a) return
+         end do
+      end do
+      other = 0
+      other_face = 0
+   end subroutine find_neighbour
+
+   pure subroutine number_nodes(mesh, refinement)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(inout) :: refinement
+      integer(ip) :: k, e, intervals, n
+
+      allocate (refinement%edge_first(refinement%n_edges + 1), refinement%inner_first(mesh%n_elements + 1))
+      n = mesh%n_nodes + 1
+      do k = 1, refinement%n_edges
+         refinement%edge_first(k) = n
+         intervals = order_of(mesh, refinement%edge_element(1, k))*refinement%pieces
+         n = n + intervals - 1
+         if (refinement%edge_node(3, k) > 0) n = n - 1
+      end do
+      refinement%edge_first(k) = n
+      do e = 1, mesh%n_elements
+         refinement%inner_first(e) = n
+         intervals = order_of(mesh, e)*refinement%pieces
+         n = n + (intervals - 1)**2
+         if (mesh%shape(e) == Q2_NODES) n = n - 1
+      end do
+      refinement%inner_first(e) = n
+   end subroutine number_nodes
+
+   !> Coordinates and numbers of the nodes: new numbers follow the greatest.
+   pure subroutine place_nodes(mesh, refinement, fine)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      type(mesh_t), intent(inout) :: fine
+      integer(ip) :: n, e, i, greatest
+      logical :: known
+
+      n = refinement%inner_first(mesh%n_elements + 1) - 1
+      fine%n_nodes = n
+      allocate (fine%node_id(n), fine%x(2, n))
+      fine%x(:, :mesh%n_nodes) = mesh%x(:, :mesh%n_nodes)
+      fine%node_id(:mesh%n_nodes) = mesh%node_id(:mesh%n_nodes)
+      greatest = maxval(mesh%node_id(:mesh%n_nodes))
+      fine%node_id(mesh%n_nodes + 1:) = [(greatest + i, i=1, n - mesh%n_nodes)]
+      fine%node_map = mesh%node_map
+      do i = mesh%n_nodes + 1, n
+         call add_id(fine%node_map, fine%node_id(i), i, known)
+      end do
+      do e = 1, mesh%n_elements
+         call map_element(mesh, refinement, e, fine%x)
+      end do
+   end subroutine place_nodes
+
+   !> Places the new nodes of an element. An edge is mapped by its own nodes alone, hence alike from both sides, and the differences
+   !> are formed first, so that a constant coordinate stays constant to the last bit.
+   pure subroutine map_element(mesh, refinement, element, x)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element
+      real(wp), intent(inout) :: x(:, :)
+      integer(ip), allocatable :: grid(:, :)
+      real(wp) :: line(2, 3), s, t
+      integer(ip) :: i, j, k, n
+
+      call fill_grid(mesh, refinement, element, grid)
+      n = ubound(grid, 1, kind=ip)
+      associate (nodes => mesh%nodes(:, element))
+         do j = 0, n
+            t = real(j, wp)/real(n, wp)
+            if (mesh%shape(element) == Q1_NODES) then
+               line(:, 1) = along(mesh%x(:, nodes(1)), mesh%x(:, nodes(4)), t)
+               line(:, 2) = along(mesh%x(:, nodes(2)), mesh%x(:, nodes(3)), t)
+            else
+               line(:, 1) = along(mesh%x(:, nodes(1)), mesh%x(:, nodes(4)), t, mesh%x(:, nodes(8)))
+               line(:, 2) = along(mesh%x(:, nodes(2)), mesh%x(:, nodes(3)), t, mesh%x(:, nodes(6)))
+               line(:, 3) = along(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), t, mesh%x(:, nodes(9)))
+            end if
+            do i = 0, n
+               k = grid(i, j)
+               if (k <= mesh%n_nodes) cycle
+               s = real(i, wp)/real(n, wp)
+               if (mesh%shape(element) == Q1_NODES) then
+                  x(:, k) = along(line(:, 1), line(:, 2), s)
+               else
+                  x(:, k) = along(line(:, 1), line(:, 2), s, line(:, 3))
+               end if
+            end do
+         end do
+      end associate
+      do i = 1, FACES
+         call map_edge(mesh, refinement, refinement%face_edge(i, element), x)
+      end do
+   end subroutine map_element
+
+   pure subroutine map_edge(mesh, refinement, edge, x)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: edge
+      real(wp), intent(inout) :: x(:, :)
+      integer(ip) :: k
+
+      associate (node => refinement%edge_node(:, edge))
+         do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
+            if (node(3) == 0) then
+               x(:, k) = along(mesh%x(:, node(1)), mesh%x(:, node(2)), edge_place(refinement, edge, k))
+            else
+               x(:, k) = along(mesh%x(:, node(1)), mesh%x(:, node(2)), edge_place(refinement, edge, k), mesh%x(:, node(3)))
+            end if
+         end do
+      end associate
+   end subroutine map_edge
+
+   !> Place 0..1 of a new node on its coarse edge, from the edge's first node.
+   pure real(wp) function edge_place(refinement, edge, node) result(t)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: edge, node          !< node: edge_first(edge) .. edge_first(edge + 1) - 1
+      integer(ip) :: position, intervals
+
+      intervals = refinement%pieces
+      if (refinement%edge_node(3, edge) > 0) intervals = 2*intervals
+      position = node - refinement%edge_first(edge) + 1
+      if (refinement%edge_node(3, edge) > 0 .and. 2*position >= intervals) position = position + 1
+      t = real(position, wp)/real(intervals, wp)
+   end function edge_place
+
+   !> The point t = 0..1 of the straight line from a to b, or of the parabola through a, middle and b.
+   pure function along(a, b, t, middle) result(x)
+      real(wp), intent(in) :: a(2), b(2), t
+      real(wp), intent(in), optional :: middle(2)
+      real(wp) :: x(2)
+
+      x = a + t*(b - a)
+      if (present(middle)) x = x + 4*t*(1 - t)*((middle - a) - 0.5_wp*(b - a))
+   end function along
+
+   !> The places of all nodes of a refined element, from node 1 along its sides 1-2 and 1-4, (0:n, 0:n).
+   pure subroutine fill_grid(mesh, refinement, element, grid)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element
+      integer(ip), allocatable, intent(out) :: grid(:, :)
+      integer(ip) :: i, j, k, n
+
+      n = order_of(mesh, element)*refinement%pieces
+      allocate (grid(0:n, 0:n))
+      grid(:, 0) = edge_line(mesh, refinement, element, 1_ip)
+      grid(n, :) = edge_line(mesh, refinement, element, 2_ip)
+      grid(n:0:-1, n) = edge_line(mesh, refinement, element, 3_ip)
+      grid(0, n:0:-1) = edge_line(mesh, refinement, element, 4_ip)
+      k = refinement%inner_first(element)
+      do j = 1, n - 1
+         do i = 1, n - 1
+            if (mesh%shape(element) == Q2_NODES .and. 2*i == n .and. 2*j == n) then
+               grid(i, j) = mesh%nodes(Q2_NODES, element)
+            else
+               grid(i, j) = k
+               k = k + 1
+            end if
+         end do
+      end do
+   end subroutine fill_grid
+
+   !> The nodes of an edge in the direction in which an element travels it.
+   pure function edge_line(mesh, refinement, element, face) result(line)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element, face
+      integer(ip), allocatable :: line(:)
+      integer(ip) :: edge, k, middle
+
+      edge = refinement%face_edge(face, element)
+      line = [(k, k=refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1)]
+      associate (node => refinement%edge_node(:, edge))
+         if (node(3) > 0) then
+            middle = size(line, kind=ip)/2
+            line = [line(:middle), node(3), line(middle + 1:)]
+         end if
+         line = [node(1), line, node(2)]
+         if (node(1) /= mesh%nodes(face, element)) line = line(size(line):1:-1)
+      end associate
+   end function edge_line
+
+   !> The pieces of an element stand together, row by row from its side 1-2; they are numbered (id - 1) pieces^2 + 1, 2, ... where
+   !> these numbers are not too large, else from 1.
+   pure subroutine place_elements(mesh, refinement, fine)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      type(mesh_t), intent(inout) :: fine
+      integer(ip), allocatable :: grid(:, :)
+      integer(ip) :: e, i, j, k, m, n, children
+      logical :: known, keep
+
+      children = refinement%pieces**2
+      n = mesh%n_elements*children
+      fine%n_elements = n
+      allocate (fine%element_id(n), fine%shape(n), fine%state(n), fine%nodes(Q2_NODES, n))
+      fine%nodes = 0
+      keep = int(maxval(mesh%element_id(:mesh%n_elements)), lp)*int(children, lp) <= int(huge(1_ip), lp)
+      k = 0
+      do e = 1, mesh%n_elements
+         call fill_grid(mesh, refinement, e, grid)
+         m = order_of(mesh, e)
+         do j = 0, ubound(grid, 2, kind=ip) - m, m
+            do i = 0, ubound(grid, 1, kind=ip) - m, m
+               k = k + 1
+               fine%nodes(:mesh%shape(e), k) = nodes_of_square(grid(i:i + m, j:j + m))
+               fine%element_id(k) = k
+               if (keep) fine%element_id(k) = k + (mesh%element_id(e) - e)*children
+               fine%shape(k) = mesh%shape(e)
+               fine%state(k) = mesh%state(e)
+               call add_id(fine%element_map, fine%element_id(k), k, known)
+            end do
+         end do
+      end do
+   end subroutine place_elements
+
+   !> The places in the fine mesh of some elements of the coarse one.
+   pure function fine_elements(refinement, members) result(pieces)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: members(:)
+      integer(ip), allocatable :: pieces(:)
+      integer(ip) :: i, k, children
+
+      children = refinement%pieces**2
+      pieces = [((((members(i) - 1)*children + k), k=1, children), i=1, size(members, kind=ip))]
+   end function fine_elements
+
+   !> True when a fine element has part of its parent's face as its own face of that number.
+   pure logical function is_on_side(refinement, element, face)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element             !< place in the fine mesh
+      integer(ip), intent(in) :: face                !< 1..4
+      integer(ip) :: k, place(2)
+
+      k = modulo(element - 1, refinement%pieces**2)
+      place = [modulo(k, refinement%pieces), k/refinement%pieces]
+      select case (face)
+      case (1)
+         is_on_side = place(2) == 0
+      case (2)
+         is_on_side = place(1) == refinement%pieces - 1
+      case (3)
+         is_on_side = place(2) == refinement%pieces - 1
+      case default
+         is_on_side = place(1) == 0
+      end select
+   end function is_on_side
+
+   !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members; what lies between the nodes of an edge
+   !> that are all members, if the edge is on the outline or all nodes of one of its elements are members; and what lies inside such
+   !> elements.
+   pure function fine_nodes(mesh, refinement, members) result(fine)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: members(:)          !< places in the coarse mesh
+      integer(ip), allocatable :: fine(:)
+      logical, allocatable :: chosen(:), whole(:)
+      integer(ip) :: e, i, k
+
+      allocate (chosen(0:refinement%inner_first(mesh%n_elements + 1) - 1), source=.false.)
+      allocate (whole(0:mesh%n_elements), source=.false.)
+      chosen(0) = .true.                             ! the middle of an edge that has none
+      chosen(members) = .true.
+      do e = 1, mesh%n_elements
+         whole(e) = all(chosen(mesh%nodes(:mesh%shape(e), e)))
+         if (whole(e)) chosen(refinement%inner_first(e):refinement%inner_first(e + 1) - 1) = .true.
+      end do
+      do i = 1, refinement%n_edges
+         if (.not. all(chosen(refinement%edge_node(:, i)))) cycle
+         if (refinement%edge_element(2, i) > 0 .and. .not. any(whole(refinement%edge_element(:, i)))) cycle
+         chosen(refinement%edge_first(i):refinement%edge_first(i + 1) - 1) = .true.
+      end do
+      fine = [members, pack([(k, k=mesh%n_nodes + 1, size(chosen, kind=ip) - 1)], chosen(mesh%n_nodes + 1:))]
+   end function fine_nodes
+
+end module atrito_refinement

@@ -1,0 +1,73 @@
+!> --refine: the mesh of a deck and its sets, refined. Surfaces, loads and supports are read afterwards and follow them.
+module atrito_refine_model
+   use atrito_build_nodes, only: MOST_NODES
+   use atrito_deck, only: deck_t
+   use atrito_diagnostics, only: report_deck_error
+   use atrito_draft, only: draft_t, note_place
+   use atrito_faces, only: list_node_elements
+   use atrito_kinds, only: ip, lp
+   use atrito_mesh, only: mesh_t
+   use atrito_model, only: model_t
+   use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: refine_model
+
+contains
+
+   !> Replaces the mesh, and the members of all sets. A mesh that would be too large is reported and left as it is.
+   subroutine refine_model(deck, levels, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: levels                !< > 0; each quadrilateral into 4**levels
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(mesh_t) :: fine
+      integer(ip) :: i
+
+      if (count_fine_nodes(model%mesh, 2**levels) > int(MOST_NODES, lp)) then
+         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
+                                ' nodes', expected='a smaller number: each one more makes four elements of one')
+         return
+      end if
+      call refine_mesh(model%mesh, draft%around, 2**levels, fine, draft%refinement)
+      if (allocated(model%node_sets%sets)) then
+         do i = 1, size(model%node_sets%sets, kind=ip)
+            associate (set => model%node_sets%sets(i))
+               set%members = fine_nodes(model%mesh, draft%refinement, set%members)
+            end associate
+         end do
+      end if
+      if (allocated(model%element_sets%sets)) then
+         do i = 1, size(model%element_sets%sets, kind=ip)
+            associate (set => model%element_sets%sets(i))
+               set%members = fine_elements(draft%refinement, set%members)
+            end associate
+         end do
+      end if
+      draft%deck_elements = model%mesh%element_map
+      call keep_places(model%mesh, fine, draft)
+      model%mesh = fine
+      draft%around = list_node_elements(model%mesh)
+   end subroutine refine_model
+
+   !> New nodes and elements come from where the element that holds them comes from.
+   subroutine keep_places(coarse, fine, draft)
+      type(mesh_t), intent(in) :: coarse, fine
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: places(coarse%n_elements), e, k, node, children
+
+      places = draft%element_place(:coarse%n_elements)
+      children = draft%refinement%pieces**2
+      call note_place(draft%node_place, fine%n_nodes, 0_ip)
+      draft%node_place(coarse%n_nodes + 1:) = 0
+      do e = fine%n_elements, 1, -1
+         call note_place(draft%element_place, e, places((e - 1)/children + 1))
+         do k = 1, fine%shape(e)
+            node = fine%nodes(k, e)
+            if (node > coarse%n_nodes) draft%node_place(node) = draft%element_place(e)
+         end do
+      end do
+   end subroutine keep_places
+
+end module atrito_refine_model
