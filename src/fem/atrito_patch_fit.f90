@@ -1,7 +1,8 @@
 !> Least-squares fit of a stress polynomial to samples in a patch.
 !>
 !> Complete polynomials of degree 0, 1 or 2 do not change under an affine map, so each patch has coordinates of its own, of size 1
-!> whatever the units, the place of the origin and the stretch of its elements. The stresses are fitted as differences from the
+!> whatever the units and the stretch of its elements. Places are given relative to the patch's node, so the origin does not
+!> matter either. The stresses are fitted as differences from the
 !> first sample: a constant field is reproduced to the last bit of the samples.
 module atrito_patch_fit
    use atrito_kinds, only: ip, wp
@@ -19,8 +20,7 @@ module atrito_patch_fit
    type :: patch_fit_t
       integer(ip) :: n_terms                         !< 1, 3 or 6
       integer(ip) :: n_samples
-      real(wp) :: origin(2)                          !< [L]
-      real(wp) :: axis(2, 2)                         !< xi = axis(:, 1) . (x - origin), eta with axis(:, 2) [1/L]
+      real(wp) :: axis(2, 2)                         !< xi = axis(:, 1) . x, eta with axis(:, 2) [1/L]
       real(wp) :: moments(MOST_TERMS, MOST_TERMS)    !< lower triangle of the normal equations
       real(wp) :: right(COMPONENTS, MOST_TERMS)
       real(wp) :: reference(COMPONENTS)              !< the first sample
@@ -29,30 +29,28 @@ module atrito_patch_fit
 
 contains
 
-   !> Lays the coordinates into a patch: xi along the line from the origin to the farthest corner, eta across, each as long as the
+   !> Lays the coordinates into a patch: xi along the line from its node to the farthest corner, eta across, each as long as the
    !> patch.
-   pure subroutine begin_fit(origin, corners, fit)
-      real(wp), intent(in) :: origin(2)              !< [L]
-      real(wp), intent(in) :: corners(:, :)          !< corners of the elements (2, n) [L]
+   pure subroutine begin_fit(corners, fit)
+      real(wp), intent(in) :: corners(:, :)          !< corners of the elements less the patch's node (2, n) [L]
       type(patch_fit_t), intent(inout) :: fit
       real(wp) :: far(2), distance, longest, across
       integer(ip) :: i
 
-      fit%origin = origin
       longest = 0.0_wp
       far = [1.0_wp, 0.0_wp]
       do i = 1, size(corners, 2, kind=ip)
-         distance = max(abs(corners(1, i) - origin(1)), abs(corners(2, i) - origin(2)))
+         distance = max(abs(corners(1, i)), abs(corners(2, i)))
          if (distance <= longest) cycle
          longest = distance
-         far = corners(:, i) - origin
+         far = corners(:, i)
       end do
       far = far/norm2(far)
       longest = 0.0_wp
       across = 0.0_wp
       do i = 1, size(corners, 2, kind=ip)
-         longest = max(longest, abs(far(1)*(corners(1, i) - origin(1)) + far(2)*(corners(2, i) - origin(2))))
-         across = max(across, abs(far(1)*(corners(2, i) - origin(2)) - far(2)*(corners(1, i) - origin(1))))
+         longest = max(longest, abs(far(1)*corners(1, i) + far(2)*corners(2, i)))
+         across = max(across, abs(far(1)*corners(2, i) - far(2)*corners(1, i)))
       end do
       fit%axis(:, 1) = far/longest
       fit%axis(:, 2) = [-far(2), far(1)]/across
@@ -70,7 +68,7 @@ contains
 
    !> Adds a sample for polynomials up to a degree.
    pure subroutine add_sample(x, s, degree, fit)
-      real(wp), intent(in) :: x(2)                   !< [L]
+      real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
       real(wp), intent(in) :: s(COMPONENTS)          !< [F/L^2]
       integer(ip), intent(in) :: degree              !< 1 or 2
       type(patch_fit_t), intent(inout) :: fit
@@ -99,8 +97,8 @@ contains
       real(wp) :: p(MOST_TERMS)
       real(wp) :: xi, eta
 
-      xi = fit%axis(1, 1)*(x(1) - fit%origin(1)) + fit%axis(2, 1)*(x(2) - fit%origin(2))
-      eta = fit%axis(1, 2)*(x(1) - fit%origin(1)) + fit%axis(2, 2)*(x(2) - fit%origin(2))
+      xi = fit%axis(1, 1)*x(1) + fit%axis(2, 1)*x(2)
+      eta = fit%axis(1, 2)*x(1) + fit%axis(2, 2)*x(2)
       p = [1.0_wp, xi, eta, xi*xi, xi*eta, eta*eta]
    end function terms
 
@@ -142,7 +140,7 @@ contains
 
    !> Value of the polynomial [F/L^2].
    pure function fitted_value(x, fit) result(s)
-      real(wp), intent(in) :: x(2)                   !< [L]
+      real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
       type(patch_fit_t), intent(in) :: fit
       real(wp) :: s(COMPONENTS)
       real(wp) :: p(MOST_TERMS)

@@ -23,7 +23,6 @@ module atrito_point_stress
    !> place of the origin nor a rigid translation costs digits.
    type :: element_data_t
       integer(ip) :: n                           !< nodes
-      real(wp) :: origin(2)                      !< the first node [L]
       real(wp) :: x(2, Q2_NODES), u(2, Q2_NODES) !< [L]
       real(wp) :: d(3, 3)                        !< elasticity matrix [F/L^2]
    end type element_data_t
@@ -61,10 +60,9 @@ contains
 
       data%n = fem%mesh%shape(e)
       first = fem%mesh%nodes(1, e)
-      data%origin = fem%mesh%x(:, first)
       do k = 1, data%n
          node = fem%mesh%nodes(k, e)
-         data%x(:, k) = fem%mesh%x(:, node) - data%origin
+         data%x(:, k) = fem%mesh%x(:, node) - fem%mesh%x(:, first)
          data%u(:, k) = u(:, node) - u(:, first)
       end do
       data%d = elasticity_matrix(fem%sections(fem%section_of(e)), fem%mesh%state(e))

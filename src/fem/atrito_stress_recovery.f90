@@ -35,7 +35,7 @@ module atrito_stress_recovery
    type :: recovery_t
       type(sampling_t) :: sampling(2)              !< of Q1, of Q2
       type(patches_t) :: patches
-      real(wp), allocatable :: x(:, :, :)          !< places of the best points [L], (2, points, n_elements)
+      real(wp), allocatable :: x(:, :, :)          !< best points less the element's first node [L], (2, points, n_elements)
       real(wp), allocatable :: s(:, :, :)          !< stresses there [F/L^2], (COMPONENTS, points, n_elements)
       integer(ip), allocatable :: rank(:), count(:) !< of each place: rank of the values taken (RANK_OF), and how many
    end type recovery_t
@@ -116,6 +116,7 @@ contains
       kind_of = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
    end function kind_of
 
+   !> A point of the rule, less the element's first node [L].
    pure function place_of_point(data, rule, point) result(x)
       type(element_data_t), intent(in) :: data
       type(point_rule_t), intent(in) :: rule
@@ -123,7 +124,7 @@ contains
       real(wp) :: x(2)
       integer(ip) :: k
 
-      x = data%origin
+      x = 0.0_wp
       do k = 2, data%n
          x = x + data%x(:, k)*rule%value(k, point)
       end do
@@ -145,14 +146,14 @@ contains
          determined = .false.
          if (patches%kind(i) /= PATCH_OUTER) then
             do k = patches%first(i), patches%first(i + 1) - 1
-               call add_best_points(patches%element(k), degree, work, fit)
+               call add_best_points(fem, i, patches%element(k), degree, work, fit)
             end do
             call solve_fit(merge(degree - 1, degree, patches%kind(i) == PATCH_SINGLE), fit, determined)
          end if
          if (determined) return
          call clear_fit(fit)
          do k = patches%first(i), patches%first(i + 1) - 1
-            call add_all_points(fem, u, patches%element(k), degree, work, fit)
+            call add_all_points(fem, u, i, patches%element(k), degree, work, fit)
          end do
       end associate
       do k = degree, 0, -1
@@ -168,42 +169,58 @@ contains
       type(patch_fit_t), intent(inout) :: fit
       integer(ip), parameter :: ENOUGH = 16        !< elements round a node; more give no better coordinates
       real(wp) :: corners(2, Q1_NODES*ENOUGH)
-      integer(ip) :: k, n
+      integer(ip) :: j, k, n
 
       n = 0
-      do k = patches%first(i), min(patches%first(i + 1), patches%first(i) + ENOUGH) - 1
-         corners(:, n + 1:n + Q1_NODES) = fem%mesh%x(:, fem%mesh%nodes(:Q1_NODES, patches%element(k)))
-         n = n + Q1_NODES
+      do j = patches%first(i), min(patches%first(i + 1), patches%first(i) + ENOUGH) - 1
+         do k = 1, Q1_NODES
+            n = n + 1
+            corners(:, n) = from_patch(fem, patches, i, fem%mesh%nodes(k, patches%element(j)))
+         end do
       end do
-      call begin_fit(fem%mesh%x(:, patches%node(i)), corners(:, :n), fit)
+      call begin_fit(corners(:, :n), fit)
    end subroutine lay_coordinates
 
-   pure subroutine add_best_points(e, degree, work, fit)
-      integer(ip), intent(in) :: e, degree
+   !> A node less the node of a patch [L].
+   pure function from_patch(fem, patches, i, node) result(x)
+      type(fem_t), intent(in) :: fem
+      type(patches_t), intent(in) :: patches
+      integer(ip), intent(in) :: i, node
+      real(wp) :: x(2)
+
+      x = fem%mesh%x(:, node) - fem%mesh%x(:, patches%node(i))
+   end function from_patch
+
+   pure subroutine add_best_points(fem, i, e, degree, work, fit)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i, e, degree
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
+      real(wp) :: first(2)
       integer(ip) :: point
 
+      first = from_patch(fem, work%patches, i, fem%mesh%nodes(1, e))
       do point = 1, work%sampling(degree)%best%n
-         call add_sample(work%x(:, point, e), work%s(:, point, e), degree, fit)
+         call add_sample(first + work%x(:, point, e), work%s(:, point, e), degree, fit)
       end do
    end subroutine add_best_points
 
-   pure subroutine add_all_points(fem, u, e, degree, work, fit)
+   pure subroutine add_all_points(fem, u, i, e, degree, work, fit)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
-      integer(ip), intent(in) :: e, degree
+      integer(ip), intent(in) :: i, e, degree
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
       type(element_data_t) :: data
-      real(wp) :: s(COMPONENTS), inverse(2, 2), jacobian
+      real(wp) :: s(COMPONENTS), inverse(2, 2), jacobian, first(2)
       integer(ip) :: point
 
       call fetch_element(fem, e, u, data)
+      first = from_patch(fem, work%patches, i, fem%mesh%nodes(1, e))
       associate (rule => work%sampling(degree)%all)
          do point = 1, rule%n
             call point_stress(data, rule, point, s, inverse, jacobian)
-            call add_sample(place_of_point(data, rule, point), s, degree, fit)
+            call add_sample(first + place_of_point(data, rule, point), s, degree, fit)
          end do
       end associate
    end subroutine add_all_points
@@ -229,7 +246,7 @@ contains
                stress(:, at) = 0.0_wp
             end if
             work%count(at) = work%count(at) + 1
-            stress(:, at) = stress(:, at) + fitted_value(fem%mesh%x(:, fem%mesh%nodes(k, e)), fit)
+            stress(:, at) = stress(:, at) + fitted_value(from_patch(fem, work%patches, i, fem%mesh%nodes(k, e)), fit)
          end do
       end do
    end subroutine spread_patch
