@@ -3,7 +3,6 @@
 !> Kolosov and Muskhelishvili with phi = exp(z), psi = 0: 2 G (u + iv) = kappa phi - z conj(phi'), s11 + s22 = 4 Re phi',
 !> s22 - s11 + 2 i s12 = 2 conj(z) phi''. No body force.
 module exact_cases
-   use atrito_body_store, only: body_store_t
    use atrito_elasticity, only: compliance_matrix, elastic_t
    use atrito_element, only: element_stress
    use atrito_kinds, only: ip, wp
@@ -78,11 +77,10 @@ contains
       type(status_t) :: status
       type(reporter_t) :: reporter
       type(solve_options_t) :: options
-      type(body_store_t) :: store
 
       reporter%quiet = .true.
       call make_model(domain, n_nodes, n, model)
-      call solve_static(model, options, reporter, store, results, status)
+      call solve_static(model, options, reporter, results, status)
       ok = results%converged .and. results%law_holds
       if (ok) call measure(model, results, errors)
    end subroutine solve_exact_case
