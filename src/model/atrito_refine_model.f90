@@ -25,11 +25,7 @@ contains
       type(mesh_t) :: fine
       integer(ip) :: i
 
-      if (count_fine_nodes(model%mesh, 2**levels) > int(MOST_NODES, lp)) then
-         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
-                                ' nodes', expected='a smaller number: each one more makes four elements of one')
-         return
-      end if
+      if (.not. is_possible(deck, levels, model%mesh)) return
       call refine_mesh(model%mesh, draft%around, 2**levels, fine, draft%refinement)
       if (allocated(model%node_sets%sets)) then
          do i = 1, size(model%node_sets%sets, kind=ip)
@@ -50,6 +46,27 @@ contains
       model%mesh = fine
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
+
+   !> There are not too many nodes, and there are numbers left for them. The numbers of elements are chosen so that they fit.
+   logical function is_possible(deck, levels, mesh)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: levels
+      type(mesh_t), intent(in) :: mesh
+      integer(lp) :: n, greatest
+
+      n = count_fine_nodes(mesh, 2**levels)
+      greatest = maxval(mesh%node_id(:mesh%n_nodes))
+      is_possible = n <= int(MOST_NODES, lp)
+      if (.not. is_possible) then
+         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
+                                ' nodes', expected='a smaller number: each one more makes four elements of one')
+         return
+      end if
+      is_possible = greatest + (n - int(mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
+      if (.not. is_possible) call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//': the numbers of the new '// &
+                                                    'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
+                                                    expected='smaller node numbers')
+   end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.
    subroutine keep_places(coarse, fine, draft)
