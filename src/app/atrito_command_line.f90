@@ -326,7 +326,7 @@ contains
          ok = index(given%value, '=') > 1
       case ('--vary')
          call append_string(command%vary, given%value)
-         ok = is_variation(given%value)
+         ok = index(given%value, '=') > 1
       case ('--refine')
          call take_integer(given%value, 0, MOST_LEVELS, command%refine, ok)
       case ('--solver')
@@ -345,31 +345,6 @@ contains
       end select
       if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(name))
    end subroutine take_option
-
-   !> NAME=v1,v2,... without an empty value; whether the deck has the name, and what the values are, is seen later. The commas of
-   !> max(1,2) are not those between values.
-   pure logical function is_variation(text)
-      character(len=*), intent(in) :: text
-      integer :: i, depth
-      logical :: is_empty
-
-      is_variation = .false.
-      if (index(text, '=') < 2) return
-      if (len_trim(text(:index(text, '=') - 1)) == 0) return
-      depth = 0
-      is_empty = .true.
-      do i = index(text, '=') + 1, len(text)
-         if (text(i:i) == '(') depth = depth + 1
-         if (text(i:i) == ')') depth = depth - 1
-         if (text(i:i) == ',' .and. depth == 0) then
-            if (is_empty) return
-            is_empty = .true.
-         else if (text(i:i) /= ' ') then
-            is_empty = .false.
-         end if
-      end do
-      is_variation = .not. is_empty
-   end function is_variation
 
    pure function task_text(task) result(text)
       integer, intent(in) :: task
