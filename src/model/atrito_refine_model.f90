@@ -44,6 +44,7 @@ contains
       draft%deck_elements = model%mesh%element_map
       call keep_places(model%mesh, fine, draft)
       model%mesh = fine
+      model%levels = levels
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
 
