@@ -22,15 +22,17 @@ contains
       integer(ip), intent(in) :: levels                !< > 0; each quadrilateral into 4**levels
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      type(mesh_t) :: fine
+      type(mesh_t) :: coarse
       integer(ip) :: i
 
       if (.not. is_possible(deck, levels, model%mesh)) return
-      call refine_mesh(model%mesh, draft%around, 2**levels, fine, draft%refinement)
+      coarse = model%mesh
+      call refine_mesh(coarse, draft%around, 2**levels, model%mesh, draft%refinement)
+      model%levels = levels
       if (allocated(model%node_sets%sets)) then
          do i = 1, size(model%node_sets%sets, kind=ip)
             associate (set => model%node_sets%sets(i))
-               set%members = fine_nodes(model%mesh, draft%refinement, set%members)
+               set%members = fine_nodes(coarse, draft%refinement, set%members)
             end associate
          end do
       end if
@@ -41,10 +43,8 @@ contains
             end associate
          end do
       end if
-      draft%deck_elements = model%mesh%element_map
-      call keep_places(model%mesh, fine, draft)
-      model%mesh = fine
-      model%levels = levels
+      draft%deck_elements = coarse%element_map
+      call keep_places(coarse, model%mesh, draft)
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
 
