@@ -172,8 +172,9 @@ contains
          call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
                            expected='numbers, '//others//'earlier parameters, + - * / ** ( ), functions')
       else if (i == 0) then
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=[also, parameter_names(deck), &
-                           reserved_names()], expected=others//'an earlier parameter, a function or pi')
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
+                           known=[also, parameter_names(deck), reserved_names()], &
+                           expected=others//'an earlier parameter, a function or pi')
       else if (deck%parameters(i)%known) then
          call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
       end if
