@@ -5,7 +5,7 @@ module atrito_master
    use atrito_mesh, only: mesh_t, face_nodes
    implicit none (type, external)
    private
-   public :: master_t, sight_t, master_of_faces, master_of_segments, look_along, nearest_end
+   public :: master_t, sight_t, master_of_faces, master_of_segments, look_along, look_at_end, nearest_end
 
    !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment.
    type :: master_t
@@ -165,6 +165,20 @@ contains
       d = master%d(:, i) + 4*(1 - 2*t)*master%sag(:, i)
       n = [d(2), -d(1)]*(master%side/norm2(d))
    end function normal_at
+
+   !> The end of the master that the line through x along the normal misses by no more than its distance times `turn`.
+   pure function look_at_end(x, normal, reach, turn, master) result(best)
+      real(wp), intent(in) :: x(2), normal(2), reach
+      real(wp), intent(in) :: turn                  !< sine of the angle by which the normal is in doubt
+      type(master_t), intent(in) :: master
+      type(sight_t) :: best
+      real(wp) :: away
+
+      best = nearest_end(x, normal, master)
+      if (best%piece == 0) return
+      away = abs(cross(place_at(master, best%piece, best%t) - x, normal))
+      if (away > turn*abs(best%distance) .or. best%distance < -max(reach, norm2(master%d(:, best%piece)))) best = sight_t()
+   end function look_at_end
 
    !> The master's end that is nearest to the line through x along the normal.
    pure function nearest_end(x, normal, master) result(best)

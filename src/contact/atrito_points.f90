@@ -7,7 +7,7 @@ module atrito_points
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, look_along, nearest_end
+   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, look_along, look_at_end, nearest_end
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
@@ -41,6 +41,8 @@ module atrito_points
       real(wp) :: normal(2, 3) = 0.0_wp             !< outward unit normals of the face
    end type nodal_rule_t
 
+   !> From this sine on two faces meet at a corner, and do not stand for a curve.
+   real(wp), parameter :: CORNER = 0.5_wp
    !> Sides match when their nodes are this close, in parts of an edge.
    real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
 
@@ -76,7 +78,8 @@ contains
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master_faces, points)
    end subroutine pair_surfaces
 
-   !> A face is a candidate when each of its nodes finds the master along the face's normal there.
+   !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave that normal is
+   !> only as good as the faces resolve the curve: at the end of the master it may miss by as much as the normal turns at the face.
    pure logical function finds_master(mesh, slave, i, master) result(finds)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
@@ -89,10 +92,39 @@ contains
       rule = nodal_rule(mesh, slave%element(i), slave%face(i))
       finds = .true.
       do k = 1, rule%n
-         sight = look_along(mesh%x(:, rule%node(k)), rule%normal(:, k), rule%s(rule%n), master)
+         associate (x => mesh%x(:, rule%node(k)), normal => rule%normal(:, k), reach => rule%s(rule%n))
+            sight = look_along(x, normal, reach, master)
+            if (sight%piece == 0) sight = look_at_end(x, normal, reach, turn_at(mesh, slave, i, rule), master)
+         end associate
          finds = finds .and. sight%piece > 0
       end do
    end function finds_master
+
+   !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner.
+   pure real(wp) function turn_at(mesh, slave, i, rule) result(turn)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      type(nodal_rule_t), intent(in) :: rule        !< of face i
+      type(nodal_rule_t) :: other
+      integer(ip) :: k
+
+      turn = sine(rule%normal(:, 1), rule%normal(:, rule%n))
+      do k = max(i - 1, 1_ip), min(i + 1, slave%n)
+         if (k == i) cycle
+         other = nodal_rule(mesh, slave%element(k), slave%face(k))
+         if (k < i) turn = max(turn, sine(other%normal(:, other%n), rule%normal(:, 1)))
+         if (k > i) turn = max(turn, sine(rule%normal(:, rule%n), other%normal(:, 1)))
+      end do
+      if (turn > CORNER) turn = 0.0_wp
+   end function turn_at
+
+   pure real(wp) function sine(a, b)
+      real(wp), intent(in) :: a(2), b(2)            !< unit vectors
+
+      sine = abs(a(1)*b(2) - a(2)*b(1))
+      if (dot_product(a, b) < 0.0_wp) sine = 1.0_wp
+   end function sine
 
    pure subroutine allocate_points(points, most)
       type(contact_points_t), intent(inout) :: points

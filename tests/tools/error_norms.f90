@@ -34,7 +34,7 @@ program error_norms
    integer(ip) :: e
 
    call solve_deck(argument(1), nint(number(2), ip), model, results)
-   field = make_field(argument(3), [(number(e), e=4, 7)])
+   field = make_field(argument(3), [(number(e), e=4, 8)])
    sums = 0.0_wp
    warp = 0.0_wp
    do e = 1, model%mesh%n_elements

@@ -13,18 +13,18 @@ module exact_fields
    private
    public :: field_t, make_field, exact_solution
 
-   !> numbers: of `waves` k, a, b; of `ring` inner radius, outer radius, inside pressure, outside pressure; of `rings` inner radius,
-   !> radius of the joint, outer radius, pressure in the joint.
+   !> numbers: of `waves` k, a, b; of `ring` inner radius, outer radius, inside pressure, outside pressure; of `rings` inner and
+   !> outer radius of the inner ring, of the outer one, pressure on the inner ring (on the outer one times the radii of the joint).
    type :: field_t
       character(len=:), allocatable :: name
-      real(wp) :: numbers(4) = 0.0_wp
+      real(wp) :: numbers(5) = 0.0_wp
    end type field_t
 
 contains
 
    pure function make_field(name, numbers) result(field)
       character(len=*), intent(in) :: name
-      real(wp), intent(in) :: numbers(4)
+      real(wp), intent(in) :: numbers(5)
       type(field_t) :: field
 
       field%name = name
@@ -50,11 +50,13 @@ contains
       case ('ring')
          call ring(field%numbers(1), field%numbers(2), field%numbers(3), field%numbers(4), z, phi, psi)
       case ('rings')
-         if (norm2(middle) < field%numbers(2)) then
-            call ring(field%numbers(1), field%numbers(2), 0.0_wp, field%numbers(4), z, phi, psi)
-         else
-            call ring(field%numbers(2), field%numbers(3), field%numbers(4), 0.0_wp, z, phi, psi)
-         end if
+         associate (a => field%numbers)
+            if (norm2(middle) < a(2)) then
+               call ring(a(1), a(2), 0.0_wp, a(5), z, phi, psi)
+            else
+               call ring(a(3), a(4), a(5)*a(2)/a(3), 0.0_wp, z, phi, psi)
+            end if
+         end associate
       case default
          error stop 'exact_fields: no such field'
       end select
