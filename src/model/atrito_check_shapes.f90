@@ -1,17 +1,16 @@
-!> Shapes of the elements: the Jacobian is positive, and neighbours share the nodes of their common side.
+!> Shapes of the elements: the Jacobian is positive; where it is not, the likely cause.
 module atrito_check_shapes
    use atrito_deck, only: deck_t, token_t
-   use atrito_diagnostics, only: report_error, report_warning, report_deck_error
-   use atrito_draft, only: draft_t, place_token, ids_text, has_errors
+   use atrito_diagnostics, only: report_error, report_deck_error
+   use atrito_draft, only: draft_t, place_token
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_end, FACES, Q1_NODES, Q2_NODES
    use atrito_messages, only: MOST_ERRORS
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point, gauss_count
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: check_shapes, check_sides, corner_jacobians, judge_nine_nodes, nine_node_order
+   public :: check_shapes, corner_jacobians, judge_nine_nodes, nine_node_order
    public :: SHAPE_GOOD, SHAPE_CLOCKWISE, SHAPE_DEGENERATE, SHAPE_ORDER, SHAPE_FOLDED
 
    !> Q1: GOOD, CLOCKWISE or DEGENERATE. Q2 also ORDER: mid-sides and centre in another order, and FOLDED: one of them too far off.
@@ -231,72 +230,5 @@ contains
          order(FACES + k) = minloc(distance, dim=1, kind=ip)
       end do
    end function nine_node_order
-
-   !> Warns of neighbours that share the corners of a side but not its middle, and of corners that are the middle of others.
-   subroutine check_sides(deck, mesh, draft)
-      type(deck_t), intent(in) :: deck
-      type(mesh_t), intent(in) :: mesh
-      type(draft_t), intent(in) :: draft
-      type(number_list_t) :: torn, hanging
-      logical :: is_middle(mesh%n_nodes)
-      integer(ip) :: e, k, first
-
-      if (has_errors() .or. .not. any(mesh%shape(:mesh%n_elements) == Q2_NODES)) return
-      is_middle = .false.
-      first = 0
-      do e = 1, mesh%n_elements
-         if (mesh%shape(e) == Q2_NODES) is_middle(mesh%nodes(FACES + 1:, e)) = .true.
-         if (.not. any([(is_torn(mesh, draft, e, k), k=1, FACES)])) cycle
-         if (first == 0) first = e
-         call add_number(torn, mesh%element_id(e))
-      end do
-      if (first > 0) call report_warning(deck, place_token(deck, draft%element_place(first)), 'W-SIDE', &
-                                         'element '//ids_text(numbers_of(torn))//': a neighbour shares the two corners of a '// &
-                                         'side but not its middle node; the side opens there', &
-                                         expected='one node in the middle of a side for both elements, of the same order', &
-                                         keyword='ELEMENT')
-      first = 0
-      do e = 1, mesh%n_elements
-         do k = 1, FACES
-            if (.not. is_middle(mesh%nodes(k, e))) cycle
-            if (first == 0) first = e
-            is_middle(mesh%nodes(k, e)) = .false.
-            call add_number(hanging, mesh%node_id(mesh%nodes(k, e)))
-         end do
-      end do
-      if (first > 0) call report_warning(deck, place_token(deck, draft%element_place(first)), 'W-SIDE', &
-                                         'node '//ids_text(numbers_of(hanging))//' is a corner of one element and in the '// &
-                                         'middle of another; the sides open there', &
-                                         expected='corners at corners', keyword='ELEMENT')
-   end subroutine check_sides
-
-   !> True when a later element has both corners of a face, but not its middle.
-   pure logical function is_torn(mesh, draft, e, face)
-      type(mesh_t), intent(in) :: mesh
-      type(draft_t), intent(in) :: draft
-      integer(ip), intent(in) :: e, face
-      integer(ip) :: k, other, other_face, a, b
-
-      is_torn = .false.
-      a = mesh%nodes(face, e)
-      b = mesh%nodes(face_end(face), e)
-      do k = draft%around%first(a), draft%around%first(a + 1) - 1
-         other = draft%around%list(k)
-         if (other <= e) cycle
-         do other_face = 1, FACES
-            if (mesh%nodes(other_face, other) /= b .or. mesh%nodes(face_end(other_face), other) /= a) cycle
-            is_torn = is_torn .or. middle_of(mesh, e, face) /= middle_of(mesh, other, other_face)
-         end do
-      end do
-   end function is_torn
-
-   !> The middle node of a face; 0 for four nodes.
-   pure integer(ip) function middle_of(mesh, e, face)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, face
-
-      middle_of = 0
-      if (mesh%shape(e) == Q2_NODES) middle_of = mesh%nodes(FACES + face, e)
-   end function middle_of
 
 end module atrito_check_shapes
