@@ -1,4 +1,4 @@
-!> The master of a contact pair as a list of pieces, straight or parabolic, and what a point of the slave sees of it.
+!> The master of a contact pair as a list of pieces, straight, parabolic or arcs of circles, and what a point of the slave sees of it.
 module atrito_master
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp, EPS_MACH
@@ -7,13 +7,16 @@ module atrito_master
    private
    public :: master_t, sight_t, master_of_faces, master_of_segments, look_along, look_at_end, nearest_end
 
-   !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment.
+   !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment. A rigid arc turns a round its
+   !> centre by the angle t sweep.
    type :: master_t
       logical :: rigid = .false.
       integer(ip) :: n = 0
       real(wp), allocatable :: a(:, :)              !< (2, n) first ends [L]
       real(wp), allocatable :: d(:, :)              !< (2, n) last end less first [L]
       real(wp), allocatable :: sag(:, :)            !< (2, n) middle node less the middle of the chord [L]; 0: straight
+      real(wp), allocatable :: centre(:, :)         !< (2, n) of arcs [L]
+      real(wp), allocatable :: sweep(:)             !< (n) of arcs: -pi < sweep < pi; 0: no arc
       real(wp) :: side = 1.0_wp                     !< the outside lies at the right (1) or the left (-1) of the direction of travel
    end type master_t
 
@@ -42,7 +45,7 @@ contains
       integer(ip) :: i
 
       master%n = faces%n
-      allocate (master%a(2, faces%n), master%d(2, faces%n), master%sag(2, faces%n))
+      call allocate_pieces(faces%n, master)
       do i = 1, faces%n
          nodes = face_nodes(mesh, faces%element(i), faces%face(i))
          master%a(:, i) = mesh%x(:, nodes(1))
@@ -50,6 +53,14 @@ contains
          master%sag(:, i) = sag_of(mesh%x(:, nodes))
       end do
    end subroutine master_of_faces
+
+   pure subroutine allocate_pieces(n, master)
+      integer(ip), intent(in) :: n
+      type(master_t), intent(inout) :: master
+
+      master%n = n
+      allocate (master%a(2, n), master%d(2, n), master%sag(2, n), master%centre(2, n), master%sweep(n), source=0.0_wp)
+   end subroutine allocate_pieces
 
    !> Round-off of a straight face's middle is no sag.
    pure function sag_of(x) result(sag)
@@ -63,19 +74,28 @@ contains
    end function sag_of
 
    !> Rigid segments: the outward normal is the direction of travel turned by +90 degrees.
-   pure subroutine master_of_segments(ends, master)
+   pure subroutine master_of_segments(ends, master, is_arc, centre)
       real(wp), intent(in) :: ends(:, :)            !< (2, segments + 1) [L]
       type(master_t), intent(out) :: master
-      integer(ip) :: n
+      logical, intent(in), optional :: is_arc(:)    !< (segments); default: none
+      real(wp), intent(in), optional :: centre(:, :) !< (2, segments) of arcs [L], as far from one end as from the other
+      real(wp) :: from(2), to(2)
+      integer(ip) :: i, n
 
       n = max(size(ends, 2, kind=ip) - 1, 0)
+      call allocate_pieces(n, master)
       master%rigid = .true.
       master%side = -1.0_wp
-      master%n = n
-      allocate (master%a(2, n), master%d(2, n))
       master%a = ends(:, :n)
       master%d = ends(:, 2:) - ends(:, :n)
-      allocate (master%sag(2, n), source=0.0_wp)
+      if (.not. (present(is_arc) .and. present(centre))) return
+      do i = 1, n
+         if (.not. is_arc(i)) cycle
+         from = ends(:, i) - centre(:, i)
+         to = ends(:, i + 1) - centre(:, i)
+         master%centre(:, i) = centre(:, i)
+         master%sweep(i) = atan2(cross(from, to), dot_product(from, to))
+      end do
    end subroutine master_of_segments
 
    !> The nearest piece of the master on the line through x along the normal; a piece seen from behind is not seen, nor one that
@@ -89,7 +109,11 @@ contains
       integer(ip) :: i, k, n_roots
 
       do i = 1, master%n
-         call cross_line(master, i, x, normal, t, n_roots)
+         if (is_arc(master, i)) then
+            call cross_arc(master, i, x, normal, t, n_roots)
+         else
+            call cross_parabola(master, i, x, normal, t, n_roots)
+         end if
          do k = 1, n_roots
             if (t(k) < -END_TOLERANCE .or. t(k) > 1 + END_TOLERANCE) cycle
             t(k) = at_node(min(max(t(k), 0.0_wp), 1.0_wp))
@@ -103,7 +127,7 @@ contains
 
    !> Where the line through x along the normal crosses a piece: a quadratic equation, one root of which is lost in round-off when
    !> the piece is straight or nearly so. Roots far beyond the ends may be left out.
-   pure subroutine cross_line(master, i, x, normal, t, n_roots)
+   pure subroutine cross_parabola(master, i, x, normal, t, n_roots)
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i                  !< the piece
       real(wp), intent(in) :: x(2), normal(2)
@@ -127,7 +151,47 @@ contains
          n_roots = n_roots + 1
          t(n_roots) = q/a
       end if
-   end subroutine cross_line
+   end subroutine cross_parabola
+
+   !> Where the line through x along the normal crosses an arc's circle.
+   pure subroutine cross_arc(master, i, x, normal, t, n_roots)
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i                  !< the piece
+      real(wp), intent(in) :: x(2), normal(2)
+      real(wp), intent(out) :: t(2)
+      integer(ip), intent(out) :: n_roots
+      real(wp) :: from(2), place(2), along, across, radius, distance
+      integer(ip) :: k
+
+      t = 0.0_wp
+      n_roots = 0
+      from = master%a(:, i) - master%centre(:, i)
+      place = x - master%centre(:, i)
+      radius = norm2(from)
+      along = dot_product(place, normal)
+      across = abs(cross(place, normal))
+      if (across >= radius) return
+      n_roots = 2
+      do k = 1, 2
+         distance = real(2*k - 3, wp)*sqrt((radius - across)*(radius + across)) - along
+         t(k) = atan2(cross(from, place + distance*normal), dot_product(from, place + distance*normal))/master%sweep(i)
+      end do
+   end subroutine cross_arc
+
+   pure logical function is_arc(master, i)
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i
+
+      is_arc = abs(master%sweep(i)) > 0.0_wp
+   end function is_arc
+
+   !> A vector turned by an angle.
+   pure function turned(v, angle) result(w)
+      real(wp), intent(in) :: v(2), angle
+      real(wp) :: w(2)
+
+      w = [cos(angle)*v(1) - sin(angle)*v(2), sin(angle)*v(1) + cos(angle)*v(2)]
+   end function turned
 
    pure real(wp) function cross(a, b)
       real(wp), intent(in) :: a(2), b(2)
@@ -152,7 +216,11 @@ contains
       real(wp), intent(in) :: t
       real(wp) :: x(2)
 
-      x = master%a(:, i) + (t*master%d(:, i) + 4*t*(1 - t)*master%sag(:, i))
+      if (is_arc(master, i)) then
+         x = master%centre(:, i) + turned(master%a(:, i) - master%centre(:, i), t*master%sweep(i))
+      else
+         x = master%a(:, i) + (t*master%d(:, i) + 4*t*(1 - t)*master%sag(:, i))
+      end if
    end function place_at
 
    !> Outward unit normal of a piece.
@@ -162,7 +230,12 @@ contains
       real(wp), intent(in) :: t
       real(wp) :: n(2), d(2)
 
-      d = master%d(:, i) + 4*(1 - 2*t)*master%sag(:, i)
+      if (is_arc(master, i)) then
+         d = turned(master%a(:, i) - master%centre(:, i), t*master%sweep(i))
+         d = [-d(2), d(1)]*sign(1.0_wp, master%sweep(i))
+      else
+         d = master%d(:, i) + 4*(1 - 2*t)*master%sag(:, i)
+      end if
       n = [d(2), -d(1)]*(master%side/norm2(d))
    end function normal_at
 

@@ -42,20 +42,22 @@ module atrito_points
    end type nodal_rule_t
 
    !> From this sine on two faces meet at a corner, and do not stand for a curve.
-   real(wp), parameter :: CORNER = 0.5_wp
+   real(wp), parameter :: CORNER = 0.8_wp
    !> Sides match when their nodes are this close, in parts of an edge.
    real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
 
 contains
 
    !> Points of the slave that face the master. n = 0 when none does.
-   pure subroutine pair_surfaces(mesh, thickness, slave, master_faces, master_points, points)
+   pure subroutine pair_surfaces(mesh, thickness, slave, master_faces, master_points, points, is_arc, centre)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
       real(wp), intent(in) :: master_points(:, :)   !< ends of the rigid segments [L], (2, pieces+1) or (2, 0)
       type(contact_points_t), intent(out) :: points
+      logical, intent(in), optional :: is_arc(:)    !< (pieces) of the rigid segments; default: straight
+      real(wp), intent(in), optional :: centre(:, :) !< (2, pieces) of the arcs [L]
       type(master_t) :: master
       integer(ip), allocatable :: place(:)
       logical, allocatable :: used(:)
@@ -64,7 +66,7 @@ contains
       if (master_faces%n > 0) then
          call master_of_faces(mesh, master_faces, master)
       else
-         call master_of_segments(master_points, master)
+         call master_of_segments(master_points, master, is_arc, centre)
       end if
       points%rigid = master%rigid
       points%n_faces = slave%n
