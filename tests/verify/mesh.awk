@@ -7,11 +7,18 @@
 #                  (turn=360: closed; LEFT and RIGHT are the inner and the outer circle)
 #      arched      four sides of parabolas, as a single nine-node element has them
 #      hill        the upper side is one parabola, 0.2 high in the middle; valley: the lower side (of what lies on the hill)
-# first: numbers of nodes and elements begin above it. dy: added to all y. Curved Q2 sides: mid-side nodes lie on the mapped curve; trapezoids have
+# first: numbers of nodes and elements begin above it. size, dy: all is multiplied by size, and dy added to y.
+# gx, gy: elements become smaller towards the left or lower side by this power, towards the other one if negative. Curved Q2 sides: mid-side nodes lie on the mapped curve; trapezoids have
 # theirs in the middle.
 function corner(i, j) {
    px = i/n; py = j/m
    if (map == "trapezoids" && j > 0 && j < m) py += ((i + j) % 2 ? 0.3 : -0.3)/m*(j % 2)
+}
+# Power g of a place 0..1 towards 0, or towards 1 for g < 0; in the middle of an element the mean of its ends.
+function graded(k, of, g,   z) {
+   if (order == 2 && k % 2) return (graded(k - 1, of, g) + graded(k + 1, of, g))/2
+   z = k/(order*of)
+   return (g > 0) ? z^g : 1 - (1 - z)^(-g)
 }
 # The node at (i, j) counted in half elements for Q2.
 function node(i, j,   a, b, x, y, r, t) {
@@ -23,7 +30,7 @@ function node(i, j,   a, b, x, y, r, t) {
    } else if (map == "trapezoids") {
       corner(i, j); x = px; y = py
    } else {
-      x = i/(order*n); y = j/(order*m)
+      x = graded(i, n, gx); y = graded(j, m, gy)
    }
    if (map == "ring") {
       r = r1 + (r2 - r1)*x; t = (start + turn*y)*atan2(0, -1)/180
@@ -38,11 +45,14 @@ function node(i, j,   a, b, x, y, r, t) {
    }
    if (map == "hill") y += 0.8*x*(1 - x)*y
    if (map == "valley") y += 0.8*x*(1 - x)*(1 - y)
-   px = x; py = y + dy
+   px = size*x; py = size*y + dy
 }
 function id(i, j) { if (closed) j %= order*m; return first + j*(order*n + 1) + i + 1 }
 BEGIN {
    if (elset == "") elset = "ALL"
+   if (!gx) gx = 1
+   if (!gy) gy = 1
+   if (!size) size = 1
    closed = (map == "ring" && turn == 360)
    order = (type ~ /9/) ? 2 : 1
    print "*NODE, NSET=" elset
