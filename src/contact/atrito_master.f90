@@ -125,8 +125,8 @@ contains
       end do
    end function look_along
 
-   !> Where the line through x along the normal crosses a piece: a quadratic equation, one root of which is lost in round-off when
-   !> the piece is straight or nearly so. Roots far beyond the ends may be left out.
+   !> Where the line through x along the normal crosses a piece: a quadratic equation, linear for a straight piece. Roots far beyond
+   !> the ends are left out, so that none overflows when the piece is nearly straight.
    pure subroutine cross_parabola(master, i, x, normal, t, n_roots)
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i                  !< the piece
@@ -140,6 +140,12 @@ contains
       a = -4*cross(master%sag(:, i), normal)
       b = cross(master%d(:, i), normal) - a
       c = -cross(x - master%a(:, i), normal)
+      if (.not. abs(a) > 0.0_wp) then
+         if (abs(c) > 2*abs(b) .or. .not. abs(b) > 0.0_wp) return
+         n_roots = 1
+         t(1) = -c/b
+         return
+      end if
       discriminant = b**2 - 4*a*c
       if (discriminant < 0.0_wp) return
       q = -0.5_wp*(b + sign(sqrt(discriminant), b))
@@ -147,7 +153,7 @@ contains
          n_roots = 1
          t(1) = c/q
       end if
-      if (abs(q) <= 2*abs(a) .and. abs(a) > 0.0_wp) then
+      if (abs(q) <= 2*abs(a)) then
          n_roots = n_roots + 1
          t(n_roots) = q/a
       end if
@@ -235,6 +241,8 @@ contains
          d = [-d(2), d(1)]*sign(1.0_wp, master%sweep(i))
       else
          d = master%d(:, i) + 4*(1 - 2*t)*master%sag(:, i)
+         ! a middle node at a quarter of the face
+         if (norm2(d) <= END_TOLERANCE*norm2(master%d(:, i))) d = master%d(:, i)
       end if
       n = [d(2), -d(1)]*(master%side/norm2(d))
    end function normal_at

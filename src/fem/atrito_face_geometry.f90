@@ -4,7 +4,7 @@ module atrito_face_geometry
    use atrito_shape_functions, only: face_shape_slopes
    implicit none (type, external)
    private
-   public :: face_direction, outward_normal, face_arc_length
+   public :: face_direction, outward_normal, face_arc_length, has_quarter_node
 
    !> Five Gauss points on [-1,1]: the positive ones with their weights, and the weight of the middle.
    real(wp), parameter :: POINTS(2) = [0.53846931010568309104_wp, 0.90617984593866399280_wp]
@@ -12,6 +12,8 @@ module atrito_face_geometry
    real(wp), parameter :: MIDDLE_WEIGHT = 0.56888888888888888889_wp
    !> Panels of a Q2 face: to round-off up to a sag of half the chord.
    integer(ip), parameter :: PANELS = 16
+   !> A derivative below this part of the chord is 0.
+   real(wp), parameter :: VANISHED = 1.0e-9_wp
 
 contains
 
@@ -24,15 +26,25 @@ contains
       d = matmul(x, face_shape_slopes(size(x, 2, kind=ip), t))
    end function face_direction
 
-   !> Outward unit normal: the direction of travel turned by -90 degrees.
+   !> Outward unit normal: the direction of travel turned by -90 degrees. With the middle node at a quarter of the face dx/dt vanishes
+   !> at an end, and the normal is that of the chord.
    pure function outward_normal(x, t) result(n)
       real(wp), intent(in) :: x(:, :)              !< (2, 2 or 3) [L]
       real(wp), intent(in) :: t                    !< in [-1,1]
       real(wp) :: n(2), d(2)
 
       d = face_direction(x, t)
+      if (norm2(d) <= VANISHED*norm2(x(:, 2) - x(:, 1))) d = x(:, 2) - x(:, 1)
       n = [d(2), -d(1)]/norm2(d)
    end function outward_normal
+
+   !> True when dx/dt vanishes at an end of the face.
+   pure logical function has_quarter_node(x)
+      real(wp), intent(in) :: x(:, :)              !< (2, 2 or 3) [L]
+
+      has_quarter_node = min(norm2(face_direction(x, -1.0_wp)), norm2(face_direction(x, 1.0_wp))) &
+                         <= VANISHED*norm2(x(:, 2) - x(:, 1))
+   end function has_quarter_node
 
    !> Arc length [L] from the face's first node to t.
    pure real(wp) function face_arc_length(x, t) result(s)

@@ -1,5 +1,6 @@
 !> Checks of the finished mesh: shapes, sections, loose nodes, materials in use.
 module atrito_check_mesh
+   use atrito_check_edges, only: check_edges
    use atrito_check_shapes, only: check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
@@ -30,6 +31,7 @@ contains
          return
       end if
       call check_shapes(deck, model%mesh, draft)
+      if (draft%refinement%pieces == 1) call check_edges(deck, model, draft)
       call check_sections(deck, model, draft)
       call check_materials(deck, model, draft)
       call note_loose_nodes(deck, model, draft)

@@ -143,8 +143,9 @@ contains
       end do
    end function corner_jacobians
 
-   !> A nine-node element is good when its Jacobian is positive at its nodes and integration points. If not, the likely cause: the
-   !> corners, as for four nodes; else the order of the others, if another order would do; else the one that is farthest off.
+   !> A nine-node element is good when its Jacobian is positive at its integration points and nodes; at a node it may be 0, since
+   !> mid-side nodes at a quarter of the sides are a known way to the tip of a crack. If it is not good, the likely cause: the corners,
+   !> as for four nodes; else the order of the others, if another order would do; else the one that is farthest off.
    pure subroutine judge_nine_nodes(x, shape, node)
       real(wp), intent(in) :: x(2, Q2_NODES)           !< [L]
       integer(ip), intent(out) :: shape                !< SHAPE_*
@@ -171,11 +172,11 @@ contains
       node = FACES + maxloc(norm2(away/maxval(abs(away)), dim=1), dim=1, kind=ip)
    end subroutine judge_nine_nodes
 
-   !> The node at or next to which the Jacobian is least and not positive; 0: it is positive everywhere.
+   !> The node at or next to which the Jacobian is least and too small; 0: it is good everywhere.
    pure subroutine find_fold(x, node)
       real(wp), intent(in) :: x(2, Q2_NODES)
       integer(ip), intent(out) :: node
-      real(wp) :: y(2, Q2_NODES), least, jacobian, xi(2), weight
+      real(wp) :: y(2, Q2_NODES), least, jacobian, xi(2), weight, limit
       integer(ip) :: k
 
       y = x - spread(x(:, 1), 2, Q2_NODES)
@@ -185,11 +186,13 @@ contains
       do k = 1, Q2_NODES + gauss_count(Q2_NODES)**2
          if (k <= Q2_NODES) then
             xi = NODE_PLACE(:, k)
+            limit = -FLAT
          else
             call gauss_point(Q2_NODES, k - Q2_NODES, xi, weight)
+            limit = FLAT
          end if
          jacobian = jacobian_at(y, xi)
-         if (jacobian > least) cycle
+         if (jacobian >= min(least, limit)) cycle
          least = jacobian
          node = minloc(norm2(NODE_PLACE - spread(xi, 2, Q2_NODES), dim=1), dim=1, kind=ip)
       end do
