@@ -17,9 +17,11 @@ module atrito_driver
    use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_model, only: model_t
    use atrito_build_model, only: build_model
+   use atrito_build_requests, only: refuse_field_files
    use atrito_results, only: results_t, scene_t
    use atrito_solve, only: solve_static, survey_scene, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED
    use atrito_page, only: page_t, print_page
+   use atrito_hdf5, only: has_hdf5
    use atrito_write_results, only: write_results
    use atrito_screen, only: compose_summary
    use atrito_check_report, only: compose_check
@@ -156,6 +158,7 @@ contains
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('model')
          call build_model(deck, model, command%refine)
+         if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('model')
       end if
       code = status%code

@@ -191,7 +191,7 @@ contains
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: files(:)
       type(phase_time_t), allocatable :: phases(:)
-      character(len=:), allocatable :: tables
+      character(len=:), allocatable :: tables, fields
       integer :: i, length
 
       phases = get_phases()
@@ -199,17 +199,32 @@ contains
                     bytes(peak_memory())//'; '//plural(count_messages(SEVERITY_WARNING), 'warning', 'warnings')//', '// &
                     plural(count_messages(SEVERITY_NOTE), 'note', 'notes'))
       tables = ''
+      fields = field_text(files)
       do i = 1, size(files)
          length = len(files(i)%s)
          if (files(i)%s(length - 3:) == '.tab') then
             tables = tables//' '//files(i)%s(:length - 4)
-         else
-            call add_line(page, left('listing', 13)//folder//'/'//files(i)%s)
+         else if (files(i)%s(length - 3:) == '.lst') then
+            call add_line(page, left('listing', 13)//folder//'/'//files(i)%s//fields)
          end if
       end do
       call add_line(page, left('tables in', 13)//folder)
       call add_line(page, left('', 12)//left(tables, WIDTH - 12))
    end subroutine add_closing
+
+   !> `; fields in case.xdmf and case.h5`, when there are any.
+   pure function field_text(files) result(text)
+      type(string_t), intent(in) :: files(:)
+      character(len=:), allocatable :: text
+      integer :: i, length
+
+      text = ''
+      do i = 1, size(files)
+         length = len(files(i)%s)
+         if (files(i)%s(max(1, length - 4):) /= '.xdmf') cycle
+         text = '; fields in '//files(i)%s//' and '//files(i)%s(:length - 5)//'.h5'
+      end do
+   end function field_text
 
    !> Seconds to the millisecond.
    pure function seconds(time) result(text)

@@ -109,6 +109,7 @@ contains
             c%n = points(i)%n
             c%s = points(i)%s
             c%x = points(i)%x
+            c%normal = points(i)%normal
             c%weight = points(i)%weight
             allocate (c%gap(c%n), c%slip(c%n), c%status(c%n), c%pressure(c%n), c%shear(c%n), c%weighted_pressure(c%n))
             do j = 1, c%n
@@ -181,17 +182,23 @@ contains
       type(model_t), intent(in) :: model
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
+      logical :: wanted(model%mesh%n_elements)
       integer(ip) :: e, k, row, n
 
-      if (.not. model%requests%stress) return
+      associate (requests => model%requests)
+         if (.not. (requests%stress .or. requests%fields%stress)) return
+         wanted = .false.
+         if (requests%stress) wanted = requests%element_s
+         if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
+      end associate
       n = 0
       do e = 1, fem%mesh%n_elements
-         if (model%requests%element_s(e)) n = n + gauss_count(fem%mesh%shape(e))**2
+         if (wanted(e)) n = n + gauss_count(fem%mesh%shape(e))**2
       end do
       allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
       row = 0
       do e = 1, fem%mesh%n_elements
-         if (.not. model%requests%element_s(e)) cycle
+         if (.not. wanted(e)) cycle
          do k = 1, gauss_count(fem%mesh%shape(e))**2
             row = row + 1
             results%stress_element(row) = e
