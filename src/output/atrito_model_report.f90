@@ -287,7 +287,7 @@ contains
       end associate
       if (len(text) == 0) return
       call add_blank(page)
-      call add_entry(page, 'field file', model%deck_name//'.h5, opened by '//model%deck_name//'.xdmf:'//text)
+      call add_entry(page, 'field file', model%deck_name//'.xdmf, with .h5:'//text)
    end subroutine describe_fields
 
    pure function contact_text(interaction) result(text)
