@@ -77,8 +77,8 @@ contains
       call set_status(file%status, STATUS_FILE, file%final_path//': cannot be written completely; is the disk full?')
    end subroutine keep
 
-   !> Begins a dataset of n_rows > 0 rows, an array (n_rows) or, with several components, (n_rows, n_components). It is complete when
-   !> its last row has been put. Groups on its path are made where they are missing.
+   !> Begins a dataset of n_rows > 0 rows, an array (n_rows) or, with several components, (n_rows, n_components). It is complete
+   !> when its last row has been put. Groups on its path are made where they are missing.
    subroutine begin_dataset(file, path, n_components, n_rows, is_real, name, dimension)
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: path            !< /group/.../dataset
