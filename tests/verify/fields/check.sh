@@ -80,7 +80,7 @@ done
 # areas by the corners; mid-sides and centres are means
 area() {
    { rows "$1" /mesh/coordinates | sed 's/^/x /'; rows "$1" "/mesh/$2/nodes" | sed 's/^/e /'; } | awk '
-      $1 == "x" { x[n] = $2; y[n] = $3; n++ }
+      $1 == "x" { x[n + 0] = $2; y[n + 0] = $3; n++ }
       $1 == "e" { for (k = 0; k < 4; k++) { a = $(2 + k) + 0; b = $(2 + (k + 1)%4) + 0; area += (x[a]*y[b] - x[b]*y[a])/2
                      if (NF > 5) { m = $(6 + k) + 0; off(x[m] - (x[a] + x[b])/2); off(y[m] - (y[a] + y[b])/2) } }
                   if (NF > 5) { a = $2 + 0; b = $4 + 0; m = $10 + 0; off(x[m] - (x[a] + x[b])/2); off(y[m] - (y[a] + y[b])/2) } }
@@ -119,6 +119,7 @@ near 'converged' "$(attribute failed / converged)" 0 0
 says 'the .xdmf of a failed run' failed/failed.xdmf 'Information Name="NOT CONVERGED"'
 
 # what cannot be written: exit 5, named, and all is as it was
+rm -rf before
 cp -r ex1 before
 sed '/^\*EL PRINT/,/^S$/d; /^\*NODE PRINT/,/^U, RF$/d' ex1.inp >full.inp
 mv full.inp ex1.inp
