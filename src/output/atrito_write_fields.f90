@@ -187,14 +187,17 @@ contains
       type(hdf5_file_t), intent(inout) :: file
       character(len=*), intent(in) :: path, name, dimension
       real(wp), intent(in) :: vectors(:, :)
-      logical, intent(in) :: mask(:)                   !< (n)
+      logical, intent(in), optional :: mask(:)         !< (n)
+      logical :: wanted
       real(wp) :: nan
       integer(ip) :: i
 
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
       call begin_dataset(file, path, 3_ip, size(vectors, 2, kind=ip), .true., name, dimension)
       do i = 1, size(vectors, 2, kind=ip)
-         if (mask(i)) then
+         wanted = .true.
+         if (present(mask)) wanted = mask(i)
+         if (wanted) then
             call put_row(file, [vectors(:, i), 0.0_wp])
          else
             call put_row(file, [nan, nan, nan])
@@ -284,6 +287,8 @@ contains
          group = step_group(results)//'/pair_'//to_text(i)
          call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), grid)
          call put_contact(file, group//'/', results%contact(i), grid)
+         call put_vectors(file, group//'/U', 'displacement of the slave', 'L', results%contact(i)%u(:, :results%contact(i)%n))
+         call add_field(grid, group//'/U', 3_ip, .true., CENTRE_NODE)
          call put_tractions(file, group//'/traction', results%contact(i), grid)
          if (allocated(results%scene%pairs)) then
             call put_attribute(file, group, 'slave', results%scene%pairs(i)%slave)

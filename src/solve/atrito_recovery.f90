@@ -110,6 +110,7 @@ contains
             c%s = points(i)%s
             c%x = points(i)%x
             c%normal = points(i)%normal
+            c%u = u(:, points(i)%node(:points(i)%n))
             c%weight = points(i)%weight
             allocate (c%gap(c%n), c%slip(c%n), c%status(c%n), c%pressure(c%n), c%shear(c%n), c%weighted_pressure(c%n))
             do j = 1, c%n

@@ -59,6 +59,12 @@ for name in ex1 ex3; do
    # an upper body as slave: n = (0, -1), so the traction is (shear, p)
    same_field $name /step_1/pair_1/traction 1 contact shear F/L^2
    same_field $name /step_1/pair_1/traction 2 contact pressure F/L^2
+   # what the slave's points move is what the node at the same place moves
+   { rows $name /mesh/coordinates >x.txt; rows $name /step_1/nodes/U | paste x.txt - | sed 's/^/n /'
+     rows $name /step_1/pair_1/coordinates >x.txt; rows $name /step_1/pair_1/U | paste x.txt - | sed 's/^/p /'; } | awk '
+      $1 == "n" { at[$2 " " $3] = at[$2 " " $3] " " $4 "/" $5 " " }
+      $1 == "p" { points++; if (index(at[$2 " " $3], " " $4 "/" $5 " ") == 0) bad = 1 }
+      END { exit bad || points != 7 }' || complain "$name: U of the pair"
    # reactions of all nodes, 0 where nothing is prescribed, against the sum of reactions.tab
    near "$name reactions" "$(rows $name /step_1/nodes/RF | awk '{ a += $2 } END { printf "%.17g", a }')" \
       "$(column $name/reactions.tab r2 | awk '{ a += $1 } END { printf "%.17g", a }')" "$(value "1e-9*$(summary $name normal_resultant)")"
