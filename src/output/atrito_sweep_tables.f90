@@ -14,7 +14,8 @@ module atrito_sweep_tables
 
    !> One run of a sweep.
    type :: sweep_run_t
-      character(len=:), allocatable :: label           !< 'nu=0.3,eps=1e-4', also its folder below the sweep's
+      character(len=:), allocatable :: label           !< 'nu=0.3, eps=1e-4'
+      character(len=:), allocatable :: folder          !< below the sweep's
       type(string_t), allocatable :: texts(:)          !< values of the parameters as the user wrote them
       real(wp), allocatable :: values(:)
       integer :: code = STATUS_OK                      !< exit code of the run
@@ -129,7 +130,7 @@ contains
 
       n = size(runs, kind=ip)
       do i = 1, n
-         folders(i)%s = runs(i)%label
+         folders(i)%s = runs(i)%folder
       end do
       call begin_table(table, 'runs', 'a row a run', n)
       call add_integers(table, 'run', [(i, i=1, n)])
