@@ -15,11 +15,19 @@ missing_packages() {
    command -v cmake >/dev/null 2>&1 || printf ' cmake'
    command -v make >/dev/null 2>&1 || printf ' make'
    found_openblas || printf ' libopenblas-dev'
+   found_hdf5 || printf ' libhdf5-dev'
 }
 
 found_openblas() {
    for folder in /usr/lib /usr/lib64 /usr/lib/*-linux-gnu /usr/local/lib; do
       [ -e "$folder/libopenblas.so" ] && return 0
+   done
+   return 1
+}
+
+found_hdf5() {
+   for folder in /usr/include/hdf5/serial /usr/include /usr/local/include; do
+      [ -e "$folder/hdf5.mod" ] && return 0
    done
    return 1
 }

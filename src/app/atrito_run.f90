@@ -3,9 +3,11 @@ module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_body_store, only: body_store_t
    use atrito_build_model, only: build_model
+   use atrito_build_requests, only: refuse_field_files
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
+   use atrito_hdf5, only: has_hdf5
    use atrito_kinds, only: ip
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
@@ -106,6 +108,7 @@ contains
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('model')
          call build_model(deck, model, command%refine)
+         if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('model')
       end if
       code = status%code

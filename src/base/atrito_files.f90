@@ -11,7 +11,7 @@ module atrito_files
    implicit none (type, external)
    private
    public :: read_file, file_exists, is_folder, make_folder, remove_file
-   public :: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files, discard_files
+   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text, commit_files, discard_files
 
    !> A set of files that appear together or not at all.
    type :: file_set_t
@@ -169,17 +169,26 @@ contains
       previous = c_signal(SIGXFSZ, transfer(SIG_IGN, c_null_funptr))
    end subroutine ignore_size_limit
 
+   !> Takes a file into the set that is written by other means, under the temporary path that is given back.
+   subroutine reserve_file(set, name, path)
+      type(file_set_t), intent(inout) :: set
+      character(len=*), intent(in) :: name             !< final name, without folder
+      character(len=:), allocatable, intent(out) :: path
+
+      call append_string(set%names, name)
+      path = set%folder//'/'//name//TEMPORARY
+      call remove_file(path)
+   end subroutine reserve_file
+
    !> Opens a file of the set under its temporary name. A failure is kept in the file until close_text.
    subroutine open_text(set, name, file)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name
       type(text_file_t), intent(out) :: file
 
-      call append_string(set%names, name)
       file%final_path = set%folder//'/'//name
-      file%path = file%final_path//TEMPORARY
       allocate (character(len=BUFFER_LENGTH) :: file%buffer)
-      call remove_file(file%path)
+      call reserve_file(set, name, file%path)
       file%stream = c_fopen(file%path//c_null_char, 'wb'//c_null_char)
       if (.not. c_associated(file%stream)) call set_status(file%status, STATUS_FILE, file%final_path//': cannot be written')
    end subroutine open_text

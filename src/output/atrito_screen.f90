@@ -14,7 +14,6 @@ module atrito_screen
    public :: compose_summary
 
    integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
-   integer, parameter :: MOST_PAIRS = 2             !< pairs on the screen; the rest is in the listing
    integer, parameter :: DIGITS = 5
    integer, parameter :: LABEL_WIDTH = 34           !< columns of a pair's name
 
@@ -37,7 +36,7 @@ contains
       call add_rule(page, '-')
       call add_verdict(page, results)
       call add_sizes(page, model, results)
-      call add_pairs(page, results)
+      call add_pairs(page, results, most_pairs(results, files))
       call add_rule(page, '-')
       call add_closing(page, folder, files)
       call add_rule(page, '=')
@@ -134,15 +133,29 @@ contains
       end if
    end function iteration_text
 
+   !> How many pairs leave the rest its place: a verdict takes two lines, a field file one.
+   pure integer(ip) function most_pairs(results, files) result(most)
+      type(results_t), intent(in) :: results
+      type(string_t), intent(in) :: files(:)
+      integer :: i
+
+      most = 2
+      if (results%converged .and. results%law_holds) return
+      do i = 1, size(files)
+         if (ends_with(files(i)%s, '.xdmf')) most = 1
+      end do
+   end function most_pairs
+
    !> A row a pair as in Quadro I of the paper, and a line of tractions.
-   subroutine add_pairs(page, results)
+   subroutine add_pairs(page, results, most)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: most               !< pairs on the screen; the rest is in the listing
       integer(ip) :: i, shown
 
       if (.not. allocated(results%contact)) return
       if (size(results%contact) == 0) return
-      shown = min(size(results%contact, kind=ip), int(MOST_PAIRS, ip))
+      shown = min(size(results%contact, kind=ip), most)
       call add_rule(page, '-')
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
@@ -193,7 +206,7 @@ contains
       type(string_t), intent(in) :: files(:)
       type(phase_time_t), allocatable :: phases(:)
       character(len=:), allocatable :: tables
-      integer :: i, length
+      integer :: i
 
       phases = get_phases()
       call add_item(page, 'time', seconds(sum(phases%wall))//' s ('//seconds(sum(phases%cpu))//' s of processor), '// &
@@ -201,16 +214,23 @@ contains
                     plural(count_messages(SEVERITY_NOTE), 'note', 'notes'))
       tables = ''
       do i = 1, size(files)
-         length = len(files(i)%s)
-         if (files(i)%s(length - 3:) == '.tab') then
-            tables = tables//' '//files(i)%s(:length - 4)
-         else
+         if (ends_with(files(i)%s, '.tab')) then
+            tables = tables//' '//files(i)%s(:len(files(i)%s) - 4)
+         else if (ends_with(files(i)%s, '.lst')) then
             call add_line(page, left('listing', 13)//folder//'/'//files(i)%s)
+         else if (ends_with(files(i)%s, '.xdmf')) then
+            call add_line(page, left('fields', 13)//folder//'/'//files(i)%s//', with .h5')
          end if
       end do
       call add_line(page, left('tables in', 13)//folder)
       call add_line(page, left('', 12)//left(tables, WIDTH - 12))
    end subroutine add_closing
+
+   pure logical function ends_with(name, ending)
+      character(len=*), intent(in) :: name, ending
+
+      ends_with = index(name, ending, back=.true.) == max(1, len(name) - len(ending) + 1)
+   end function ends_with
 
    !> Seconds to the millisecond.
    pure function seconds(time) result(text)

@@ -1,4 +1,4 @@
-!> Writes a run: all tables and the listing, which appear together or not at all.
+!> Writes a run: all tables, the field file and the listing, which appear together or not at all.
 module atrito_write_results
    use atrito_strings, only: string_t
    use atrito_status, only: status_t, is_ok
@@ -7,6 +7,7 @@ module atrito_write_results
    use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_write_tables, only: write_tables, write_timing, list_table_files
+   use atrito_write_fields, only: write_fields, list_field_files
    use atrito_listing, only: write_listing
    implicit none (type, external)
    private
@@ -14,7 +15,7 @@ module atrito_write_results
 
 contains
 
-   !> Writes everything into a folder, which is made where it is missing, and removes the tables of an earlier run that this one
+   !> Writes everything into a folder, which is made where it is missing, and removes the files of an earlier run that this one
    !> does not write.
    !>
    !> status: STATUS_FILE, and then what the folder held before is untouched.
@@ -32,12 +33,13 @@ contains
       if (.not. is_ok(status)) return
       call start_phase('write')
       call write_tables(model, results, digits, set, status)
+      if (is_ok(status)) call write_fields(model, results, set, status)
       call stop_phase('write')
       ! these two tell the time, that of writing the tables included
       if (is_ok(status)) call write_timing(model, results, digits, set, status)
       if (is_ok(status)) call write_listing(model, results, set, status)
       if (is_ok(status)) then
-         call commit_files(set, list_table_files(), status)
+         call commit_files(set, [list_table_files(), list_field_files(model)], status)
       else
          call discard_files(set)
       end if
