@@ -21,6 +21,8 @@ module atrito_driver
    use atrito_solve, only: solve_static, survey_scene, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED
    use atrito_page, only: page_t, print_page
    use atrito_write_results, only: write_results
+   use atrito_plot_files, only: plot_folder
+   use atrito_write_plots, only: write_plots, plot_names
    use atrito_screen, only: compose_summary
    use atrito_check_report, only: compose_check
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
@@ -122,21 +124,40 @@ contains
       integer, intent(inout) :: code
       type(status_t) :: status
       type(page_t) :: page
-      type(string_t), allocatable :: written(:)
+      type(string_t), allocatable :: written(:), pictures(:)
       character(len=:), allocatable :: folder
 
       folder = 'output/'//model%deck_name
       if (allocated(command%folder)) folder = command%folder
       call report_progress(reporter, 'write '//folder)
-      call write_results(model, results, int(command%digits), folder, written, status)
+      if (command%plot) pictures = plot_names(results)       ! not allocated: an optional argument that is not there
+      call write_results(model, results, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
          call print_status(status, model%deck_path)
          code = status%code
-      else if (.not. command%quiet) then
-         call compose_summary(model, results, folder, written, page)
-         call print_page(page, output_unit)
+         return
       end if
+      if (command%plot) call plot_run(command, reporter, model, results, folder, pictures)
+      if (command%quiet) return
+      call compose_summary(model, results, folder, written, page, pictures)
+      call print_page(page, output_unit)
    end subroutine write_run
+
+   !> Draws the pictures of a run whose tables are complete; what fails here is told and changes nothing.
+   subroutine plot_run(command, reporter, model, results, folder, drawn)
+      type(command_t), intent(in) :: command
+      type(reporter_t), intent(in) :: reporter
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: folder
+      type(string_t), allocatable, intent(out) :: drawn(:)
+      integer(ip) :: told
+
+      told = count_messages()
+      call report_progress(reporter, 'plot  '//plot_folder(folder))
+      call write_plots(model, results, folder, drawn)
+      call print_messages(command%quiet, told + 1)
+   end subroutine plot_run
 
    !> Reads a deck and builds its model. All messages are told; errors of the deck give STATUS_DECK.
    subroutine load_model(command, reporter, model, told, code)
