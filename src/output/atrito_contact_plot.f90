@@ -78,8 +78,8 @@ contains
       call put_line(file, '# Columns of contact.tab: 2 pair, 4 s [L], 7 gap [L], 8 pressure [F/L^2], 9 weighted pressure [F/L^2],')
       call put_line(file, '# 10 shear [F/L^2], 11 slip [L], 12 status (0 open, 1 stick, 2 slip)')
       call put_line(file, 'pair = '//to_text(pair))
-      call put_line(file, 'col(c) = column(2) == pair ? column(c) : NaN')
-      call put_line(file, 'marked(c, status) = column(2) == pair && column(12) == status ? column(c) : NaN')
+      call put_line(file, 'col(c) = column(2) == pair ? column(c)/unit : NaN')
+      call put_line(file, 'marked(c, status) = column(12) == status ? col(c) : NaN')
    end subroutine put_contact_columns
 
    pure function pair_title(results, pair) result(text)
@@ -130,7 +130,7 @@ contains
       dot = 'dot*'//to_text(min(1.0_wp, max(0.35_wp, 8.0_wp/sqrt(real(max(n, 1_ip), wp)))), 2)
       call put_line(file, 'set style line 1 lt 1 lw 2 lc rgb "'//COLOUR(1)//'"')
       call put_line(file, 'set style line 2 lw 2 dt (8,5) lc rgb "'//COLOUR(6)//'"')
-      call put_line(file, 'set style line 3 lw 1.5 dt (4,4) lc rgb "#606060"')
+      call put_line(file, 'set style line 3 lw 1.5 dt (7,5) lc rgb "#404040"')
       call put_line(file, 'set style line 4 pt 6 lw 1.5 lc rgb "black" ps '//dot)
       call put_line(file, 'set style line 5 pt 7 lw 1.5 lc rgb "black" ps '//dot)
       call put_line(file, 'set style line 6 pt 9 lw 1.5 lc rgb "'//COLOUR(2)//'" ps 1.2*'//dot)
@@ -142,20 +142,20 @@ contains
       type(interaction_t), intent(in) :: law
       logical, intent(in) :: friction
 
-      call put_panel(file, 1, 'pressure [F/L^2]', field_range(contact%pressure(:contact%n), contact%weighted_pressure(:contact%n)))
+      call put_panel(file, 1, 'pressure', 'F/L^2', field_range(contact%pressure(:contact%n), contact%weighted_pressure(:contact%n)))
       if (law%friction == FRICTION_NONLOCAL .and. friction) then
-         call put_curve(file, 8, 'pressure p', ', table using (col(4)):(col(9)) with lines ls 2 title "weighted, S_{'// &
+         call put_curve(file, 8, 'pressure p', ', table using 4:(col(9)) with lines ls 2 title "weighted, S_{'// &
                         GREEK_RHO//'}(p)"', contact, friction, with_legend=.true.)
       else
          call put_curve(file, 8, 'pressure p', '', contact, friction, with_legend=.true.)
       end if
       if (friction) then
-         call put_panel(file, 2, 'shear [F/L^2]', shear_range(contact, law%nu))
+         call put_panel(file, 2, 'shear', 'F/L^2', shear_range(contact, law%nu))
          call put_curve(file, 10, 'shear', bound_curves(law), contact, friction, with_legend=.false.)
-         call put_panel(file, 3, 'slip [L]', slip_range(contact, law%eps))
+         call put_panel(file, 3, 'slip', 'L', slip_range(contact, law%eps))
          call put_curve(file, 11, 'slip u_T', slip_curves(contact, law%eps), contact, friction, with_legend=.false.)
       end if
-      call put_panel(file, merge(4, 2, friction), 'gap [L]', field_range(contact%gap(:contact%n), contact%gap(:contact%n)))
+      call put_panel(file, merge(4, 2, friction), 'gap', 'L', field_range(contact%gap(:contact%n), contact%gap(:contact%n)))
       call put_curve(file, 7, 'gap', '', contact, friction, with_legend=.false.)
    end subroutine put_panels
 
@@ -192,8 +192,8 @@ contains
 
       name = PLUS_MINUS//' '//GREEK_NU//' p'
       if (law%friction == FRICTION_NONLOCAL) name = PLUS_MINUS//' '//GREEK_NU//' S_{'//GREEK_RHO//'}(p)'
-      text = ', table using (col(4)):(nu*col(9)) with lines ls 3 title "'//name//'"'// &
-             ', table using (col(4)):(-nu*col(9)) with lines ls 3'
+      text = ', table using 4:(nu*col(9)) with lines ls 3 title "'//name//'"'// &
+             ', table using 4:(-nu*col(9)) with lines ls 3'
    end function bound_curves
 
    !> True where the lines +-eps tell something.
@@ -223,7 +223,7 @@ contains
 
       text = ''
       if (.not. shows_slip_bound(contact, eps)) return
-      text = ', eps with lines ls 3 title "'//PLUS_MINUS//' '//GREEK_EPSILON//'", -eps with lines ls 3'
+      text = ', eps/unit with lines ls 3 title "'//PLUS_MINUS//' '//GREEK_EPSILON//'", -eps/unit with lines ls 3'
    end function slip_curves
 
    !> A column as a line, further curves, and its points by their status.
@@ -239,14 +239,23 @@ contains
       integer(ip) :: k
 
       c = to_text(int(column, ip))
-      line = 'plot table using (col(4)):(col('//c//')) with lines ls 1 title "'//title//'"'//more
+      line = 'plot table using 4:(col('//c//')) with lines ls 1 title "'//title//'"'//more
       do k = POINT_OPEN, POINT_SLIP
          if (all(contact%status(:contact%n) /= k)) cycle
-         line = line//', table using (col(4)):(marked('//c//','//to_text(k)//')) with points ls '//to_text(4_ip + k)
+         line = line//', table using 4:(marked('//c//','//to_text(k)//')) with points ls '//to_text(status_style(k, friction))
          if (with_legend) line = line//' title "'//status_word(k, friction)//'"'
       end do
       call put_line(file, line)
    end subroutine put_curve
+
+   !> The closed points of a pair without friction look like those that stick.
+   pure integer(ip) function status_style(point_status, friction) result(style)
+      integer(ip), intent(in) :: point_status
+      logical, intent(in) :: friction
+
+      style = 4_ip + point_status
+      if (point_status == POINT_SLIP .and. .not. friction) style = 4_ip + POINT_STICK
+   end function status_style
 
    pure function status_word(point_status, friction) result(word)
       integer(ip), intent(in) :: point_status

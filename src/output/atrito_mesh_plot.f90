@@ -24,7 +24,7 @@ module atrito_mesh_plot
 
    integer, parameter :: DIGITS = 7                 !< of mesh.dat: a picture has a thousand pixels
    integer(ip), parameter :: MOST_NODES = 20000     !< of a mesh that is drawn with all its edges
-   integer, parameter :: PIECES = 6                 !< straight pieces of a curved edge
+   integer, parameter :: PIECES = 10                !< straight pieces of a curved edge
    !> An edge whose middle node is off the middle by less than this share of the scene, or of the largest displacement, is straight.
    real(wp), parameter :: STRAIGHT = 3.0e-4_wp
    !> The largest displacement is drawn at most this long, as a share of the scene's diagonal.
@@ -325,7 +325,7 @@ contains
       call put_line(file, 'set clip two')
       call put_line(file, 'set border lt 1 lw 1 lc rgb "#A0A0A0"')
       call put_line(file, 'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"')
-      call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2')
+      call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7')
       call put_line(file, 'set xlabel "x [L]"')
       call put_line(file, 'set ylabel "y [L]"')
       call put_line(file, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"')

@@ -12,7 +12,7 @@ module atrito_plot_text
    implicit none (type, external)
    private
    public :: range_t, cover, padded, range_text, span
-   public :: quoted, cleaned, picture_title, put_top, put_terminal, put_frame, put_panel
+   public :: quoted, cleaned, picture_title, put_top, put_terminal, put_frame, put_panel, engineering_exponent
    public :: COLOUR, N_COLOURS, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES, LOOP_END
 
    !> The palette of Okabe and Ito, made for colour-blind readers, without its yellow, which is too pale for lines.
@@ -27,6 +27,7 @@ module atrito_plot_text
    integer, parameter :: LONGEST_TITLE = 100        !< characters that fit on a picture's width
    real(wp), parameter :: PADDING = 0.06_wp         !< share of a range that is left free on each side
    character(len=*), parameter :: LOOP_END = '}'
+   real(wp), parameter :: LEAST_PLAIN = 0.05_wp, MOST_PLAIN = 1.0e5_wp   !< largest values told without a power of ten
 
    !> What an axis shall cover. Empty: low > high.
    type :: range_t
@@ -215,22 +216,42 @@ contains
       call put_line(file, 'axis_label = '//x_label)
    end subroutine put_frame
 
-   !> Goes to a panel. Its label stands at the same place in all panels, its legend to the right of it.
-   subroutine put_panel(file, place, y_label, range)
+   !> Goes to a panel, whose values are to be divided by `unit`. Its label stands at the same place in all panels, its legend to
+   !> the right of it.
+   subroutine put_panel(file, place, name, dimension, range)
       type(text_file_t), intent(inout) :: file
       integer, intent(in) :: place                  !< 1 the uppermost
-      character(len=*), intent(in) :: y_label
+      character(len=*), intent(in) :: name, dimension
       type(range_t), intent(in) :: range            !< of the values
-      character(len=:), allocatable :: i
+      type(range_t) :: window
+      character(len=:), allocatable :: i, power
+      integer :: exponent_of_ten
 
       i = to_text(int(place, ip))
+      window = padded(range)
+      exponent_of_ten = engineering_exponent(range)
+      power = ''
+      if (exponent_of_ten /= 0) power = '10^{'//to_text(int(exponent_of_ten, ip))//'} '
       call put_line(file, 'set tmargin at screen top('//i//'); set bmargin at screen bottom('//i//')')
       call put_line(file, 'set key noautotitle at screen 0.795, screen top('//i// &
                     ') left top Left reverse samplen 2.5 spacing 1.15')
-      call put_line(file, 'set label 1 "'//y_label//'" at screen 0.03, screen middle('//i//') center rotate by 90')
+      call put_line(file, 'set label 1 "'//name//' ['//power//dimension//']" at screen 0.03, screen middle('//i// &
+                    ') center rotate by 90')
       call put_line(file, 'if ('//i//' == panels) { set format x "%h"; set xlabel axis_label noenhanced } '// &
                     'else { set format x ""; unset xlabel }')
-      call put_line(file, 'set yrange '//range_text(padded(range)))
+      call put_line(file, 'unit = 1e'//to_text(int(exponent_of_ten, ip)))
+      call put_line(file, 'set yrange ['//to_text(window%low, 8)//'/unit:'//to_text(window%high, 8)//'/unit]')
    end subroutine put_panel
+
+   !> The power of thousand by which numbers of a range are told, so that the marks of an axis are short; 0 for handy numbers.
+   pure integer function engineering_exponent(range) result(e)
+      type(range_t), intent(in) :: range
+      real(wp) :: largest
+
+      e = 0
+      largest = max(abs(range%low), abs(range%high))
+      if (range%low > range%high .or. largest < sqrt(tiny(largest))) return
+      if (largest < LEAST_PLAIN .or. largest >= MOST_PLAIN) e = 3*floor(log10(largest)/3.0_wp)
+   end function engineering_exponent
 
 end module atrito_plot_text
