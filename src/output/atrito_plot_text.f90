@@ -211,9 +211,10 @@ contains
       call put_line(file, 'set xzeroaxis lt 1 lw 1 lc rgb "#808080"')
       call put_line(file, 'set format y "%h"')
       call put_line(file, 'set lmargin at screen 0.13')
-      call put_line(file, 'set rmargin at screen 0.78')
+      call put_line(file, 'right = 0.78')
       call put_line(file, 'set xrange '//range_text(range))
       call put_line(file, 'axis_label = '//x_label)
+      call put_line(file, 'x_format = "%h"')
    end subroutine put_frame
 
    !> Goes to a panel, whose values are to be divided by `unit`. Its label stands at the same place in all panels, its legend to
@@ -232,12 +233,12 @@ contains
       exponent_of_ten = engineering_exponent(range)
       power = ''
       if (exponent_of_ten /= 0) power = '10^{'//to_text(int(exponent_of_ten, ip))//'} '
-      call put_line(file, 'set tmargin at screen top('//i//'); set bmargin at screen bottom('//i//')')
-      call put_line(file, 'set key noautotitle at screen 0.795, screen top('//i// &
+      call put_line(file, 'set rmargin at screen right; set tmargin at screen top('//i//'); set bmargin at screen bottom('//i//')')
+      call put_line(file, 'set key noautotitle at screen right + 0.015, screen top('//i// &
                     ') left top Left reverse samplen 2.5 spacing 1.15')
       call put_line(file, 'set label 1 "'//name//' ['//power//dimension//']" at screen 0.03, screen middle('//i// &
                     ') center rotate by 90')
-      call put_line(file, 'if ('//i//' == panels) { set format x "%h"; set xlabel axis_label noenhanced } '// &
+      call put_line(file, 'if ('//i//' == panels) { set format x x_format; set xlabel axis_label noenhanced } '// &
                     'else { set format x ""; unset xlabel }')
       call put_line(file, 'unit = 1e'//to_text(int(exponent_of_ten, ip)))
       call put_line(file, 'set yrange ['//to_text(window%low, 8)//'/unit:'//to_text(window%high, 8)//'/unit]')
