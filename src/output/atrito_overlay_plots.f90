@@ -23,7 +23,7 @@ module atrito_overlay_plots
    integer, parameter :: MOST_IN_LEGEND = 10        !< runs; more are told by a colour bar
    integer, parameter :: MOST_NAMED = 30            !< runs named beside the colour bar
    integer, parameter :: MOST_MARKED = 40           !< points of a curve that has markers
-   integer, parameter :: LONGEST_TITLE = 100, SHORT_LABEL = 18   !< characters
+   integer, parameter :: LONGEST_TITLE = 100, SHORT_LABEL = 14   !< characters
 
 contains
 
