@@ -58,24 +58,42 @@ contains
    end function is_logarithmic
 
    !> Reads the tables of all runs. Those of a run that failed are missing, which is no failure here.
-   subroutine read_runs(runs, pairs)
+   subroutine read_runs(runs, pairs, heading)
       type(overlay_run_t), intent(inout) :: runs(:)             !< label, path and value are given
       type(overlay_pair_t), allocatable, intent(out) :: pairs(:)
+      character(len=:), allocatable, intent(out) :: heading     !< of the deck; empty where there is none
       type(table_file_t) :: table
       type(status_t) :: status
       integer :: i
 
       allocate (pairs(0))
+      heading = ''
       do i = 1, size(runs)
          call read_table(runs(i)%path//'/contact.tab', table, status)
          runs(i)%has_tables = is_ok(status)
          if (.not. is_ok(status)) cycle
          runs(i)%not_converged = table%not_converged
+         if (len(heading) == 0) heading = heading_of(table%text)
          call cover_run(table, pairs)
          call read_table(runs(i)%path//'/summary.tab', table, status)
          if (is_ok(status)) call take_quantities(table, runs(i))
       end do
    end subroutine read_runs
+
+   !> The first line `# heading: ...` of a table.
+   pure function heading_of(text) result(heading)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: heading
+      character(len=*), parameter :: MARK = new_line('a')//'# heading: '
+      integer :: first, length
+
+      heading = ''
+      first = index(text, MARK)
+      if (first == 0) return
+      first = first + len(MARK)
+      length = index(text(first:), new_line('a')) - 1
+      if (length > 0) heading = trim(text(first:first + length - 1))
+   end function heading_of
 
    !> Widens the ranges of the pairs by those of a run.
    subroutine cover_run(table, pairs)

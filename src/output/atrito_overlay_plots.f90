@@ -30,7 +30,7 @@ contains
    !> Draws the overlays of a sweep into <folder>/plots, and removes those of an earlier one.
    subroutine write_overlay_plots(folder, title, labels, runs, parameter_name, values, drawn)
       character(len=*), intent(in) :: folder        !< of the sweep
-      character(len=*), intent(in) :: title         !< of the deck
+      character(len=*), intent(in) :: title         !< where the tables have no heading
       type(string_t), intent(in) :: labels(:)       !< of the runs, such as eps=1e-4
       type(string_t), intent(in) :: runs(:)         !< their folders: absolute, or below `folder`, with or without it in front
       character(len=*), intent(in) :: parameter_name  !< empty where several vary
@@ -61,23 +61,25 @@ contains
       type(status_t), intent(out) :: status
       type(overlay_run_t), allocatable :: list(:)
       type(overlay_pair_t), allocatable :: pairs(:)
+      character(len=:), allocatable :: heading
       type(file_set_t) :: set
       integer(ip) :: i
 
       allocate (names(0))
       list = collect_runs(folder, labels, runs, values)
-      call read_runs(list, pairs)
+      call read_runs(list, pairs, heading)
+      if (len(heading) == 0) heading = title
       list = pack(list, list%has_tables)
       if (size(list) == 0 .or. size(pairs) == 0) return
       call begin_files(set, plot_folder(folder), status)
       if (.not. is_ok(status)) return
       do i = 1, size(pairs, kind=ip)
          if (pairs(i)%most_points == 0 .or. .not. is_ok(status)) cycle
-         call write_overlay(set, title, list, pairs(i), i, parameter_name, size(values) > 0, status)
+         call write_overlay(set, heading, list, pairs(i), i, parameter_name, size(values) > 0, status)
          call append_string(names, OVERLAY_PLOT//to_text(i))
       end do
       if (is_ok(status) .and. size(values) > 0 .and. has_summaries(list)) then
-         call write_summary_plot(set, title, list, size(pairs, kind=ip), parameter_name, status)
+         call write_summary_plot(set, heading, list, size(pairs, kind=ip), parameter_name, status)
          call append_string(names, OVERLAY_SUMMARY)
       end if
       if (is_ok(status)) then
