@@ -77,9 +77,11 @@ contains
       type(page_t) :: page
       type(string_t), allocatable :: written(:), pictures(:)
       character(len=:), allocatable :: folder
+      integer(ip) :: told
 
       folder = output_folder(command)
       call report_progress(reporter, 'write '//folder)
+      told = count_messages()
       if (command%plot) pictures = plot_names(results)       ! not allocated: an optional argument that is not there
       call write_results(model, results, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
@@ -87,27 +89,15 @@ contains
          code = status%code
          return
       end if
-      if (command%plot) call plot_run(command, reporter, model, results, folder, pictures)
+      if (command%plot) then
+         call report_progress(reporter, 'plot  '//plot_folder(folder))
+         call write_plots(model, results, folder, pictures)
+      end if
+      call print_messages(command%quiet, told + 1)
       if (command%quiet) return
       call compose_summary(model, results, folder, written, page, pictures)
       call print_page(page, output_unit)
    end subroutine write_run
-
-   !> Draws the pictures of a run whose tables are complete; what fails here is told and changes nothing.
-   subroutine plot_run(command, reporter, model, results, folder, drawn)
-      type(command_t), intent(in) :: command
-      type(reporter_t), intent(in) :: reporter
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      character(len=*), intent(in) :: folder
-      type(string_t), allocatable, intent(out) :: drawn(:)
-      integer(ip) :: told
-
-      told = count_messages()
-      call report_progress(reporter, 'plot  '//plot_folder(folder))
-      call write_plots(model, results, folder, drawn)
-      call print_messages(command%quiet, told + 1)
-   end subroutine plot_run
 
    !> Reads a deck and builds its model. All messages are told; errors of the deck give STATUS_DECK.
    subroutine load_model(command, reporter, model, told, code)

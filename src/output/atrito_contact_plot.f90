@@ -127,7 +127,7 @@ contains
       integer(ip), intent(in) :: n                  !< points
       character(len=:), allocatable :: dot
 
-      dot = 'dot*'//to_text(min(1.0_wp, max(0.35_wp, 8.0_wp/sqrt(real(max(n, 1_ip), wp)))), 2)
+      dot = 'dot*'//to_text(min(1.0_wp, max(0.25_wp, 6.0_wp/sqrt(real(max(n, 1_ip), wp)))), 2)
       call put_line(file, 'set style line 1 lt 1 lw 2 lc rgb "'//COLOUR(1)//'"')
       call put_line(file, 'set style line 2 lw 2 dt (8,5) lc rgb "'//COLOUR(6)//'"')
       call put_line(file, 'set style line 3 lw 1.5 dt (7,5) lc rgb "#404040"')

@@ -23,7 +23,8 @@ module atrito_mesh_plot
    public :: write_mesh_plot, displacement_scale, collect_lines, mesh_lines_t
 
    integer, parameter :: DIGITS = 7                 !< of mesh.dat: a picture has a thousand pixels
-   integer(ip), parameter :: MOST_NODES = 20000     !< of a mesh that is drawn with all its edges
+   integer(ip), parameter :: MOST_NODES = 10000     !< of a mesh that is drawn with all its edges
+   integer(ip), parameter :: FEW_NODES = 2000       !< of one whose undeformed edges are all drawn too
    integer, parameter :: PIECES = 10                !< straight pieces of a curved edge
    !> An edge whose middle node is off the middle by less than this share of the scene, or of the largest displacement, is straight.
    real(wp), parameter :: STRAIGHT = 3.0e-4_wp
@@ -158,7 +159,7 @@ contains
 
       largest = 0.0_wp
       do i = 1, size(u, 2, kind=ip)
-         if (all(ieee_is_finite(u(:, i)))) largest = max(largest, norm2(u(:, i)))
+         if (all(ieee_is_finite(u(:, i)))) largest = max(largest, hypot(u(1, i), u(2, i)))
       end do
    end function largest_displacement
 
@@ -290,7 +291,7 @@ contains
 
    subroutine put_rigid(file, points)
       type(text_file_t), intent(inout) :: file
-      real(wp), intent(in) :: points(:, :)
+      real(wp), intent(in) :: points(:, :)          !< ends of its segments [L], (2, n)
       integer :: i
 
       call put_line(file, '# a rigid surface')
@@ -320,7 +321,8 @@ contains
       call put_line(file, 'heading = '//quoted(picture_title(origin)))
       call put_line(file, 'set xrange '//range_text(padded(window(1))))
       call put_line(file, 'set yrange '//range_text(padded(window(2))))
-      call put_terminal(file, MESH_PLOT, size_text(window))
+      call put_line(file, 'height = '//height_text(window))
+      call put_terminal(file, MESH_PLOT, '1000,height')
       call put_line(file, 'set size ratio -1')
       call put_line(file, 'set clip two')
       call put_line(file, 'set border lt 1 lw 1 lc rgb "#A0A0A0"')
@@ -333,24 +335,26 @@ contains
       do body = 1, N_COLOURS
          call put_line(file, 'set style line '//to_text(body)//' lt 1 lc rgb "'//COLOUR(body)//'"')
       end do
-      call put_line(file, 'set title heading.sprintf("\ndisplacements drawn %g '//TIMES//', the largest is %g [L]", scale, '// &
-                    to_text(largest, 4)//') noenhanced')
+      ! a label, not a title: gnuplot measures titles as enhanced text even where they are not, and complains
+      call put_line(file, 'set tmargin 4')
+      call put_line(file, 'set label 1 heading.sprintf("\ndisplacements drawn %g '//TIMES//', the largest is %g [L]", scale, '// &
+                    to_text(largest, 4)//') at screen 0.5, screen 1 - 22.0/height center noenhanced')
       call put_curves(file, model, results, lines)
       call put_line(file, LOOP_END)
       call put_line(file, 'set output')
       call close_text(file, status)
    end subroutine write_script
 
-   !> 1000 pixels wide, and high enough for equal axes.
-   pure function size_text(window) result(text)
+   !> Pixels of height that go with a width of 1000 and equal axes.
+   pure function height_text(window) result(text)
       type(range_t), intent(in) :: window(2)
       character(len=:), allocatable :: text
       real(wp) :: ratio
 
       ratio = 1.0_wp
       if (span(window(1)) > 0.0_wp) ratio = span(window(2))/span(window(1))
-      text = '1000,'//to_text(nint(160.0_wp + 860.0_wp*min(1.1_wp, max(0.15_wp, ratio)), ip))
-   end function size_text
+      text = to_text(nint(160.0_wp + 860.0_wp*min(1.1_wp, max(0.15_wp, ratio)), ip))
+   end function height_text
 
    !> One plot: the undeformed edges, the deformed ones inside, then the outlines with the bodies' names, and rigid surfaces.
    subroutine put_curves(file, model, results, lines)
@@ -359,14 +363,17 @@ contains
       type(results_t), intent(in) :: results
       type(mesh_lines_t), intent(in) :: lines
       type(string_t), allocatable :: curves(:)
-      integer(ip) :: run, i, n_blocks
+      integer(ip) :: run, i, n_blocks, first
 
-      call append_string(curves, 'plot for [i=0:'//to_text(lines%n_runs - 1)//'] "mesh.dat" index i using 1:2 with lines ls 8 '// &
-                         'title i == 0 ? "undeformed" : ""')
+      first = 1
+      if (model%mesh%n_nodes > FEW_NODES) first = count(lines%kind(:lines%n_runs) == LINE_INNER, kind=ip) + 1_ip
+      call append_string(curves, 'plot for [i='//to_text(first - 1)//':'//to_text(lines%n_runs - 1)// &
+                         '] "mesh.dat" index i using 1:2 with lines ls 8 title i == '//to_text(first - 1)//' ? "undeformed" : ""')
       do run = 1, lines%n_runs
          call append_string(curves, '   "mesh.dat" index '//to_text(run - 1)// &
                             ' using ($1 + scale*$3):($2 + scale*$4) with lines ls '// &
-                            to_text(mod(lines%body(run) - 1, int(N_COLOURS, ip)) + 1_ip)//legend_text(results, lines, run))
+                            to_text(mod(lines%body(run) - 1, int(N_COLOURS, ip)) + 1_ip)// &
+                            legend_text(results, lines, run, model%mesh%n_nodes))
       end do
       n_blocks = lines%n_runs
       do i = 1, size(model%surfaces, kind=ip)
@@ -382,13 +389,14 @@ contains
    end subroutine put_curves
 
    !> Width and name of a run of lines; the name stands at the outline.
-   pure function legend_text(results, lines, run) result(text)
+   pure function legend_text(results, lines, run, n_nodes) result(text)
       type(results_t), intent(in) :: results
       type(mesh_lines_t), intent(in) :: lines
-      integer(ip), intent(in) :: run
+      integer(ip), intent(in) :: run, n_nodes
       character(len=:), allocatable :: text
 
       text = ' lw 1'
+      if (n_nodes > FEW_NODES) text = ' lw 0.5'
       if (lines%kind(run) == LINE_INNER) return
       text = ' lw 2.5'
       if (lines%body(run) > MOST_NAMES) return

@@ -6,6 +6,7 @@ module atrito_plot_files
    use atrito_kinds, only: ip
    use atrito_strings, only: to_text
    use atrito_files, only: file_exists, is_folder, remove_file, remove_empty_folder
+   use atrito_messages, only: add_warning
    implicit none (type, external)
    private
    public :: plot_folder, remove_plots, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT
@@ -24,7 +25,8 @@ contains
       path = folder//'/plots'
    end function plot_folder
 
-   !> Removes atrito's own files from the folder of plots, and the folder when nothing else is in it.
+   !> Removes atrito's own files from the folder of plots, and the folder when nothing else is in it. A
+   !> picture that stays is a warning.
    subroutine remove_plots(folder)
       character(len=*), intent(in) :: folder        !< of the tables
       character(len=:), allocatable :: path
@@ -37,6 +39,8 @@ contains
       call remove_numbered(path//'/'//OVERLAY_PLOT)
       call remove_file(path//'/'//LOG_NAME)
       call remove_empty_folder(path)
+      if (.not. file_exists(path//'/'//MESH_PLOT//'.png')) return
+      call add_warning('W-PLOT', path//': pictures of an earlier run cannot be removed')
    end subroutine remove_plots
 
    !> Removes the pictures of pair 1, 2, ... until there is none.
