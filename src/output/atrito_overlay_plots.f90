@@ -23,7 +23,8 @@ module atrito_overlay_plots
    integer, parameter :: MOST_IN_LEGEND = 10        !< runs; more are told by a colour bar
    integer, parameter :: MOST_NAMED = 30            !< runs named beside the colour bar
    integer, parameter :: MOST_MARKED = 40           !< points of a curve that has markers
-   integer, parameter :: LONGEST_TITLE = 100, SHORT_LABEL = 14   !< characters
+   integer, parameter :: LONGEST_TITLE = 100        !< characters
+   real(wp), parameter :: WIDEST = 0.78_wp          !< right end of the panels, as a share of the width
 
 contains
 
@@ -159,7 +160,8 @@ contains
       call put_line(file, 'heading = '//quoted(cleaned(title, LONGEST_TITLE)))
       call put_line(file, 'pair_line = '//quoted('pair '//to_text(number)//doubt_text(list)))
       call put_frame(file, size(fields), pair_range(pair), '"s [L]"')
-      if (label_width(list) > SHORT_LABEL) call put_line(file, 'right = 0.62')
+      call put_line(file, 'right = '//to_text(min(WIDEST, 0.925_wp - 0.009_wp*real(label_width(list), wp)), 3)// &
+                    '   # leaves room for the names')
       call put_terminal(file, name, '1000,height')
       call put_line(file, 'set multiplot title heading."\n".pair_line noenhanced')
       call put_looks(file, list, pair, parameter_name, by_value)
