@@ -137,7 +137,7 @@ contains
       integer(ip), intent(in) :: run
       character(len=:), allocatable :: folder
 
-      folder = output_folder(command)//'/'//plan%labels(run)%s
+      folder = output_folder(command)//'/'//plan%folders(run)%s
    end function run_folder
 
    !> How the runs ended, and their summaries. status: STATUS_FILE.
@@ -152,6 +152,7 @@ contains
       allocate (runs(plan%n_runs))
       do i = 1, plan%n_runs
          runs(i)%label = plan%labels(i)%s
+         runs(i)%folder = plan%folders(i)%s
          runs(i)%texts = plan%texts(:, i)
          runs(i)%values = plan%values(:, i)
          runs(i)%code = int(shared(i))

@@ -15,7 +15,8 @@ module atrito_sweep_plan
       type(string_t), allocatable :: names(:)        !< the parameters that vary
       type(string_t), allocatable :: texts(:, :)     !< (parameters, runs) values as the user wrote them
       real(wp), allocatable :: values(:, :)          !< (parameters, runs)
-      type(string_t), allocatable :: labels(:)       !< (runs) 'nu=0.3,eps=1e-4': also the name of the run's folder
+      type(string_t), allocatable :: labels(:)       !< (runs) 'nu=0.3, eps=1e-4'
+      type(string_t), allocatable :: folders(:)      !< (runs) 'nu_0.3,eps_1e-4': no blank, and no = that awk takes for an order
    end type sweep_plan_t
 
    !> One --vary.
@@ -118,21 +119,43 @@ contains
       type(sweep_plan_t), intent(inout) :: plan
       integer(ip) :: i, run, rest, place, n
 
-      allocate (plan%texts(size(variations), plan%n_runs), plan%values(size(variations), plan%n_runs), plan%labels(plan%n_runs))
+      allocate (plan%texts(size(variations), plan%n_runs), plan%values(size(variations), plan%n_runs))
+      allocate (plan%labels(plan%n_runs), plan%folders(plan%n_runs))
       do run = 1, plan%n_runs
          rest = run - 1
-         plan%labels(run)%s = ''
          do i = size(variations, kind=ip), 1, -1
             n = size(variations(i)%texts, kind=ip)
             place = mod(rest, n) + 1
             rest = rest/n
             plan%texts(i, run)%s = variations(i)%texts(place)%s
             plan%values(i, run) = variations(i)%values(place)
-            if (i < size(variations)) plan%labels(run)%s = ','//plan%labels(run)%s
-            plan%labels(run)%s = variations(i)%name//'='//plain(plan%texts(i, run)%s)//plan%labels(run)%s
          end do
+         call name_run(plan, run)
       end do
    end subroutine combine
+
+   pure subroutine name_run(plan, run)
+      type(sweep_plan_t), intent(inout) :: plan
+      integer(ip), intent(in) :: run
+      character(len=:), allocatable :: label, folder
+      integer(ip) :: i
+
+      label = ''
+      folder = ''
+      do i = 1, size(plan%names, kind=ip)
+         if (i > 1) label = label//', '
+         if (i > 1) folder = folder//','
+         label = label//plan%names(i)%s//'='//plan%texts(i, run)%s
+         folder = folder//plan%names(i)%s//'_'//plain(plan%texts(i, run)%s)
+      end do
+      do i = 1, run - 1
+         if (plan%folders(i)%s /= folder) cycle       ! 1/3 and 1*3 read alike
+         folder = folder//'-'//to_text(run)
+         exit
+      end do
+      call move_alloc(label, plan%labels(run)%s)
+      call move_alloc(folder, plan%folders(run)%s)
+   end subroutine name_run
 
    !> A value as part of the name of a folder: letters, digits, point and signs stay.
    pure function plain(text) result(name)

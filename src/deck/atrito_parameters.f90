@@ -39,13 +39,13 @@ contains
          equals = index(list(i)%s, '=')
          name = trim(adjustl(list(i)%s(:max(equals - 1, 0))))
          if (.not. is_name(name)) then
-            call set_status(status, STATUS_USAGE, '--set '//list(i)%s//': NAME=VALUE is expected')
+            call set_status(status, STATUS_USAGE, 'setting '//list(i)%s//': NAME=VALUE is expected')
             return
          end if
          call append_string(settings%names, name)
          call evaluate_expression(list(i)%s(equals + 1:), none, [real(wp) ::], settings%values(i), fault)
          if (allocated(fault%text)) then
-            call set_status(status, STATUS_USAGE, '--set '//list(i)%s//': '//fault%text)
+            call set_status(status, STATUS_USAGE, 'setting '//list(i)%s//': '//fault%text)
             return
          end if
       end do
@@ -233,7 +233,7 @@ contains
 
       do i = 1, size(settings%names)
          if (index_of_parameter(deck, settings%names(i)%s) > 0) cycle
-         text = '--set '//settings%names(i)%s//': '//deck%path//' has no such parameter'
+         text = 'setting '//settings%names(i)%s//': '//deck%path//' has no such parameter'
          near = nearest_names(settings%names(i)%s, parameter_names(deck), MOST_NEAREST)
          if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
          if (deck%n_parameters > 0) text = text//'; it has: '//join(parameter_names(deck), ', ')

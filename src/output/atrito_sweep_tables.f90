@@ -15,7 +15,8 @@ module atrito_sweep_tables
 
    !> One run of a sweep.
    type :: sweep_run_t
-      character(len=:), allocatable :: label           !< 'nu=0.3,eps=1e-4', also its folder below the sweep's
+      character(len=:), allocatable :: label           !< 'nu=0.3, eps=1e-4'
+      character(len=:), allocatable :: folder          !< below the sweep's
       type(string_t), allocatable :: texts(:)          !< values of the parameters as the user wrote them
       real(wp), allocatable :: values(:)
       integer :: code = STATUS_OK                      !< exit code of the run
@@ -30,7 +31,7 @@ module atrito_sweep_tables
    integer, parameter :: DIGITS = 5
    integer, parameter :: VALUE_WIDTH = 13
    character(len=*), parameter :: SHOWN(4) = [character(len=22) :: 'effective_area_percent', 'normal_resultant', 'max_pressure', &
-                                              'max_abs_shear']
+                                                                                                              'max_abs_shear']
 
    character(len=VALUE_WIDTH), parameter :: HEADINGS(size(SHOWN)) = &
                                             [character(len=VALUE_WIDTH) :: 'area [%]', 'normal [F]', 'max. p', 'max. |shear|']
@@ -130,7 +131,7 @@ contains
 
       n = size(runs, kind=ip)
       do i = 1, n
-         folders(i)%s = runs(i)%label
+         folders(i)%s = runs(i)%folder
       end do
       call begin_table(table, 'runs', 'a row a run', n)
       call add_integers(table, 'run', [(i, i=1, n)])
@@ -165,7 +166,7 @@ contains
       call add_rule(page, '-')
       call add_line(page, left('runs', 13)//to_text(n)//', '//to_text(count(runs%code == STATUS_OK, kind=ip)) &
                     //' of them solved and checked; '//plural(sum(runs%factorisations), 'factorisation', &
-                                                                                  'factorisations'))
+                                                              'factorisations'))
       call add_line(page, left('time', 13)//number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
       call add_line(page, left(left('tables in', 13)//folder, WIDTH))
       call add_line(page, left('', 13)//'sweep runs, and a folder a run')

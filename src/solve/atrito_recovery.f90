@@ -10,6 +10,7 @@ module atrito_recovery
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
    use atrito_element, only: element_stress
+   use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: element_coordinates
@@ -17,9 +18,11 @@ module atrito_recovery
    use atrito_points, only: contact_points_t
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_shape_functions, only: gauss_count
+   use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
    implicit none (type, external)
    private
-   public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress
+   public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
+             estimate_error
 
 contains
 
@@ -202,5 +205,18 @@ contains
          end do
       end do
    end subroutine recover_stress
+
+   !> Continuous stresses at the nodes, and the error in the energy norm that they tell. Both want the displacements.
+   subroutine estimate_error(fem, results)
+      type(fem_t), intent(in) :: fem
+      type(results_t), intent(inout) :: results
+      type(stress_field_t) :: field
+      type(energies_t) :: energies
+
+      call recover_stress_field(fem, results%u, field)
+      call nodal_stresses(fem, field, results%nodal_stress)
+      call measure_error(fem, results%u, field, energies)
+      results%error_estimate = relative_error(energies)
+   end subroutine estimate_error
 
 end module atrito_recovery

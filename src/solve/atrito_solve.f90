@@ -18,7 +18,8 @@ module atrito_solve
    use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
-   use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress
+   use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
+                              estimate_error
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t, iteration_t, body_result_t
    use atrito_scene_builder, only: build_scene
@@ -106,6 +107,9 @@ contains
       call start_phase('recover')
       call recover(model, data, store%bodies, solution, results)
       call stop_phase('recover')
+      call start_phase('estimate')
+      call estimate_error(data%fem, results)
+      call stop_phase('estimate')
       call start_phase('check')
       call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
       call stop_phase('check')
