@@ -21,8 +21,9 @@ module atrito_overlay_data
    integer, parameter :: FIELD_COLUMN(N_FIELDS) = [8, 9, 10, 11, 7]
    !> Rows of summary.tab that are drawn against a parameter.
    integer, parameter :: N_QUANTITIES = 4
-   character(len=22), parameter :: QUANTITY_NAME(N_QUANTITIES) = &
-                           [character(len=22) :: 'normal_resultant', 'effective_area_percent', 'max_pressure', 'max_abs_shear']
+   character(len=22), parameter :: QUANTITY_NAME(N_QUANTITIES) = [character(len=22) :: &
+                                                                  'normal_resultant', 'effective_area_percent', &
+                                                                  'max_pressure', 'max_abs_shear']
 
    !> A run of a sweep.
    type :: overlay_run_t

@@ -29,6 +29,7 @@ contains
       type(string_t), intent(in) :: files(:)        !< names without folder
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
+      integer :: most_pairs
 
       call begin_page(page, WIDTH)
       call add_rule(page, '=')
@@ -39,7 +40,10 @@ contains
       call add_rule(page, '-')
       call add_verdict(page, results)
       call add_sizes(page, model, results)
-      call add_pairs(page, results)
+      ! a run that failed tells it in two lines more: one pair less makes room for the plots
+      most_pairs = MOST_PAIRS
+      if (present(pictures) .and. .not. (results%converged .and. results%law_holds)) most_pairs = MOST_PAIRS - 1
+      call add_pairs(page, results, most_pairs)
       call add_rule(page, '-')
       call add_closing(page, folder, files)
       if (present(pictures)) call add_pictures(page, folder, pictures)
@@ -138,14 +142,15 @@ contains
    end function iteration_text
 
    !> A row a pair as in Quadro I of the paper, and a line of tractions.
-   subroutine add_pairs(page, results)
+   subroutine add_pairs(page, results, most)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
+      integer, intent(in) :: most                   !< pairs
       integer(ip) :: i, shown
 
       if (.not. allocated(results%contact)) return
       if (size(results%contact) == 0) return
-      shown = min(size(results%contact, kind=ip), int(MOST_PAIRS, ip))
+      shown = min(size(results%contact, kind=ip), int(most, ip))
       call add_rule(page, '-')
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
