@@ -41,7 +41,7 @@ contains
       reporter%quiet = command%quiet
       call load_model(command, reporter, model, told, code)
       if (code /= STATUS_OK) return
-      call solve_static(model, solve_options(command), reporter, store, results, status)
+      call solve_static(model, solve_options(command), reporter, results, status, store)
       call print_messages(command%quiet, told + 1)
       if (is_ok(status) .or. status%code == STATUS_NOT_CONVERGED) call agree_on_outcome(status, results)
       if (.not. is_ok(status)) call print_status(status, model%deck_path)

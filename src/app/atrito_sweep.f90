@@ -195,7 +195,7 @@ contains
       character(len=*), intent(in) :: title         !< where the deck has no heading
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(reporter_t) :: reporter
-      type(string_t), allocatable :: labels(:)
+      type(string_t), allocatable :: labels(:), folders(:)
       integer, allocatable :: order(:)
       integer :: i
 
@@ -205,11 +205,12 @@ contains
       call report_progress(reporter, 'plot  '//plot_folder(output_folder(command)))
       order = pack([(i, i=1, size(runs))], runs%code == STATUS_OK .or. runs%code == STATUS_NOT_CONVERGED)
       labels = plan%labels(order)
+      folders = plan%folders(order)
       call clear_messages()
       if (size(plan%names) == 1) then
-         call write_overlay_plots(output_folder(command), title, labels, labels, plan%names(1)%s, plan%values(1, order), drawn)
+         call write_overlay_plots(output_folder(command), title, labels, folders, plan%names(1)%s, plan%values(1, order), drawn)
       else
-         call write_overlay_plots(output_folder(command), title, labels, labels, '', [real(wp) ::], drawn)
+         call write_overlay_plots(output_folder(command), title, labels, folders, '', [real(wp) ::], drawn)
       end if
       call print_messages(command%quiet, 1_ip)
    end subroutine plot_sweep

@@ -24,7 +24,7 @@ module atrito_patches
       integer(ip), allocatable :: node(:)         !< (n) the node of a place
       integer(ip), allocatable :: place(:, :)     !< (Q2_NODES, n_elements): places of an element's nodes
       integer(ip), allocatable :: kind(:)         !< (n) PATCH_*
-      integer(ip), allocatable :: first(:)        !< (n + 1): the elements with place i as a corner are element(first(i):first(i+1)-1)
+      integer(ip), allocatable :: first(:)        !< (n + 1): element(first(i):first(i+1)-1) have place i as a corner
       integer(ip), allocatable :: element(:), corner(:)
    end type patches_t
 

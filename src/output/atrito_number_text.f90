@@ -35,10 +35,10 @@ module atrito_number_text
            9094947017729282379_lp, 5684341886080801487_lp, 7105427357601001859_lp, 8881784197001252323_lp, 5551115123125782702_lp, &
            6938893903907228378_lp, 8673617379884035472_lp, 5421010862427522170_lp, 6776263578034402713_lp, 8470329472543003391_lp, &
                              5293955920339377119_lp, 6617444900424221399_lp, 8271806125530276749_lp, 5169878828456422968_lp]
-   !> Decimal digits of the largest power of two below a number.
-   real(wp), parameter :: LOG10_OF_2 = 0.30102999566398119521_wp
-   integer, parameter :: POWER_BITS = 62, FRACTION_BITS = 53
-   integer, parameter :: ZERO = iachar('0')
+   !> Of a double: bits of the fraction with the leading one, that one, exponent of the least normal number.
+   integer, parameter :: POWER_BITS = 62, FRACTION_BITS = 53, BIAS = 1022
+   integer(lp), parameter :: LAST_BIT = 2_lp**(FRACTION_BITS - 1)
+   integer, parameter :: ZERO = iachar('0'), EIGHT = 8
    integer :: i, j
    integer(lp), parameter :: TEN_TO(0:MOST_DIGITS) = [(10_lp**i, i=0, MOST_DIGITS)]
    character(len=2), parameter :: PAIR(0:99) = [((achar(ZERO + i)//achar(ZERO + j), j=0, 9), i=0, 9)]
@@ -126,7 +126,7 @@ contains
       integer, intent(out) :: exponent_of_ten
       logical, intent(out) :: decided
 
-      exponent_of_ten = floor(LOG10_OF_2*real(exponent(x) - 1, wp))   ! the right one or one too small
+      exponent_of_ten = shifta((binary_exponent(x) - 1)*19728, 16)   ! the right one or one too small
       call scale_and_round(x, digits - 1 - exponent_of_ten, mantissa, decided)
       if (.not. decided) return
       if (mantissa >= TEN_TO(digits)) then
@@ -149,9 +149,9 @@ contains
       rounded = 0_lp
       decided = abs(k) <= MOST_POWER
       if (.not. decided) return
-      significand = int(scale(fraction(x), FRACTION_BITS), lp)
+      significand = ior(iand(transfer(x, 0_lp), LAST_BIT - 1_lp), LAST_BIT)
       product = int(significand, XP)*int(POWER(k), XP)
-      shift = FRACTION_BITS - exponent(x) - shift_of_power(k)
+      shift = FRACTION_BITS - binary_exponent(x) - shift_of_power(k)
       decided = shift > 1 .and. shift < 120
       if (.not. decided) return
       half = shiftl(1_XP, shift - 1)
@@ -162,6 +162,13 @@ contains
       rounded = int(shiftr(product, shift), lp)
       if (rest > half) rounded = rounded + 1_lp
    end subroutine scale_and_round
+
+   !> The same as exponent(x), read off the bits of a number that is not denormal (10**MOST_POWER has long refused those).
+   pure integer function binary_exponent(x)
+      real(wp), intent(in) :: x                    !< > 0
+
+      binary_exponent = int(shiftr(transfer(x, 0_lp), FRACTION_BITS - 1)) - BIAS
+   end function binary_exponent
 
    !> floor(k log2(10)) - 62.
    pure integer function shift_of_power(k)
@@ -205,33 +212,51 @@ contains
       integer(lp), intent(in) :: mantissa
       integer, intent(in) :: digits, exponent_of_ten
       character(len=*), intent(inout) :: field
-      integer(lp) :: rest, next
-      integer :: place, e, i
+      character(len=3*EIGHT) :: all
+      integer :: place, e
 
-      place = len(field)
+      call put_digits(mantissa, all)
       e = abs(exponent_of_ten)
+      place = len(field)
       field(place - 1:place) = PAIR(mod(e, 100))
       place = place - 2
       if (e > 99) then
          field(place:place) = achar(ZERO + e/100)
          place = place - 1
       end if
-      field(place - 1:place) = merge('e-', 'e+', exponent_of_ten < 0)
-      place = place - 2
-      rest = mantissa
-      do i = 1, (digits - 1)/2
-         next = rest/100_lp
-         field(place - 1:place) = PAIR(rest - 100_lp*next)
-         rest = next
-         place = place - 2
-      end do
-      if (mod(digits, 2) == 0) then
-         field(place:place) = achar(ZERO + int(mod(rest, 10_lp)))
-         rest = rest/10_lp
-         place = place - 1
-      end if
-      field(place - 1:place) = achar(ZERO + int(rest))//'.'
+      field(place:place) = '+'
+      if (exponent_of_ten < 0) field(place:place) = '-'
+      field(place - 1:place - 1) = 'e'
+      place = place - 1 - digits
+      field(place + 1:place + digits - 1) = all(len(all) - digits + 2:)
+      field(place:place) = '.'
+      field(place - 1:place - 1) = all(len(all) - digits + 1:len(all) - digits + 1)
       if (negative) field(place - 2:place - 2) = '-'
    end subroutine lay_out
+
+   !> All digits of a number, zeros before it.
+   pure subroutine put_digits(number, text)
+      integer(lp), intent(in) :: number            !< 0 .. 10**MOST_DIGITS
+      character(len=3*EIGHT), intent(out) :: text
+      integer(lp) :: upper
+
+      upper = number/TEN_TO(EIGHT)
+      call put_eight(int(number - upper*TEN_TO(EIGHT)), text(2*EIGHT + 1:))
+      call put_eight(int(mod(upper, TEN_TO(EIGHT))), text(EIGHT + 1:2*EIGHT))
+      call put_eight(int(upper/TEN_TO(EIGHT)), text(:EIGHT))
+   end subroutine put_digits
+
+   pure subroutine put_eight(number, text)
+      integer, intent(in) :: number                !< 0 .. 99999999
+      character(len=EIGHT), intent(out) :: text
+      integer :: upper, lower
+
+      upper = number/10000
+      lower = number - 10000*upper
+      text(1:2) = PAIR(upper/100)
+      text(3:4) = PAIR(mod(upper, 100))
+      text(5:6) = PAIR(lower/100)
+      text(7:8) = PAIR(mod(lower, 100))
+   end subroutine put_eight
 
 end module atrito_number_text

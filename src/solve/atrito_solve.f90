@@ -3,7 +3,7 @@ module atrito_solve
    use atrito_assembly, only: fem_t, body_profile, internal_forces
    use atrito_blas_info, only: set_blas_threads, is_reference_blas
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
-   use atrito_body_store, only: body_store_t, provide_bodies
+   use atrito_body_store, only: body_store_t, provide_bodies, take_numbering
    use atrito_condensed_body, only: condensed_body_t, choose_storage, motion_text
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
@@ -22,7 +22,7 @@ module atrito_solve
                               estimate_error
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t, iteration_t, body_result_t
-   use atrito_scene_builder, only: build_scene
+   use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_solve_history, only: solve_history_t
    use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
@@ -62,19 +62,36 @@ contains
       type(scene_t), intent(out) :: scene
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
+      type(body_store_t) :: store
 
-      call prepare(model, data)
+      call prepare(model, store, data)
       call describe_scene(model, data, options, scene)
       call check_known_points(data, status)
    end subroutine survey_scene
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact). results%converged and law_holds tell the rest.
-   subroutine solve_static(model, options, reporter, store, results, status)
+   subroutine solve_static(model, options, reporter, results, status, kept)
       type(model_t), intent(in) :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
-      type(body_store_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
+      type(results_t), intent(out) :: results
+      type(status_t), intent(out) :: status
+      type(body_store_t), intent(inout), optional :: kept  !< bodies of an earlier run; on return those of this one
+      type(body_store_t) :: store
+
+      if (present(kept)) then
+         call solve_with_store(model, options, reporter, kept, results, status)
+      else
+         call solve_with_store(model, options, reporter, store, results, status)
+      end if
+   end subroutine solve_static
+
+   subroutine solve_with_store(model, options, reporter, store, results, status)
+      type(model_t), intent(in) :: model
+      type(solve_options_t), intent(in) :: options
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
@@ -84,13 +101,14 @@ contains
 
       call set_blas_threads(int(options%threads, ip))
       call start_phase('order')
-      call prepare(model, data)
+      call prepare(model, store, data)
       call describe_scene(model, data, options, results%scene)
       call stop_phase('order')
       call check_known_points(data, status)
       if (.not. is_ok(status)) return
       call start_phase('factor')
-      call provide_bodies(store, data%fem, free_load(data), options%storage_kind, reporter, results%scene%bodies, status)
+      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), options%storage_kind, reporter, &
+                          results%scene%bodies, status)
       results%factorisations = store%factorisations
       call stop_phase('factor')
       if (.not. is_ok(status)) return
@@ -114,13 +132,17 @@ contains
       call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
       call stop_phase('check')
       call warn(model, data, solution, results)
-   end subroutine solve_static
+   end subroutine solve_with_store
 
-   subroutine prepare(model, data)
+   subroutine prepare(model, store, data)
       type(model_t), intent(in) :: model
+      type(body_store_t), intent(in) :: store
       type(scene_data_t), intent(out) :: data
+      logical :: known
 
       call build_scene(model, data%fem, data%held, data%value, data%points)
+      call take_numbering(store, data%held, data%points, data%fem, known)
+      if (.not. known) call build_bodies(model, data%held, data%points, data%fem)
       call build_rows(data%points, data%rows)
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
       data%f = nodal_loads(model)
