@@ -29,7 +29,7 @@ contains
       type(string_t), intent(in) :: files(:)        !< names without folder
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
-      integer :: most_pairs
+      integer :: most
 
       call begin_page(page, WIDTH)
       call add_rule(page, '=')
@@ -41,9 +41,9 @@ contains
       call add_verdict(page, results)
       call add_sizes(page, model, results)
       ! a run that failed tells it in two lines more: one pair less makes room for the plots
-      most_pairs = MOST_PAIRS
-      if (present(pictures) .and. .not. (results%converged .and. results%law_holds)) most_pairs = MOST_PAIRS - 1
-      call add_pairs(page, results, most_pairs)
+      most = MOST_PAIRS
+      if (present(pictures) .and. .not. (results%converged .and. results%law_holds)) most = MOST_PAIRS - 1
+      call add_pairs(page, results, most)
       call add_rule(page, '-')
       call add_closing(page, folder, files)
       if (present(pictures)) call add_pictures(page, folder, pictures)
