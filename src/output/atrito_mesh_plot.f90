@@ -11,7 +11,7 @@ module atrito_mesh_plot
    use atrito_mesh, only: mesh_t, face_end, FACES, Q2_NODES
    use atrito_faces, only: node_elements_t, list_node_elements
    use atrito_bodies, only: bodies_t, find_bodies
-   use atrito_model, only: model_t, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_results, only: results_t
    use atrito_number_text, only: trimmed_real
    use atrito_table, only: origin_t
@@ -26,6 +26,7 @@ module atrito_mesh_plot
    integer(ip), parameter :: MOST_NODES = 10000     !< of a mesh that is drawn with all its edges
    integer(ip), parameter :: FEW_NODES = 2000       !< of one whose undeformed edges are all drawn too
    integer, parameter :: PIECES = 10                !< straight pieces of a curved edge
+   integer, parameter :: ARC_PIECES = 60            !< of a rigid arc
    !> An edge whose middle node is off the middle by less than this share of the scene, or of the largest displacement, is straight.
    real(wp), parameter :: STRAIGHT = 3.0e-4_wp
    !> The largest displacement is drawn at most this long, as a share of the scene's diagonal.
@@ -204,7 +205,7 @@ contains
          call put_line(file, '')
       end do
       do i = 1, size(model%surfaces, kind=ip)
-         if (is_drawn_rigid(model, i)) call put_rigid(file, model%surfaces(i)%points)
+         if (is_drawn_rigid(model, i)) call put_rigid(file, model%surfaces(i))
       end do
       call close_text(file, status)
    end subroutine write_data
@@ -289,18 +290,49 @@ contains
       if (is_drawn_rigid) is_drawn_rigid = allocated(model%surfaces(surface)%points)
    end function is_drawn_rigid
 
-   subroutine put_rigid(file, points)
+   subroutine put_rigid(file, surface)
       type(text_file_t), intent(inout) :: file
-      real(wp), intent(in) :: points(:, :)          !< ends of its segments [L], (2, n)
-      integer :: i
+      type(surface_t), intent(in) :: surface        !< of segments
+      real(wp) :: place(2)
+      integer :: i, j, n_pieces
 
       call put_line(file, '# a rigid surface')
-      do i = 1, size(points, 2)
-         call put_place(file, [points(:, i), 0.0_wp, 0.0_wp])
+      call put_place(file, [surface%points(:, 1), 0.0_wp, 0.0_wp])
+      do i = 1, size(surface%points, 2) - 1
+         n_pieces = 1
+         if (is_arc(surface, i)) n_pieces = ARC_PIECES
+         do j = 1, n_pieces
+            place = surface%points(:, i + 1)
+            if (j < n_pieces) place = arc_place(surface, i, real(j, wp)/real(n_pieces, wp))
+            call put_place(file, [place, 0.0_wp, 0.0_wp])
+         end do
       end do
       call put_line(file, '')
       call put_line(file, '')
    end subroutine put_rigid
+
+   pure logical function is_arc(surface, segment)
+      type(surface_t), intent(in) :: surface
+      integer, intent(in) :: segment
+
+      is_arc = allocated(surface%is_arc) .and. allocated(surface%centre)
+      if (is_arc) is_arc = surface%is_arc(segment)
+   end function is_arc
+
+   !> The place at a share of an arc, which goes the shorter way round its centre.
+   pure function arc_place(surface, segment, share) result(place)
+      type(surface_t), intent(in) :: surface
+      integer, intent(in) :: segment
+      real(wp), intent(in) :: share                 !< 0..1
+      real(wp) :: place(2), from(2), to(2), angle
+
+      associate (centre => surface%centre(:, segment))
+         from = surface%points(:, segment) - centre
+         to = surface%points(:, segment + 1) - centre
+         angle = share*atan2(from(1)*to(2) - from(2)*to(1), dot_product(from, to))
+         place = centre + cos(angle)*from + sin(angle)*[-from(2), from(1)]
+      end associate
+   end function arc_place
 
    subroutine write_script(set, model, results, origin, lines, window, largest, scale, status)
       type(file_set_t), intent(inout) :: set
