@@ -12,6 +12,7 @@ module atrito_run
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_page, only: page_t, print_page
+   use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: results_t
@@ -20,6 +21,7 @@ module atrito_run
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
    use atrito_timers, only: start_phase, stop_phase
+   use atrito_write_plots, only: write_plots, plot_names
    use atrito_write_results, only: write_results
    implicit none (type, external)
    private
@@ -75,19 +77,28 @@ contains
       integer, intent(inout) :: code
       type(status_t) :: status
       type(page_t) :: page
-      type(string_t), allocatable :: written(:)
+      type(string_t), allocatable :: written(:), pictures(:)
       character(len=:), allocatable :: folder
+      integer(ip) :: told
 
       folder = output_folder(command)
       call report_progress(reporter, 'write '//folder)
-      call write_results(model, results, int(command%digits), folder, written, status)
+      told = count_messages()
+      if (command%plot) pictures = plot_names(results)       ! not allocated: an optional argument that is not there
+      call write_results(model, results, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
          call print_status(status, model%deck_path)
          code = status%code
-      else if (.not. command%quiet) then
-         call compose_summary(model, results, folder, written, page)
-         call print_page(page, output_unit)
+         return
       end if
+      if (command%plot) then
+         call report_progress(reporter, 'plot  '//plot_folder(folder))
+         call write_plots(model, results, folder, pictures)
+      end if
+      call print_messages(command%quiet, told + 1)
+      if (command%quiet) return
+      call compose_summary(model, results, folder, written, page, pictures)
+      call print_page(page, output_unit)
    end subroutine write_run
 
    !> Reads a deck and builds its model. All messages are told; errors of the deck give STATUS_DECK.

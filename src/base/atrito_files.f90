@@ -10,7 +10,7 @@ module atrito_files
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: read_file, file_exists, is_folder, make_folder, remove_file
+   public :: read_file, file_exists, is_folder, make_folder, remove_file, remove_empty_folder
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text, commit_files, discard_files
 
    !> A set of files that appear together or not at all.
@@ -146,6 +146,14 @@ contains
 
       ignored = c_unlink(path//c_null_char)
    end subroutine remove_file
+
+   !> Removes a folder; one that is not empty stays.
+   subroutine remove_empty_folder(path)
+      character(len=*), intent(in) :: path
+      integer(c_int) :: ignored
+
+      ignored = c_rmdir(path//c_null_char)
+   end subroutine remove_empty_folder
 
    !> Begins a set of files in a folder, which is made where it is missing.
    subroutine begin_files(set, folder, status)
@@ -291,13 +299,12 @@ contains
    subroutine discard_files(set)
       type(file_set_t), intent(in) :: set
       integer :: i
-      integer(c_int) :: ignored
 
       if (.not. allocated(set%names)) return
       do i = 1, size(set%names)
          call remove_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
       end do
-      if (set%is_new) ignored = c_rmdir(set%folder//c_null_char)   ! fails on one that is not empty, as it should
+      if (set%is_new) call remove_empty_folder(set%folder)
    end subroutine discard_files
 
 end module atrito_files

@@ -38,13 +38,15 @@ module atrito_model
       integer(ip) :: formulation = FORMULATION_STANDARD
    end type section_t
 
-   !> A surface of element faces (a connected chain when it is a slave) or of straight rigid segments.
+   !> A surface of element faces (a connected chain when it is a slave) or of rigid segments, straight ones and arcs.
    type :: surface_t
       character(len=:), allocatable :: name
       integer(ip) :: kind = SURFACE_ELEMENTS
       logical :: is_rigid_body = .false.       !< a *RIGID BODY names it
       type(face_list_t) :: faces               !< SURFACE_ELEMENTS
       real(wp), allocatable :: points(:, :)    !< SURFACE_SEGMENTS: ends of the segments [L], (2, n+1), in direction of travel
+      logical, allocatable :: is_arc(:)        !< (n)
+      real(wp), allocatable :: centre(:, :)    !< (2, n) of arcs [L]
    end type surface_t
 
    type :: interaction_t

@@ -1,13 +1,14 @@
 !> The closing summary of a run: at most a screen of 80 columns by 24 lines.
 module atrito_screen
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_timers, only: phase_time_t, get_phases, peak_memory
    use atrito_model, only: model_t, METHOD_NAME
    use atrito_results, only: results_t, scene_t
    use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, bytes, plural
+   use atrito_plot_files, only: plot_folder
    use atrito_summary, only: pair_summary_t, summarise_pair
    implicit none (type, external)
    private
@@ -20,12 +21,13 @@ module atrito_screen
 contains
 
    !> Composes the summary. folder and files: where the run was written.
-   subroutine compose_summary(model, results, folder, files, page)
+   subroutine compose_summary(model, results, folder, files, page, pictures)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: files(:)        !< names without folder
       type(page_t), intent(out) :: page
+      type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
 
       call begin_page(page, WIDTH)
       call add_rule(page, '=')
@@ -36,9 +38,10 @@ contains
       call add_rule(page, '-')
       call add_verdict(page, results)
       call add_sizes(page, model, results)
-      call add_pairs(page, results, most_pairs(results, files))
+      call add_pairs(page, results, most_pairs(results, files, present(pictures)))
       call add_rule(page, '-')
       call add_closing(page, folder, files)
+      if (present(pictures)) call add_pictures(page, folder, pictures)
       call add_rule(page, '=')
    end subroutine compose_summary
 
@@ -134,16 +137,19 @@ contains
    end function iteration_text
 
    !> How many pairs leave the rest its place: a verdict takes two lines, a field file one.
-   pure integer(ip) function most_pairs(results, files) result(most)
+   pure integer(ip) function most_pairs(results, files, has_pictures) result(most)
       type(results_t), intent(in) :: results
       type(string_t), intent(in) :: files(:)
-      integer :: i
+      logical, intent(in) :: has_pictures
+      integer :: i, extra
 
-      most = 2
-      if (results%converged .and. results%law_holds) return
+      extra = merge(1, 2, results%converged .and. results%law_holds)  ! the estimated error, or what is wrong
+      if (has_pictures) extra = extra + 1
       do i = 1, size(files)
-         if (ends_with(files(i)%s, '.xdmf')) most = 1
+         if (ends_with(files(i)%s, '.xdmf')) extra = extra + 1
       end do
+      most = 2
+      if (extra > 2) most = 1
    end function most_pairs
 
    !> A row a pair as in Quadro I of the paper, and a line of tractions.
@@ -231,6 +237,15 @@ contains
 
       ends_with = index(name, ending, back=.true.) == max(1, len(name) - len(ending) + 1)
    end function ends_with
+
+   subroutine add_pictures(page, folder, pictures)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: pictures(:)
+
+      if (size(pictures) == 0) return
+      call add_item(page, 'plots in', plot_folder(folder)//': '//join(pictures, ' '))
+   end subroutine add_pictures
 
    !> Seconds to the millisecond.
    pure function seconds(time) result(text)
