@@ -1,4 +1,4 @@
-!> The master of a contact pair as a list of pieces, straight, parabolic or arcs of circles, and what a point of the slave sees of it.
+!> The master of a contact pair as a list of pieces, straight, parabolic or arcs of circles, and what a point of the slave sees.
 module atrito_master
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp, EPS_MACH
@@ -7,8 +7,8 @@ module atrito_master
    private
    public :: master_t, sight_t, master_of_faces, master_of_segments, look_along, look_at_end, nearest_end
 
-   !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment. A rigid arc turns a round its
-   !> centre by the angle t sweep.
+   !> A piece is x = a + t d + 4 t (1 - t) sag with t in [0,1]: a face of elements, or a rigid segment. A rigid arc turns a round
+   !> its centre by the angle t sweep.
    type :: master_t
       logical :: rigid = .false.
       integer(ip) :: n = 0

@@ -26,8 +26,8 @@ contains
       d = matmul(x, face_shape_slopes(size(x, 2, kind=ip), t))
    end function face_direction
 
-   !> Outward unit normal: the direction of travel turned by -90 degrees. With the middle node at a quarter of the face dx/dt vanishes
-   !> at an end, and the normal is that of the chord.
+   !> Outward unit normal: the direction of travel turned by -90 degrees. With the middle node at a quarter of the face dx/dt
+   !> vanishes at an end, and the normal is that of the chord.
    pure function outward_normal(x, t) result(n)
       real(wp), intent(in) :: x(:, :)              !< (2, 2 or 3) [L]
       real(wp), intent(in) :: t                    !< in [-1,1]

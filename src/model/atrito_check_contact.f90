@@ -217,7 +217,7 @@ contains
          associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
             if (master%kind == SURFACE_SEGMENTS) then
                call pair_surfaces(model%mesh, thickness, slave%faces, no_faces, master%points, points, &
-                               master%is_arc, master%centre)
+                                  master%is_arc, master%centre)
             else
                call pair_surfaces(model%mesh, thickness, slave%faces, master%faces, no_points, points)
             end if

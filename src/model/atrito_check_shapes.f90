@@ -20,7 +20,7 @@ module atrito_check_shapes
    integer(ip), parameter :: MIDDLES = Q2_NODES - FACES      !< mid-sides and centre
    !> Where the nodes of a nine-node element lie in [-1,1]^2.
    real(wp), parameter :: NODE_PLACE(2, Q2_NODES) = reshape([real(wp) :: -1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, &
-                                                             -1, 0, 0, 0], [2, Q2_NODES])
+                                                                                                        -1, 0, 0, 0], [2, Q2_NODES])
 
 contains
 
@@ -143,9 +143,9 @@ contains
       end do
    end function corner_jacobians
 
-   !> A nine-node element is good when its Jacobian is positive at its integration points and nodes; at a node it may be 0, since
-   !> mid-side nodes at a quarter of the sides are a known way to the tip of a crack. If it is not good, the likely cause: the corners,
-   !> as for four nodes; else the order of the others, if another order would do; else the one that is farthest off.
+   !> A nine-node element is good when its Jacobian is positive at its integration points and nodes; at a node it may be 0: mid-side
+   !> nodes at a quarter of the sides are a known way to the tip of a crack. If it is not good, the likely cause: the corners, as
+   !> for four nodes; else the order of the others, if another order would do; else the one that is farthest off.
    pure subroutine judge_nine_nodes(x, shape, node)
       real(wp), intent(in) :: x(2, Q2_NODES)           !< [L]
       integer(ip), intent(out) :: shape                !< SHAPE_*
