@@ -214,7 +214,8 @@ contains
       call define_keyword(k, 'SURFACE', LEVEL_MODEL, 'names a surface: faces of elements, or a drawn line', &
                           doc='Over a set, face Sn of each of its elements; without a face, all outer faces. A face inside the '// &
                           'mesh is an error. The outward normal of a drawn line is its direction of travel turned by +90 '// &
-                          'degrees: a floor drawn from left to right faces up.')
+                          'degrees: a floor drawn from left to right faces up. An arc runs the shorter way round its centre, '// &
+                          'which is as far from both ends within 1e-4 and is moved to be so exactly.')
       call add_option(k, 'NAME', KIND_NAME, 'name of the surface', required=.true.)
       call add_option(k, 'TYPE', KIND_WORD, 'kind of surface', default='ELEMENT', choices='ELEMENT SEGMENTS')
       call add_option(k, 'INTERNAL', KIND_FLAG, 'mark of a preprocessor', harmless=.true.)

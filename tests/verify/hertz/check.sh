@@ -49,7 +49,7 @@ for scene in cylinder disc; do
    judge $scene-CPE9-32 0.01 0.02 0.025
 done
 echo
-echo '| scene | closed points | p(0)/p0 - 1 | a | largest error of p up to 0.8 a, over p0 |
+echo '| scene | closed points | p(0)/p0 - 1 | half width over a, less 1 | largest error of p up to 0.8 a, over p0 |
 |---|---|---|---|---|'
 awk -F'|' '{ printf "|%s|%s| %.2e | %.2e | %.2e |\n", $2, $3, $4, $5, $6 }' hertz.txt
 finish
