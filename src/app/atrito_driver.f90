@@ -1,6 +1,7 @@
 !> Does what the command line asks for: reads, solves, writes, and tells how it went.
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+   use atrito_files, only: ignore_broken_pipe
    use atrito_kinds, only: ip
    use atrito_blas_info, only: set_blas_threads
    use atrito_strings, only: string_t, join, upper_case, to_text, nearest_names
@@ -42,6 +43,7 @@ contains
       type(page_t) :: page
       logical :: ok
 
+      call ignore_broken_pipe()
       call set_blas_threads(1_ip)
       call clear_messages()
       call reset_timers()
