@@ -9,7 +9,7 @@ module atrito_draft
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_items, only: get_integer, get_name
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    use atrito_mesh, only: find_node, find_element
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
@@ -38,6 +38,7 @@ module atrito_draft
    end type block_t
 
    type :: draft_t
+      integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(string_t), allocatable :: spoiled(:)        !< names whose definition is faulty
       type(string_t), allocatable :: unsure(:)         !< nouns: one of these should have been defined, its name is not known
       type(id_map_t) :: spoiled_nodes, spoiled_elements

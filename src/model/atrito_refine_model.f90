@@ -1,13 +1,14 @@
 !> --refine: the mesh of a deck and its sets, refined. Surfaces, loads and supports are read afterwards and follow them.
 module atrito_refine_model
    use atrito_build_nodes, only: MOST_NODES
-   use atrito_deck, only: deck_t
+   use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t
+   use atrito_model_memory, only: fits_memory
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -23,11 +24,22 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(mesh_t) :: fine
+      type(token_t) :: nowhere
+      integer(lp) :: n_nodes, n_elements
       integer(ip) :: i
 
-      if (count_fine_nodes(model%mesh, 2**levels) > int(MOST_NODES, lp)) then
+      if (model%mesh%n_elements == 0) return
+      n_nodes = count_fine_nodes(model%mesh, 2**levels)
+      n_elements = int(model%mesh%n_elements, lp)*4_lp**levels
+      if (n_nodes > int(MOST_NODES, lp)) then
          call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
                                 ' nodes', expected='a smaller number: each one more makes four elements of one')
+         return
+      else if (n_nodes + maxval(model%mesh%node_id) > int(huge(1_ip), lp)) then
+         call report_deck_error(deck, 'E-REFINE', 'the numbers of the new nodes, which follow the greatest of the deck, '// &
+                                to_text(maxval(model%mesh%node_id))//', would be too large', expected='smaller node numbers')
+         return
+      else if (.not. fits_memory(deck, nowhere, model, draft, n_nodes, n_elements)) then
          return
       end if
       call refine_mesh(model%mesh, draft%around, 2**levels, fine, draft%refinement)
