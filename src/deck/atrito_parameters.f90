@@ -8,7 +8,7 @@ module atrito_parameters
    use atrito_items, only: index_of_parameter, parameter_names, LONGEST_NAME
    use atrito_lexer, only: find_equals, trim_place
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
-   use atrito_strings, only: string_t, append_string, same_name, nearest_names, join, to_text
+   use atrito_strings, only: string_t, append_string, lower_case, same_name, nearest_names, join, to_text
    implicit none (type, external)
    private
    public :: settings_t, read_settings, define_parameter, check_settings, evaluate_function
@@ -205,20 +205,30 @@ contains
       end do
    end subroutine evaluate_function
 
-   !> The parameters that have values and are defined before a place.
+   !> The parameters that have values, are defined before the place of an expression and may be named in it.
    subroutine collect_known(deck, place, names, values)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: place
       type(string_t), allocatable, intent(out) :: names(:)
       real(wp), allocatable, intent(out) :: values(:)
-      integer(ip) :: i
+      character(len=:), allocatable :: text
+      integer(ip), allocatable :: used(:)
+      integer(ip) :: i, n, here
 
-      allocate (names(0), values(0))
+      text = lower_case(token_text(deck, place))
+      here = reading_order(deck, place%source, place%line)
+      allocate (used(deck%n_parameters))
+      n = 0
       do i = 1, deck%n_parameters
-         if (.not. deck%parameters(i)%known) cycle
-         if (deck%parameters(i)%order >= reading_order(deck, place%source, place%line)) cycle
-         call append_string(names, deck%parameters(i)%name)
-         values = [values, deck%parameters(i)%value]
+         if (.not. deck%parameters(i)%known .or. deck%parameters(i)%order >= here) cycle
+         if (index(text, lower_case(deck%parameters(i)%name)) == 0) cycle
+         n = n + 1
+         used(n) = i
+      end do
+      allocate (names(n), values(n))
+      do i = 1, n
+         names(i)%s = deck%parameters(used(i))%name
+         values(i) = deck%parameters(used(i))%value
       end do
    end subroutine collect_known
 

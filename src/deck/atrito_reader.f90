@@ -185,20 +185,26 @@ contains
       type(token_t), allocatable, intent(out) :: items(:)
       type(line_t) :: next
       type(cursor_t) :: ahead
+      integer(ip) :: n
       logical :: goes_on
 
-      allocate (items(0))
+      allocate (items(16))
+      n = 0
       next = line
       do
          call split_line(deck, reading, cursor, next)
-         items = [items, tokens_of(reading%items, cursor, next)]
+         call add_tokens(reading%items, cursor, next, items, n)
          goes_on = deck%sources(cursor%source)%text(next%last:next%last) == ','
-         if (.not. goes_on) return
+         if (.not. goes_on) then
+            items = items(:n)
+            return
+         end if
          ahead = cursor
          call look_ahead(deck, ahead, next, goes_on)
          if (.not. goes_on) exit
          cursor = ahead
       end do
+      items = items(:n)
       call report_error(deck, items(size(items)), 'E-CONTINUATION', 'a comma at the end of the keyword line, but no line goes on', &
                         expected='no comma, or further options')
    end subroutine gather_items
@@ -235,17 +241,26 @@ contains
       end if
    end subroutine split_line
 
-   pure function tokens_of(items, cursor, line) result(tokens)
+   !> Appends the items of a line to a list of n so far, which doubles where it is too short.
+   pure subroutine add_tokens(items, cursor, line, tokens, n)
       type(items_t), intent(in) :: items
       type(cursor_t), intent(in) :: cursor
       type(line_t), intent(in) :: line
-      type(token_t) :: tokens(items%n)
+      type(token_t), allocatable, intent(inout) :: tokens(:)
+      integer(ip), intent(inout) :: n
+      type(token_t), allocatable :: longer(:)
       integer(ip) :: i
 
+      if (n + items%n > size(tokens)) then
+         allocate (longer(2*(n + items%n)))
+         longer(:n) = tokens(:n)
+         call move_alloc(longer, tokens)
+      end if
       do i = 1, items%n
-         tokens(i) = token_at(cursor, line, items%first(i), items%last(i))
+         tokens(n + i) = token_at(cursor, line, items%first(i), items%last(i))
       end do
-   end function tokens_of
+      n = n + items%n
+   end subroutine add_tokens
 
    subroutine begin_card(deck, reading, card)
       type(deck_t), intent(inout) :: deck

@@ -21,7 +21,7 @@ module atrito_build_model
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
    use atrito_refine_model, only: refine_model
-   use atrito_strings, only: append_string, lower_case
+   use atrito_strings, only: lower_case
    implicit none (type, external)
    private
    public :: build_model
@@ -89,7 +89,7 @@ contains
    subroutine take_titles(deck, model)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
-      integer(ip) :: i, k
+      integer(ip) :: i, k, n
 
       model%deck_path = deck%path
       model%deck_name = deck%path(index(deck%path, '/', back=.true.) + 1:)
@@ -97,11 +97,17 @@ contains
       if (k > 0) then
          if (lower_case(model%deck_name(k + 1:)) == '.inp') model%deck_name = model%deck_name(:k)
       end if
-      allocate (model%heading(0))
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == 'HEADING') n = n + deck%cards(i)%n_lines
+      end do
+      allocate (model%heading(n))
+      n = 0
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) /= 'HEADING') cycle
          do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
-            call append_string(model%heading, token_text(deck, line_item(deck, deck%lines(k), 1_ip)))
+            n = n + 1
+            model%heading(n)%s = token_text(deck, line_item(deck, deck%lines(k), 1_ip))
          end do
       end do
    end subroutine take_titles

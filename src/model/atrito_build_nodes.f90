@@ -158,8 +158,12 @@ contains
          call find_one_node(deck, model, draft, line_item(deck, line, 2_ip), ends(2), good(2), 'NGEN')
          call get_integer(deck, line_item(deck, line, 3_ip), 'increment of the numbers, an integer', step, good(3), 1_ip, 'NGEN')
          if (all(good)) good(3) = is_step(deck, line, model%mesh%node_id(ends), step)
-         if (all(good)) good(3) = fits_memory(deck, deck%tokens(line%first_token), model, draft, &
-                                              int((model%mesh%node_id(ends(2)) - model%mesh%node_id(ends(1)))/step, lp), 0_lp, 'NGEN')
+         if (all(good)) then
+            associate (ids => model%mesh%node_id(ends))
+               good(3) = fits_memory(deck, deck%tokens(line%first_token), model, draft, int((ids(2) - ids(1))/step, lp), 0_lp, &
+                                     'NGEN')
+            end associate
+         end if
       end if
       ok = all(good)
    end subroutine read_ngen_line

@@ -8,7 +8,7 @@ program atrito_fuzz
    use atrito_build_model, only: build_model
    use atrito_deck, only: deck_t
    use atrito_files, only: read_file, remove_file
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: clear_messages, count_messages, get_message, format_message, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_numbers, only: read_integer, NUMBER_OK
@@ -38,6 +38,8 @@ program atrito_fuzz
    type :: tally_t
       integer(ip) :: done = 0, sound = 0, solved = 0, failed = 0
       integer(lp) :: errors = 0
+      integer(ip) :: slowest = 0                       !< the mutation that took longest
+      real(wp) :: longest = 0.0_wp                     !< seconds of processor
    end type tally_t
 
    !> A mutated deck is small: a model of more than this is refused for want of memory.
@@ -49,19 +51,22 @@ program atrito_fuzz
    type(tally_t) :: tally
    type(dictionary_t) :: dictionary
    integer(ip) :: k
+   real(wp) :: start
 
    call read_command(task)
    call build_dictionary(dictionary)
    call begin_watch()
    do k = task%first, task%first + task%count - 1
       call watch_mutation('--seed '//to_text(task%seed)//' --one '//to_text(k), int(task%seconds))
+      call cpu_time(start)
       call do_mutation(task, dictionary, k, tally)
+      call note_time(start, k, tally)
       call end_watch()
    end do
    if (.not. task%alone) call remove_file(task%path)
    write (output_unit, '(*(g0))') 'seed ', task%seed, ', mutations ', task%first, ' to ', task%first + task%count - 1, ': ', &
       tally%sound, ' without error, ', tally%solved, ' solved, ', tally%errors, ' errors told, ', tally%failed, &
-      ' failed; peak memory ', peak_memory()/1048576_lp, ' MiB'
+      ' failed; peak memory ', peak_memory()/1048576_lp, ' MiB; slowest ', tally%slowest
    if (tally%failed > 0) error stop 1, quiet=.true.
 
 contains
@@ -103,6 +108,19 @@ contains
       tally%failed = tally%failed + 1
       write (error_unit, '(a)') 'FAILED: --seed '//to_text(task%seed)//' --one '//to_text(k)//': '//fault
    end subroutine do_mutation
+
+   subroutine note_time(start, k, tally)
+      real(wp), intent(in) :: start
+      integer(ip), intent(in) :: k
+      type(tally_t), intent(inout) :: tally
+      real(wp) :: now
+
+      call cpu_time(now)
+      if (now - start <= tally%longest) return
+      tally%longest = now - start
+      tally%slowest = k
+      if (task%alone) write (error_unit, '(*(g0))') now - start, ' s'
+   end subroutine note_time
 
    subroutine solve_model(model, fault)
       type(model_t), intent(in) :: model

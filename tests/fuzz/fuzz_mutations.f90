@@ -28,7 +28,7 @@ contains
       call random_integer(random, 1_ip, MOST_STEPS, steps)
       do n = 1, steps
          call mutate_once(random, decks, dictionary, own_name, text)
-         if (len(text) > LARGEST_DECK) text = text(:LARGEST_DECK)
+         if (len(text) > LARGEST_DECK) call replace_place(text, LARGEST_DECK + 1, len(text, kind=ip), '')
       end do
    end subroutine mutate_deck
 
@@ -133,8 +133,10 @@ contains
       character(len=:), allocatable, intent(inout) :: text
       integer(ip), intent(in) :: first, last
       character(len=*), intent(in) :: new
+      character(len=:), allocatable :: changed
 
-      text = text(:first - 1)//new//text(last + 1:)
+      changed = text(:first - 1)//new//text(last + 1:)
+      call move_alloc(changed, text)
    end subroutine replace_place
 
    subroutine any_item(random, dictionary, item)
@@ -294,15 +296,19 @@ contains
    subroutine swap_lines(random, text)
       type(random_t), intent(inout) :: random
       character(len=:), allocatable, intent(inout) :: text
-      integer(ip) :: a(2), b(2)
+      character(len=:), allocatable :: changed
+      integer(ip) :: a(2), b(2), held(2)
 
       call find_line(random, text, a(1), a(2))
       call find_line(random, text, b(1), b(2))
+      if (a(1) == b(1)) return
       if (a(1) > b(1)) then
-         text = text(:b(1) - 1)//text(a(1):a(2))//text(b(2) + 1:a(1) - 1)//text(b(1):b(2))//text(a(2) + 1:)
-      else if (b(1) > a(1)) then
-         text = text(:a(1) - 1)//text(b(1):b(2))//text(a(2) + 1:b(1) - 1)//text(a(1):a(2))//text(b(2) + 1:)
+         held = a
+         a = b
+         b = held
       end if
+      changed = text(:a(1) - 1)//text(b(1):b(2))//text(a(2) + 1:b(1) - 1)//text(a(1):a(2))//text(b(2) + 1:)
+      call move_alloc(changed, text)
    end subroutine swap_lines
 
    !> A card of a deck in the place of a line's beginning, or the end of one deck behind the beginning of another.
@@ -310,6 +316,7 @@ contains
       type(random_t), intent(inout) :: random
       type(string_t), intent(in) :: decks(:)
       character(len=:), allocatable, intent(inout) :: text
+      character(len=:), allocatable :: changed
       integer(ip) :: i, first, last, cut, ignored
       logical :: whole
 
@@ -318,7 +325,8 @@ contains
       call random_chance(random, 5_ip, whole)
       if (whole) then
          call find_line(random, text, cut, ignored)
-         text = text(:cut - 1)//decks(i)%s(first:)
+         changed = text(:cut - 1)//decks(i)%s(first:)
+         call move_alloc(changed, text)
       else
          call insert_at_line(random, decks(i)%s(first:last), text)
       end if

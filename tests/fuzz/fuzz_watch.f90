@@ -1,7 +1,7 @@
 !> Tells which mutation was at work when the program is stopped by a signal (a crash, or the alarm of the watchdog), or by the
 !> run-time library.
 module fuzz_watch
-   use, intrinsic :: iso_c_binding, only: c_char, c_funloc, c_funptr, c_int, c_long, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_funloc, c_funptr, c_int, c_long, c_null_funptr, c_size_t
    implicit none (type, external)
    private
    public :: begin_watch, watch_mutation, end_watch
@@ -90,7 +90,7 @@ contains
 
       call tell(merge('HANGS  ', 'STOPPED', number == SIGALRM))
       at_work = .false.
-      default_action = transfer(0, default_action)
+      default_action = c_null_funptr
       previous = c_signal(number, default_action)
       ignored = c_raise(number)
    end subroutine tell_signal
