@@ -165,6 +165,7 @@ contains
    function format_message(message) result(lines)
       type(message_t), intent(in) :: message
       type(string_t), allocatable :: lines(:)
+      integer :: i
 
       allocate (lines(0))
       call append_string(lines, first_line(message))
@@ -179,6 +180,9 @@ contains
          if (size(message%known) > 0) call append_string(lines, '    known:    '//join(message%known, ', '))
       end if
       if (allocated(message%keyword)) call append_string(lines, '    see:      atrito help '//message%keyword)
+      do i = 1, size(lines)
+         lines(i)%s = visible(lines(i)%s)             ! names and paths are the user's
+      end do
    end function format_message
 
    function first_line(message) result(text)
@@ -192,7 +196,7 @@ contains
          if (message%line > 0) text = text//to_text(message%line)//':'//to_text(max(message%column, 1_ip))//':'
          text = text//' '
       end if
-      text = text//trim(WORD(message%severity))//' ['//message%id//'] '//visible(message%text)
+      text = text//trim(WORD(message%severity))//' ['//message%id//'] '//message%text
    end function first_line
 
    !> The deck's line and the marker below it; of a long line the part round the marker.
@@ -212,7 +216,7 @@ contains
       before = repeat('.', merge(3, 0, first > 1))
       after = repeat('.', merge(3, 0, last < len(message%source)))
       length = max(1, min(message%length, last - column + 1))
-      call append_string(lines, '    '//before//visible(message%source(first:last))//after)
+      call append_string(lines, '    '//before//message%source(first:last)//after)
       call append_string(lines, '    '//before//marker(message%source(first:last), column - first + 1, length))
    end subroutine append_source
 
