@@ -10,7 +10,7 @@ module atrito_files
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: read_file, read_system_line, file_exists, is_folder, make_folder, remove_file, &
+   public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_file, &
              ignore_broken_pipe
    public :: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files, discard_files
 
@@ -42,6 +42,11 @@ module atrito_files
    integer, parameter :: FIRST_BYTES = 65536
 
    interface
+      type(c_ptr) function c_realpath(path, resolved) bind(C, name='realpath')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: resolved(*)
+      end function c_realpath
       integer(c_int) function c_open(path, flags) bind(C, name='open')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
@@ -190,6 +195,20 @@ contains
       close (unit)
       if (found) line = trim(buffer)
    end subroutine read_system_line
+
+   !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
+   !> such file.
+   function true_path(path) result(true)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: true
+      integer, parameter :: LONGEST = 4096                        ! PATH_MAX of Linux; elsewhere it is 1024
+      character(len=LONGEST) :: buffer
+
+      true = path
+      if (len(path) >= LONGEST) return
+      buffer = ' '
+      if (c_associated(c_realpath(path//c_null_char, buffer))) true = buffer(:index(buffer, c_null_char) - 1)
+   end function true_path
 
    logical function file_exists(path)
       character(len=*), intent(in) :: path
