@@ -13,7 +13,7 @@ module atrito_model_memory
 
    !> What a node and an element take at the peak between reading and solving, measured with blocks of a million nodes: Q1 340
    !> bytes a node, refined 440, Q2 440.
-   integer(lp), parameter :: NODE_BYTES = 400_lp, ELEMENT_BYTES = 100_lp
+   integer(lp), parameter :: NODE_BYTES = 500_lp, ELEMENT_BYTES = 100_lp
 
 contains
 

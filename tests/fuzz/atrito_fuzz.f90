@@ -1,8 +1,9 @@
 !> Reads mutated decks, many in one process, and checks what must hold of every reading. docs/verification/fuzzing.md
 !>
-!>     atrito_fuzz [--seed S] [--count N] [--first K] [--one K] [--solve] [--write FILE] [--seconds T] DECK...
+!>     atrito_fuzz [--seed S] [--count N] [--first K] [--one K] [--solve] [--keep] [--write FILE] [--seconds T] DECK...
 !>
-!> Mutation K of seed S is the same on every machine. `--one K` does it alone and writes the deck to FILE.
+!> Mutation K of seed S is the same on every machine. `--one K` does it alone, tells its messages and leaves the deck in FILE.
+!> `--keep` only writes all mutated decks, to FILE.K, for run-program.sh.
 program atrito_fuzz
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use atrito_build_model, only: build_model
@@ -29,7 +30,7 @@ program atrito_fuzz
    !> What the command line asks for.
    type :: task_t
       integer(ip) :: seed = 1, first = 1, count = 1000, seconds = 10
-      logical :: alone = .false., solve = .false.
+      logical :: alone = .false., solve = .false., keep = .false.
       character(len=:), allocatable :: path
       type(string_t), allocatable :: decks(:)
    end type task_t
@@ -47,6 +48,8 @@ program atrito_fuzz
    !> Solved are models of at most so many nodes.
    integer(ip), parameter :: MOST_SOLVED = 2000
    integer(ip), parameter :: MOST_LEVELS = 2
+   !> What a deck calls itself that includes itself; the fuzzer's own decks have this name by default.
+   character(len=*), parameter :: OWN_NAME = 'fuzz-deck.inp'
    type(task_t) :: task
    type(tally_t) :: tally
    type(dictionary_t) :: dictionary
@@ -64,6 +67,7 @@ program atrito_fuzz
       call end_watch()
    end do
    if (.not. task%alone) call remove_file(task%path)
+   if (task%keep) stop
    write (output_unit, '(*(g0))') 'seed ', task%seed, ', mutations ', task%first, ' to ', task%first + task%count - 1, ': ', &
       tally%sound, ' without error, ', tally%solved, ' solved, ', tally%errors, ' errors told, ', tally%failed, &
       ' failed; peak memory ', peak_memory()/1048576_lp, ' MiB; slowest ', tally%slowest
@@ -85,7 +89,11 @@ contains
       integer(ip) :: levels
 
       call begin_random(random, task%seed, k)
-      call mutate_deck(random, task%decks, dictionary, task%path, text)
+      call mutate_deck(random, task%decks, dictionary, OWN_NAME, text)
+      if (task%keep) then
+         call write_deck(task%path//'.'//to_text(k), text)
+         return
+      end if
       call random_integer(random, -7_ip, MOST_LEVELS, levels)
       call write_deck(task%path, text)
       call clear_messages()
@@ -161,7 +169,7 @@ contains
       type(task_t), intent(out) :: task
       integer :: i
 
-      task%path = 'fuzz-deck.inp'
+      task%path = OWN_NAME
       allocate (task%decks(0))
       i = 1
       do while (i <= command_argument_count())
@@ -180,6 +188,9 @@ contains
             task%alone = .true.
          case ('--write')
             task%path = argument(i + 1)
+         case ('--keep')
+            task%keep = .true.
+            i = i - 1
          case ('--solve')
             task%solve = .true.
             i = i - 1

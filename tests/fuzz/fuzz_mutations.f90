@@ -94,18 +94,11 @@ contains
       case (5)
          call insert_at_line(random, '*INCLUDE, INPUT='//own_name//NEW_LINE_CHARACTER, text)
       case (6)
-         call insert_at_line(random, '*INCLUDE, INPUT=./../'//folder_name(own_name)//'/'//own_name//NEW_LINE_CHARACTER, text)
+         call insert_at_line(random, '*INCLUDE, INPUT=/proc/self/cwd/./'//own_name//NEW_LINE_CHARACTER, text)
       case default
          call insert_item(random, dictionary, text)
       end select
    end subroutine disturb_whole
-
-   pure function folder_name(name) result(folder)
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: folder
-
-      folder = name(:index(name//'/', '/') - 1)
-   end function folder_name
 
    subroutine flip_byte(random, text)
       type(random_t), intent(inout) :: random
