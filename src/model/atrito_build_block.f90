@@ -28,6 +28,8 @@ module atrito_build_block
    real(wp), parameter :: MERGE_TOLERANCE = 1.0e-6_wp
    !> A corner whose Jacobian is smaller than this part of the longest side squared is flat.
    real(wp), parameter :: FLAT = 1.0e-12_wp
+   !> The first or the last element would be flat beyond it.
+   real(wp), parameter :: LARGEST_GRADE = 1.0e12_wp
 
    !> What a *BLOCK says.
    type :: spec_t
@@ -223,7 +225,7 @@ contains
       type(data_line_t), intent(in) :: line
       type(spec_t), intent(inout) :: spec
       logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'last over first element length, a real > 0 [-]'
+      character(len=*), parameter :: WHAT = 'last over first element length, a real, 1e-12 to 1e12 [-]'
       integer(ip) :: k
       logical :: good
 
@@ -231,7 +233,7 @@ contains
       do k = 1, 2
          call get_real(deck, line_item(deck, line, k + 1), WHAT, spec%grade(k), good, 1.0_wp, 'BLOCK')
          ok = ok .and. good
-         if (.not. good .or. spec%grade(k) > 0.0_wp) cycle
+         if (.not. good .or. (spec%grade(k) >= 1/LARGEST_GRADE .and. spec%grade(k) <= LARGEST_GRADE)) cycle
          ok = .false.
          call report_error(deck, line_item(deck, line, k + 1), 'E-VALUE', 'a grading of '//to_text(spec%grade(k)), &
                            expected=WHAT, keyword='BLOCK')

@@ -14,7 +14,7 @@ module fuzz_mutations
 
 contains
 
-   !> A deck, changed one to six times.
+   !> A deck, changed once to six times, more often a few times: it shall often be sound but for one thing.
    subroutine mutate_deck(random, decks, dictionary, own_name, text)
       type(random_t), intent(inout) :: random
       type(string_t), intent(in) :: decks(:)
@@ -26,6 +26,7 @@ contains
       call random_integer(random, 1_ip, size(decks, kind=ip), i)
       text = decks(i)%s
       call random_integer(random, 1_ip, MOST_STEPS, steps)
+      call random_integer(random, 1_ip, (steps), steps)
       do n = 1, steps
          call mutate_once(random, decks, dictionary, own_name, text)
          if (len(text) > LARGEST_DECK) call replace_place(text, LARGEST_DECK + 1, len(text, kind=ip), '')
