@@ -309,7 +309,8 @@ contains
       if (length > BUFFER_LENGTH) then
          call put_text(file, line//NEW_LINE_CHARACTER)
       else
-         file%buffer(file%used + 1:file%used + length) = line//NEW_LINE_CHARACTER
+         file%buffer(file%used + 1:file%used + length - 1) = line
+         file%buffer(file%used + length:file%used + length) = NEW_LINE_CHARACTER
          file%used = file%used + length
       end if
    end subroutine put_line

@@ -193,7 +193,8 @@ contains
       call add_option(k, 'ELSET', KIND_NAME, 'name of the block', required=.true.)
       call add_option(k, 'NX', KIND_INTEGER, 'elements along BOTTOM', required=.true.)
       call add_option(k, 'NY', KIND_INTEGER, 'elements along LEFT', required=.true.)
-      call add_option(k, 'MERGE', KIND_NAME, 'block with which it shares the nodes that coincide within 1e-6 of an edge')
+      call add_option(k, 'MERGE', KIND_NAME, 'block, of as many nodes an element, with which it shares the '// &
+                      'nodes that coincide within 1e-6 of an edge')
       call add_form(k, 'the four corners, counter-clockwise', 4, 4)
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')

@@ -165,12 +165,12 @@ contains
    !> The nodes of an element from their square of 2 x 2 (Q1) or 3 x 3 (Q2): corners counter-clockwise, mid-sides, centre.
    pure function nodes_of_square(square) result(nodes)
       integer(ip), intent(in) :: square(:, :)
-      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: nodes(size(square))
       integer(ip) :: n
 
       n = size(square, 1, kind=ip)
-      nodes = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
-      if (n == 3) nodes = [nodes, square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
+      nodes(:FACES) = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
+      if (n == 3) nodes(FACES + 1:) = [square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
    end function nodes_of_square
 
    !> Coordinates [L] of an element's nodes, (2, shape).

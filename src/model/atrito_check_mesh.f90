@@ -1,6 +1,7 @@
 !> Checks of the finished mesh: shapes, sections, loose nodes, materials in use.
 module atrito_check_mesh
    use atrito_build_materials, only: SECTION_SPOILED
+   use atrito_check_edges, only: check_edges
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_draft, only: draft_t, place_token, ids_text, has_errors, is_spoiled
@@ -9,12 +10,13 @@ module atrito_check_mesh
    use atrito_messages, only: MOST_ERRORS
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_shape_functions, only: shape_gradients, gauss_point, gauss_count
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: check_mesh, corner_jacobians
 
-   integer(ip), parameter :: SHAPE_GOOD = 0, SHAPE_CLOCKWISE = 1, SHAPE_DEGENERATE = 2
+   integer(ip), parameter :: SHAPE_GOOD = 0, SHAPE_CLOCKWISE = 1, SHAPE_DEGENERATE = 2, SHAPE_FOLDED = 3
    !> A corner whose Jacobian is smaller than this part of the longest side squared is flat.
    real(wp), parameter :: FLAT = 1.0e-12_wp
    !> From this ratio on fully integrated Q1 elements lock in plane strain.
@@ -34,6 +36,7 @@ contains
          return
       end if
       call check_shapes(deck, model, draft)
+      if (draft%refinement%pieces == 1) call check_edges(deck, model, draft)
       call check_sections(deck, model, draft)
       call check_materials(deck, model, draft)
       call note_loose_nodes(deck, model, draft)
@@ -68,6 +71,10 @@ contains
       if (shape == SHAPE_CLOCKWISE) then
          call report_error(deck, place, 'E-SHAPE', name//' runs clockwise', expected='corners counter-clockwise, for example '// &
                            corners_text(mesh, e), keyword='ELEMENT')
+      else if (shape == SHAPE_FOLDED) then
+         call report_error(deck, place, 'E-SHAPE', name//' folds over: the nodes 5 to 9 lie too far from the middle', &
+                           expected='mid-side nodes in the middle half of their sides, the centre node near the centre', &
+                           keyword='ELEMENT')
       else
          call report_error(deck, place, 'E-SHAPE', name//' is degenerate: its angle at node '// &
                            to_text(mesh%node_id(mesh%nodes(corner, e)))//' is not between 0 and 180 degrees', &
@@ -98,7 +105,12 @@ contains
       jacobian = corner_jacobians(mesh%x(:, mesh%nodes(:FACES, e)))
       corner = minloc(jacobian, dim=1, kind=ip)
       shape = SHAPE_GOOD
-      if (jacobian(corner) > FLAT) return
+      if (jacobian(corner) > FLAT) then
+         if (mesh%shape(e) == Q2_NODES) then
+            if (folds_over(mesh%x(:, mesh%nodes(:, e)))) shape = SHAPE_FOLDED
+         end if
+         return
+      end if
       shape = SHAPE_DEGENERATE
       if (maxval(jacobian) < -FLAT) shape = SHAPE_CLOCKWISE
    end subroutine judge_shape
@@ -120,6 +132,34 @@ contains
          end associate
       end do
    end function corner_jacobians
+
+   !> The map of a nine-node element is not one to one: its Jacobian is negative at a node, or not positive at a Gauss point. It may
+   !> be 0 at a corner: mid-side nodes at a quarter of the sides are a known way to a crack tip.
+   pure logical function folds_over(x)
+      real(wp), intent(in) :: x(2, Q2_NODES)           !< [L]
+      real(wp) :: xi(2), weight, size
+      integer(ip) :: i, j, point
+
+      size = maxval(maxval(x, dim=2) - minval(x, dim=2))
+      folds_over = .false.
+      do j = -1, 1
+         do i = -1, 1
+            folds_over = folds_over .or. jacobian_at(x/size, real([i, j], wp)) < -FLAT
+         end do
+      end do
+      do point = 1, gauss_count(Q2_NODES)**2
+         call gauss_point(Q2_NODES, point, xi, weight)
+         folds_over = folds_over .or. jacobian_at(x/size, xi) <= FLAT
+      end do
+   end function folds_over
+
+   pure real(wp) function jacobian_at(x, xi) result(jacobian)
+      real(wp), intent(in) :: x(2, Q2_NODES), xi(2)
+      real(wp) :: j(2, 2)
+
+      j = matmul(x, shape_gradients(Q2_NODES, xi))
+      jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+   end function jacobian_at
 
    !> Every element has a section.
    subroutine check_sections(deck, model, draft)

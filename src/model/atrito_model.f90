@@ -112,6 +112,7 @@ module atrito_model
       type(string_t), allocatable :: heading(:)
       type(parameter_value_t), allocatable :: parameters(:)
       type(mesh_t) :: mesh
+      integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
       type(set_list_t) :: node_sets, element_sets
       type(material_t), allocatable :: materials(:)
       type(section_t), allocatable :: sections(:)

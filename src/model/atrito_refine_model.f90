@@ -23,30 +23,17 @@ contains
       integer(ip), intent(in) :: levels                !< > 0; each quadrilateral into 4**levels
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      type(mesh_t) :: fine
-      type(token_t) :: nowhere
-      integer(lp) :: n_nodes, n_elements
+      type(mesh_t) :: coarse
       integer(ip) :: i
 
-      if (model%mesh%n_elements == 0) return
-      n_nodes = count_fine_nodes(model%mesh, 2**levels)
-      n_elements = int(model%mesh%n_elements, lp)*4_lp**levels
-      if (n_nodes > int(MOST_NODES, lp)) then
-         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
-                                ' nodes', expected='a smaller number: each one more makes four elements of one')
-         return
-      else if (n_nodes + maxval(model%mesh%node_id) > int(huge(1_ip), lp)) then
-         call report_deck_error(deck, 'E-REFINE', 'the numbers of the new nodes, which follow the greatest of the deck, '// &
-                                to_text(maxval(model%mesh%node_id))//', would be too large', expected='smaller node numbers')
-         return
-      else if (.not. fits_memory(deck, nowhere, model, draft, n_nodes, n_elements)) then
-         return
-      end if
-      call refine_mesh(model%mesh, draft%around, 2**levels, fine, draft%refinement)
+      if (.not. is_possible(deck, levels, model, draft)) return
+      coarse = model%mesh
+      call refine_mesh(coarse, draft%around, 2**levels, model%mesh, draft%refinement)
+      model%levels = levels
       if (allocated(model%node_sets%sets)) then
          do i = 1, size(model%node_sets%sets, kind=ip)
             associate (set => model%node_sets%sets(i))
-               set%members = fine_nodes(model%mesh, draft%refinement, set%members)
+               set%members = fine_nodes(coarse, draft%refinement, set%members)
             end associate
          end do
       end if
@@ -57,11 +44,34 @@ contains
             end associate
          end do
       end if
-      draft%deck_elements = model%mesh%element_map
-      call keep_places(model%mesh, fine, draft)
-      model%mesh = fine
+      draft%deck_elements = coarse%element_map
+      call keep_places(coarse, model%mesh, draft)
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
+
+   !> There are not too many nodes, there are numbers left for them, and memory. The numbers of elements are chosen so that they fit.
+   logical function is_possible(deck, levels, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: levels
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t) :: nowhere
+      integer(lp) :: n, greatest
+
+      n = count_fine_nodes(model%mesh, 2**levels)
+      greatest = maxval(model%mesh%node_id(:model%mesh%n_nodes))
+      is_possible = n <= int(MOST_NODES, lp)
+      if (.not. is_possible) then
+         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
+                                ' nodes', expected='a smaller number: each one more makes four elements of one')
+         return
+      end if
+      is_possible = greatest + (n - int(model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
+      if (.not. is_possible) call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//': the numbers of the new '// &
+                                                    'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
+                                                    expected='smaller node numbers')
+      if (is_possible) is_possible = fits_memory(deck, nowhere, model, draft, n, int(model%mesh%n_elements, lp)*4_lp**levels)
+   end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.
    subroutine keep_places(coarse, fine, draft)

@@ -74,6 +74,7 @@ contains
       call add_heading(page, '7  MESSAGES')
       call add_messages(page)
       call add_heading(page, '8  ERROR AND TIME')
+      call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
       call add_times(page)
    end subroutine compose_listing
 
@@ -213,7 +214,8 @@ contains
       call add_blank(page)
       list = step_quantities(results)
       do i = 1, size(list)
-         if (.not. list(i)%is_count) call add_quantity(page, list(i))
+         if (list(i)%is_count .or. list(i)%name == 'error_estimate_percent') cycle
+         call add_quantity(page, list(i))
       end do
       if (results%converged .and. results%law_holds) then
          call add_entry(page, 'contact law, checked anew', 'holds at every point')
@@ -259,7 +261,6 @@ contains
       type(phase_time_t), allocatable :: phases(:)
       integer :: i
 
-      call add_entry(page, 'estimated discretisation error', 'not computed by this version')
       call add_entry(page, 'peak memory', bytes(peak_memory()))
       call add_blank(page)
       call add_line(page, '   '//left('phase', 24)//right('wall [s]', 12)//right('cpu [s]', 12))

@@ -41,6 +41,8 @@ contains
 
       call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
       call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
+      if (model%levels > 0) call add_entry(page, 'refined', plural(model%levels, 'time', 'times')// &
+                                           ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
       call add_entry(page, 'node sets, element sets', &
                      to_text(size(set_names(model%node_sets), kind=ip))//', '// &
                      to_text(size(set_names(model%element_sets), kind=ip)))

@@ -75,6 +75,7 @@ contains
       if (results%converged .and. results%law_holds) then
          call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)// &
                        ' of the largest force; the contact law holds')
+         call add_item(page, 'estimated', 'error of '//number(results%error_estimate, 3)//' % of the energy norm')
       else
          call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force')
       end if

@@ -1,6 +1,6 @@
 !> The tables of a run, docs/user/tables.md: what is in them and when each is written.
 module atrito_write_tables
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, is_nan
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
@@ -213,11 +213,10 @@ contains
 
    !> |x| < limit, false for NaN, which must not meet an ordered comparison while invalid operations are trapped.
    pure logical function abs_is_below(x, limit)
-      use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
       real(wp), intent(in) :: x, limit
 
       abs_is_below = .false.
-      if (.not. ieee_is_nan(x)) abs_is_below = abs(x) < limit
+      if (.not. is_nan(x)) abs_is_below = abs(x) < limit
    end function abs_is_below
 
    !> The dimensions of the column `value`, one comment line a dimension.

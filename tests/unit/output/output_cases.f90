@@ -92,6 +92,7 @@ contains
       results%equilibrium_residual = 1.0e-15_wp
       results%strain_energy = 0.5_wp
       results%external_work = 1.0_wp
+      results%error_estimate = 12.5_wp
       allocate (results%iterations(2))
       results%iterations%outer = [1_ip, 2_ip]
    end subroutine make_results
