@@ -4,7 +4,7 @@
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_intptr_t, c_long, c_null_char, &
-                                          c_null_funptr, c_null_ptr, c_ptr, c_size_t
+                                                                             c_null_funptr, c_null_ptr, c_ptr, c_size_t
    use atrito_kinds, only: ip, lp
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string

@@ -49,7 +49,7 @@ contains
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
 
-   !> There are not too many nodes, there are numbers left for them, and memory. The numbers of elements are chosen so that they fit.
+   !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
    logical function is_possible(deck, levels, model, draft)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: levels
