@@ -16,7 +16,8 @@ contains
 
    !> status: STATUS_DECK, and an error, when a scene needs more than there is.
    subroutine check_memory(deck_path, what, needed, limit, status)
-      character(len=*), intent(in) :: deck_path, what  !< what: e.g. 'the scene, 12 equations,'
+      character(len=:), allocatable, intent(in) :: deck_path   !< a model made without a deck has none
+      character(len=*), intent(in) :: what             !< e.g. 'the scene, 12 equations,'
       integer(lp), intent(in) :: needed                !< bytes
       integer(lp), intent(in) :: limit                 !< bytes; what the machine has counts where it is less
       type(status_t), intent(inout) :: status
@@ -28,7 +29,7 @@ contains
       status%code = STATUS_DECK                        ! without a text: the message tells it
       message%severity = SEVERITY_ERROR
       message%id = 'E-MEMORY'
-      message%file = deck_path
+      if (allocated(deck_path)) message%file = deck_path
       message%text = what//' needs about '//memory_text(needed)//' of memory, there are '//memory_text(memory)
       message%expected = 'a coarser mesh or fewer contact points, or a larger machine'
       call add_message(message)
@@ -37,7 +38,7 @@ contains
    !> The same of the average over contact points, before they are averaged: each may have all others in its reach, and the entries
    !> must have numbers.
    subroutine check_average_memory(deck_path, n, limit, status)
-      character(len=*), intent(in) :: deck_path
+      character(len=:), allocatable, intent(in) :: deck_path
       integer(ip), intent(in) :: n                     !< contact points
       integer(lp), intent(in) :: limit                 !< bytes
       type(status_t), intent(inout) :: status
