@@ -35,6 +35,7 @@ module atrito_command_line
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: quiet = .false.
+      logical :: plot = .false.                     !< pictures by gnuplot
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
    end type command_t
 
@@ -59,7 +60,7 @@ module atrito_command_line
                                 option_t('--rtol   ', Y, [N, N, Y, N, N], Y), &
                                 option_t('--atol   ', Y, [N, N, Y, N, N], Y), &
                                 option_t('--refine ', Y, [Y, Y, N, N, Y], Y), &
-                                option_t('--plot   ', N, [Y, N, N, N, Y], N), &
+                                option_t('--plot   ', N, [Y, N, N, N, Y], Y), &
                                 option_t('--levels ', Y, [N, N, N, N, N], N), &
                                 option_t('--vary   ', Y, [N, N, N, N, Y], Y), &
                                 option_t('--help   ', N, [Y, Y, Y, Y, Y], Y), &
@@ -340,6 +341,8 @@ contains
          call take_real(given%value, 1.0_wp, command%rtol, ok)
       case ('--atol')
          call take_real(given%value, huge(1.0_wp), command%atol, ok)
+      case ('--plot')
+         command%plot = .true.
       case ('--quiet')
          command%quiet = .true.
       end select

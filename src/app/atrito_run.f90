@@ -3,13 +3,16 @@ module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_body_store, only: body_store_t
    use atrito_build_model, only: build_model
+   use atrito_build_requests, only: refuse_field_files
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
+   use atrito_hdf5, only: has_hdf5
    use atrito_kinds, only: ip
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_page, only: page_t, print_page
+   use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: results_t
@@ -18,6 +21,7 @@ module atrito_run
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
    use atrito_timers, only: start_phase, stop_phase
+   use atrito_write_plots, only: write_plots, plot_names
    use atrito_write_results, only: write_results
    implicit none (type, external)
    private
@@ -73,19 +77,28 @@ contains
       integer, intent(inout) :: code
       type(status_t) :: status
       type(page_t) :: page
-      type(string_t), allocatable :: written(:)
+      type(string_t), allocatable :: written(:), pictures(:)
       character(len=:), allocatable :: folder
+      integer(ip) :: told
 
       folder = output_folder(command)
       call report_progress(reporter, 'write '//folder)
-      call write_results(model, results, int(command%digits), folder, written, status)
+      told = count_messages()
+      if (command%plot) pictures = plot_names(results)       ! not allocated: an optional argument that is not there
+      call write_results(model, results, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
          call print_status(status, model%deck_path)
          code = status%code
-      else if (.not. command%quiet) then
-         call compose_summary(model, results, folder, written, page)
-         call print_page(page, output_unit)
+         return
       end if
+      if (command%plot) then
+         call report_progress(reporter, 'plot  '//plot_folder(folder))
+         call write_plots(model, results, folder, pictures)
+      end if
+      call print_messages(command%quiet, told + 1)
+      if (command%quiet) return
+      call compose_summary(model, results, folder, written, page, pictures)
+      call print_page(page, output_unit)
    end subroutine write_run
 
    !> Reads a deck and builds its model. All messages are told; errors of the deck give STATUS_DECK.
@@ -106,6 +119,7 @@ contains
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('model')
          call build_model(deck, model, command%refine)
+         if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('model')
       end if
       code = status%code

@@ -7,15 +7,17 @@ module atrito_sweep
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_status
+   use atrito_console, only: print_messages, print_status
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: clear_messages
+   use atrito_overlay_plots, only: write_overlay_plots
    use atrito_page, only: page_t, print_page
+   use atrito_plot_files, only: plot_folder, remove_plots
    use atrito_processes, only: begin_worker, end_worker, await_workers, share_integers
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_FILE, STATUS_INTERNAL
-   use atrito_strings, only: append_string, to_text
+   use atrito_strings, only: string_t, append_string, to_text
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
    use atrito_table, only: origin_t
@@ -115,6 +117,7 @@ contains
       call report_progress(reporter, 'run '//to_text(run)//' of '//to_text(plan%n_runs)//'  '//plan%labels(run)%s)
       one = command
       one%quiet = .true.
+      one%plot = .false.                            ! the pictures of a sweep lay its runs over one another
       one%threads = 1
       one%folder = run_folder(command, plan, run)
       do i = 1, size(plan%names)
@@ -168,6 +171,7 @@ contains
       type(status_t), intent(out) :: status
       type(origin_t) :: origin
       type(page_t) :: page
+      type(string_t), allocatable :: pictures(:)
 
       if (all(runs%code /= STATUS_OK .and. runs%code /= STATUS_NOT_CONVERGED)) return
       associate (deck => command%names(1)%s)
@@ -175,10 +179,40 @@ contains
          origin%not_converged = any(runs%code == STATUS_NOT_CONVERGED)
          allocate (origin%heading(0))
          call write_sweep(output_folder(command), origin, plan%names, runs, int(command%digits), status)
-         if (.not. is_ok(status) .or. command%quiet) return
-         call compose_sweep(deck, plan%names, runs, output_folder(command), [seconds, processor_seconds()], page)
+         if (.not. is_ok(status)) return
+         call plot_sweep(command, plan, runs, origin%deck, pictures)
+         if (command%quiet) return
+         call compose_sweep(deck, plan%names, runs, output_folder(command), [seconds, processor_seconds()], page, pictures)
          call print_page(page, output_unit)
       end associate
    end subroutine finish
+
+   !> Lays the runs that wrote tables over one another. Without --plot the pictures of an earlier sweep go, for the tables are new.
+   subroutine plot_sweep(command, plan, runs, title, drawn)
+      type(command_t), intent(in) :: command
+      type(sweep_plan_t), intent(in) :: plan
+      type(sweep_run_t), intent(in) :: runs(:)
+      character(len=*), intent(in) :: title         !< where the deck has no heading
+      type(string_t), allocatable, intent(out) :: drawn(:)
+      type(reporter_t) :: reporter
+      type(string_t), allocatable :: labels(:), folders(:)
+      integer, allocatable :: order(:)
+      integer :: i
+
+      call remove_plots(output_folder(command))
+      if (.not. command%plot) return
+      reporter%quiet = command%quiet
+      call report_progress(reporter, 'plot  '//plot_folder(output_folder(command)))
+      order = pack([(i, i=1, size(runs))], runs%code == STATUS_OK .or. runs%code == STATUS_NOT_CONVERGED)
+      labels = plan%labels(order)
+      folders = plan%folders(order)
+      call clear_messages()
+      if (size(plan%names) == 1) then
+         call write_overlay_plots(output_folder(command), title, labels, folders, plan%names(1)%s, plan%values(1, order), drawn)
+      else
+         call write_overlay_plots(output_folder(command), title, labels, folders, '', [real(wp) ::], drawn)
+      end if
+      call print_messages(command%quiet, 1_ip)
+   end subroutine plot_sweep
 
 end module atrito_sweep

@@ -3,9 +3,10 @@ module atrito_sweep_tables
    use atrito_files, only: file_set_t, begin_files, commit_files, discard_files
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, plural
+   use atrito_plot_files, only: plot_folder
    use atrito_read_table, only: table_file_t, read_table, find_column, item_text
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_strings, only: string_t, append_string, join, to_text
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
@@ -143,12 +144,13 @@ contains
    end subroutine build_runs
 
    !> The closing lines: a row a run, of the first contact pair.
-   subroutine compose_sweep(deck, names, runs, folder, seconds, page)
+   subroutine compose_sweep(deck, names, runs, folder, seconds, page, pictures)
       character(len=*), intent(in) :: deck, folder
       type(string_t), intent(in) :: names(:)
       type(sweep_run_t), intent(in) :: runs(:)
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
       type(page_t), intent(out) :: page
+      type(string_t), intent(in), optional :: pictures(:) !< that were drawn, names without folder and ending
       integer(ip) :: i, n
 
       n = size(runs, kind=ip)
@@ -168,6 +170,10 @@ contains
       call add_line(page, left('time', 13)//number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
       call add_line(page, left(left('tables in', 13)//folder, WIDTH))
       call add_line(page, left('', 13)//'sweep runs, and a folder a run')
+      if (present(pictures)) then
+         if (size(pictures) > 0) call add_line(page, left(left('plots in', 13)//plot_folder(folder)//': '// &
+                                                          join(pictures, ' '), WIDTH))
+      end if
       call add_rule(page, '=')
    end subroutine compose_sweep
 

@@ -113,6 +113,8 @@ contains
             c%n = points(i)%n
             c%s = points(i)%s
             c%x = points(i)%x
+            c%normal = points(i)%normal
+            c%u = u(:, points(i)%node(:points(i)%n))
             c%weight = points(i)%weight
             allocate (c%gap(c%n), c%slip(c%n), c%status(c%n), c%pressure(c%n), c%shear(c%n), c%weighted_pressure(c%n))
             do j = 1, c%n
@@ -186,19 +188,25 @@ contains
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
       type(point_rule_t) :: rules(2)
+      logical :: wanted(model%mesh%n_elements)
       integer(ip) :: e, row, n
 
-      if (.not. model%requests%stress) return
+      associate (requests => model%requests)
+         if (.not. (requests%stress .or. requests%fields%stress)) return
+         wanted = .false.
+         if (requests%stress) wanted = requests%element_s
+         if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
+      end associate
       call make_point_rule(Q1_NODES, gauss_count(Q1_NODES), rules(1))
       call make_point_rule(Q2_NODES, gauss_count(Q2_NODES), rules(2))
       n = 0
       do e = 1, fem%mesh%n_elements
-         if (model%requests%element_s(e)) n = n + gauss_count(fem%mesh%shape(e))**2
+         if (wanted(e)) n = n + gauss_count(fem%mesh%shape(e))**2
       end do
       allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
       row = 0
       do e = 1, fem%mesh%n_elements
-         if (model%requests%element_s(e)) call add_element(fem, e, rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)), row, results)
+         if (wanted(e)) call add_element(fem, e, rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)), row, results)
       end do
    end subroutine recover_stress
 

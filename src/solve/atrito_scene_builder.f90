@@ -78,7 +78,8 @@ contains
 
       associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
          if (master%kind == SURFACE_SEGMENTS) then
-            call pair_surfaces(model%mesh, section_thickness(model), slave%faces, no_faces, master%points, points)
+            call pair_surfaces(model%mesh, section_thickness(model), slave%faces, no_faces, master%points, points, &
+                               master%is_arc, master%centre)
          else
             call pair_surfaces(model%mesh, section_thickness(model), slave%faces, master%faces, no_points, points)
          end if
