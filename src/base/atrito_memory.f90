@@ -78,7 +78,7 @@ contains
          if (x < real(KIB, wp)) exit
          x = x/real(KIB, wp)
       end do
-      text = to_text(x, 3)//' '//trim(NAMES(i))
+      text = to_text(x, 4)//' '//trim(NAMES(i))
    end function memory_text
 
 end module atrito_memory

@@ -157,6 +157,7 @@ contains
       type(string_t), intent(in) :: also(:)            !< names that the expression knows besides
       character(len=*), intent(in) :: keyword
       type(token_t) :: place
+      type(string_t), allocatable :: names(:)
       character(len=:), allocatable :: others
       integer(ip) :: i
 
@@ -172,13 +173,32 @@ contains
          call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
                            expected='numbers, '//others//'earlier parameters, + - * / ** ( ), functions')
       else if (i == 0) then
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
-                           known=[also, parameter_names(deck), reserved_names()], &
+         names = reserved_names()
+         call put_before(parameter_names(deck), names)
+         call put_before(also, names)
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=names, &
                            expected=others//'an earlier parameter, a function or pi')
       else if (deck%parameters(i)%known) then
          call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
       end if
    end subroutine report_fault
+
+   !> Not an array constructor: what function results hold in one is never given back (gfortran 12).
+   pure subroutine put_before(first, names)
+      type(string_t), intent(in) :: first(:)
+      type(string_t), allocatable, intent(inout) :: names(:)
+      type(string_t), allocatable :: both(:)
+      integer :: i
+
+      allocate (both(size(first) + size(names)))
+      do i = 1, size(first)
+         both(i)%s = first(i)%s
+      end do
+      do i = 1, size(names)
+         call move_alloc(names(i)%s, both(size(first) + i)%s)
+      end do
+      call move_alloc(both, names)
+   end subroutine put_before
 
    !> An expression in x, y and earlier parameters at some places.
    subroutine evaluate_function(deck, expression, x, values, ok, keyword)
@@ -194,7 +214,8 @@ contains
       type(string_t) :: coordinates(2)
       integer(ip) :: i
 
-      coordinates = [string_t('x'), string_t('y')]
+      coordinates(1)%s = 'x'
+      coordinates(2)%s = 'y'
       call collect_known(deck, expression, .false., names, known)
       values = 0.0_wp
       do i = 1, size(names, kind=ip)
@@ -204,7 +225,7 @@ contains
                            expected='another name of the parameter', keyword=keyword)
          return
       end do
-      names = [coordinates, names]
+      call put_before(coordinates, names)
       ok = .true.
       if (size(values) == 0) call check_text(deck, expression, names, known, ok, keyword)
       do i = 1, size(values, kind=ip)

@@ -21,18 +21,11 @@ contains
       integer(lp), intent(in) :: needed                !< bytes
       integer(lp), intent(in) :: limit                 !< bytes; what the machine has counts where it is less
       type(status_t), intent(inout) :: status
-      type(message_t) :: message
       integer(lp) :: memory
 
       memory = min(limit, available_memory())
-      if (needed <= memory) return
-      status%code = STATUS_DECK                        ! without a text: the message tells it
-      message%severity = SEVERITY_ERROR
-      message%id = 'E-MEMORY'
-      if (allocated(deck_path)) message%file = deck_path
-      message%text = what//' needs about '//memory_text(needed)//' of memory, there are '//memory_text(memory)
-      message%expected = 'a coarser mesh or fewer contact points, or a larger machine'
-      call add_message(message)
+      if (needed > memory) call refuse(deck_path, what//' needs about '//memory_text(needed)//' of memory, there are '// &
+                                       memory_text(memory), status)
    end subroutine check_memory
 
    !> The same of the average over contact points, before they are averaged: each may have all others in its reach, and the entries
@@ -45,8 +38,27 @@ contains
       integer(lp) :: entries
 
       entries = int(n, lp)**2
-      call check_memory(deck_path, 'the average over '//to_text(n)//' contact points', ENTRY_BYTES*entries, &
-                        merge(limit, 0_lp, entries <= int(huge(n), lp)), status)
+      if (entries > int(huge(n), lp)) then
+         call refuse(deck_path, 'an average over '//to_text(n)//' contact points is too large for the numbers of its entries', &
+                     status)
+      else
+         call check_memory(deck_path, 'the average over '//to_text(n)//' contact points', ENTRY_BYTES*entries, limit, status)
+      end if
    end subroutine check_average_memory
+
+   subroutine refuse(deck_path, text, status)
+      character(len=:), allocatable, intent(in) :: deck_path
+      character(len=*), intent(in) :: text
+      type(status_t), intent(inout) :: status
+      type(message_t) :: message
+
+      status%code = STATUS_DECK                        ! without a text: the message tells it
+      message%severity = SEVERITY_ERROR
+      message%id = 'E-MEMORY'
+      if (allocated(deck_path)) message%file = deck_path
+      message%text = text
+      message%expected = 'a coarser mesh or fewer contact points, or a larger machine'
+      call add_message(message)
+   end subroutine refuse
 
 end module atrito_scene_memory

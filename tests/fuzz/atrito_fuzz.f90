@@ -71,6 +71,7 @@ program atrito_fuzz
    write (output_unit, '(*(g0))') 'seed ', task%seed, ', mutations ', task%first, ' to ', task%first + task%count - 1, ': ', &
       tally%sound, ' without error, ', tally%solved, ' solved, ', tally%errors, ' errors told, ', tally%failed, &
       ' failed; peak memory ', peak_memory()/1048576_lp, ' MiB; slowest ', tally%slowest
+   flush (output_unit)
    if (tally%failed > 0) stop 1, quiet = .true.
 
 contains
