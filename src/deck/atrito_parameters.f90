@@ -166,7 +166,7 @@ contains
                            expected='numbers, '//also//'earlier parameters, + - * / ** ( ), functions')
       else if (index_of_parameter(deck, token_text(deck, place)) == 0) then
          call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=[parameter_names(deck), &
-                           reserved_names()], expected=also//'an earlier parameter, a function or pi')
+                                                         reserved_names()], expected=also//'an earlier parameter, a function or pi')
       end if
    end subroutine report_fault
 

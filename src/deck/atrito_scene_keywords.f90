@@ -151,7 +151,7 @@ contains
       call add_item(k, 'last dof', KIND_INTEGER, '1 or 2', default='first dof')
       call add_item(k, 'value', KIND_TEXT, 'expression in x, y and earlier parameters, as in *PARAMETER', dimension='L', &
                     repeats=.true.)
-      call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2|*STEP|*BOUNDARY, FUNCTION|pillar-TOP, 2, 2, '// &
+      call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2|*BOUNDARY, FUNCTION|pillar-TOP, 2, 2, '// &
                        '-(0.10 - 0.001*x)')
    end subroutine define_boundary
 

@@ -354,7 +354,7 @@ contains
       end select
    end function is_on_side
 
-   !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members; what lies between the nodes of an edge
+   !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members; what lies between nodes of an edge
    !> that are all members, if the edge is on the outline or all nodes of one of its elements are members; and what lies inside such
    !> elements.
    pure function fine_nodes(mesh, refinement, members) result(fine)
