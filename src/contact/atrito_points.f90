@@ -140,15 +140,17 @@ contains
    end function finds_master
 
    !> The nearest piece of the master on the line through x along the normal; a piece seen from behind is not seen, nor one that
-   !> lies deeper inside than the longer of the slave's face and the piece.
+   !> lies deeper inside than the longer of the slave's face and the piece. A piece that the line misses by END_TOLERANCE or less is
+   !> taken only where no other is as near. The distance is that to the piece or its straight continuation.
    pure function look_along(x, normal, reach, master) result(best)
       real(wp), intent(in) :: x(2), normal(2)
       real(wp), intent(in) :: reach                 !< length of the slave's face [L]
       type(master_t), intent(in) :: master
       type(sight_t) :: best
-      real(wp) :: d(2), r(2), cross, t, distance
+      real(wp) :: d(2), r(2), cross, t, distance, nearness, nearest
       integer(ip) :: i
 
+      nearest = huge(nearest)
       do i = 1, master%n
          if (dot_product(normal, master%normal(:, i)) > FACING) cycle
          d = master%b(:, i) - master%a(:, i)
@@ -156,12 +158,16 @@ contains
          cross = d(1)*normal(2) - d(2)*normal(1)
          t = (r(1)*normal(2) - r(2)*normal(1))/cross
          if (t < -END_TOLERANCE .or. t > 1 + END_TOLERANCE) cycle
-         t = min(max(t, 0.0_wp), 1.0_wp)
+         nearness = 0.0_wp
+         if (t < -NODE_TOLERANCE .or. t > 1 + NODE_TOLERANCE) nearness = 2*END_TOLERANCE*norm2(d)
+         distance = dot_product(t*d - r, normal)
          if (t < NODE_TOLERANCE) t = 0.0_wp
          if (t > 1 - NODE_TOLERANCE) t = 1.0_wp
-         distance = dot_product(t*d - r, normal)
          if (distance < -max(reach, norm2(d))) cycle
-         if (best%piece == 0 .or. abs(distance) < abs(best%distance)) best = sight_t(i, t, distance)
+         nearness = nearness + abs(distance)
+         if (nearness >= nearest) cycle
+         nearest = nearness
+         best = sight_t(i, t, distance)
       end do
    end function look_along
 

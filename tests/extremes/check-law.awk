@@ -40,6 +40,9 @@ function lower_at(at, field,    i, o, first, t, a, b, c) {
    first = lower_top
    while (first + o < lower_last && xn[first + o] < at) first += o
    t = (at - xn[first])/(xn[first + o] - xn[first])
+   # a point that hangs over the end, by 1e-6 of an element at most, moves with the end
+   if (t < 0) t = 0
+   if (t > 1) t = 1
    a = field == 1 ? u1[first] : u2[first]
    b = field == 1 ? u1[first + o] : u2[first + o]
    if (o == 1) return (1 - t)*a + t*b

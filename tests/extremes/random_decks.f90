@@ -1,10 +1,10 @@
 !> Random two-body decks: random_decks K S prints deck number K of seed S. Every deck is a function of (K, S) alone.
 !>
-!> Independent and mostly log-uniform: E ratio 1e-6..1e6 (lower over upper), delta E 1e-14..1e-4, eps 1e-12..1e-3, nu .01..100, 4..12
-!> contact elements, gaps and small overclosures, heights, Poisson's ratios, plane strain or stress. Half of the decks have
-!> nine-node elements, a third is dragged sideways by a prescribed displacement or a force. Every deck has a solution: the
-!> upper body is held from above, or pressed down with its resultant inside the contact line, and dragged only as far as
-!> friction can hold it where nothing else does.
+!> Independent and mostly log-uniform: E ratio 1e-6..1e6 (lower over upper), delta E 1e-14..1e-4, eps 1e-12..1e-3, nu .01..100,
+!> 4..12 contact elements, gaps and small overclosures, heights, Poisson's ratios, plane strain or stress. Half of the decks have
+!> nine-node elements, a third is dragged sideways by a prescribed displacement or a force. Every deck has a solution: the upper
+!> body is held from above, or pressed down with its resultant inside the contact line, and dragged only as far as friction can hold
+!> it where nothing else does.
 program random_decks
    use, intrinsic :: iso_fortran_env, only: int64, output_unit, real64
    use scene_file, only: scene_t, set_value, get, write_deck

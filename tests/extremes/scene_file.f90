@@ -9,30 +9,34 @@ module scene_file
    private
    public :: scene_t, read_scene, set_value, get, count_of, write_scene, write_deck, lower_corners, upper_corners, set_from_text
 
-   integer, parameter :: N_VALUES = 48
+   integer, parameter :: N_VALUES = 46
    integer, parameter :: NAME_LENGTH = 16
 
-   !> Names, defaults and meaning. Lengths, moduli and loads in any consistent units; flags are 0 or 1.
+   !> Names and defaults. Lengths, moduli and loads in any consistent units; flags are 0 or 1.
+   !>
+   !> lower_x, lower_y: the lower left corner; the upper body stands on the lower one's top, at upper_x. order: 1 four-node, 2 nine-
+   !> node elements; nx, ny: elements. gap: initial distance at the ends of the upper body, negative: overclosed. delta, nu, eps,
+   !> rho: the law. Flags: plane_stress; base_x, base_y: the base of the lower body is held; left_x, right_x: u1 = 0 on a side;
+   !> lower_hold_x: u1 = 0 on the whole lower body; upper_hold_y: u2 = 0 on the whole upper one; top_x, top_y: the top is
+   !> prescribed, to top_u1, top_u2. Pressures act on the upper body; bx, by: force per volume. tolerance, maxit: of *CONTROLS, 0:
+   !> not given.
    character(len=NAME_LENGTH), parameter :: NAMES(N_VALUES) = [character(len=NAME_LENGTH) :: &
-      'plane_stress', 'lower_order', 'upper_order', &        ! flag; 1: four-node, 2: nine-node elements
-      'lower_nx', 'lower_ny', 'upper_nx', 'upper_ny', &      ! elements
-      'lower_x', 'lower_y', 'lower_width', 'lower_height', & ! place of the lower left corner, sides
-      'upper_x', 'upper_width', 'upper_height', &            ! the upper one stands on the lower one's top
-      'gap_left', 'gap_right', &                             ! initial distance at its ends; negative: overclosed
-      'lower_e', 'lower_mu', 'lower_thick', &
-      'upper_e', 'upper_mu', 'upper_thick', &
-      'delta', 'nu', 'eps', 'rho', &                         ! the law of contact
-      'base_x', 'base_y', &                                  ! flags: the base of the lower body is held
-      'lower_left_x', 'lower_right_x', &                     ! flags: u1 = 0 on sides of the lower body
-      'upper_left_x', 'upper_right_x', &                     ! and of the upper one
-      'lower_hold_x', 'upper_hold_y', &                      ! flags: u1 = 0 on the whole lower body, u2 = 0 on the whole upper one
-      'top_x', 'top_y', 'top_u1', 'top_u2', &                ! flags: the top of the upper body is prescribed; the values
-      'top_pressure', 'left_pressure', 'right_pressure', &   ! on the upper body
-      'upper_bx', 'upper_by', 'lower_by', &                  ! forces per volume
-      'tolerance', 'maxit', 'spare_1', 'spare_2']            ! of *CONTROLS; 0: not given
-   real(real64), parameter :: DEFAULTS(N_VALUES) = [real(real64) :: 0, 1, 1, 4, 3, 4, 3, 0, 0, 1, 0.5, 0, 1, 0.5, 0, 0, &
-                                                    1, 0.3, 1, 1, 0.3, 1, 0, 0.3, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, &
-                                                    0, 0, 0, 0, 0, 0, 0, 0, 0, 0]
+                                                               'plane_stress', 'lower_order', 'upper_order', 'lower_nx', &
+                                                               'lower_ny', 'upper_nx', 'upper_ny', 'lower_x', &
+                                                               'lower_y', 'lower_width', 'lower_height', 'upper_x', &
+                                                               'upper_width', 'upper_height', 'gap_left', 'gap_right', &
+                                                               'lower_e', 'lower_mu', 'lower_thick', 'upper_e', &
+                                                               'upper_mu', 'upper_thick', 'delta', 'nu', &
+                                                               'eps', 'rho', 'base_x', 'base_y', &
+                                                               'lower_left_x', 'lower_right_x', 'upper_left_x', 'upper_right_x', &
+                                                               'lower_hold_x', 'upper_hold_y', 'top_x', 'top_y', &
+                                                               'top_u1', 'top_u2', 'top_pressure', 'left_pressure', &
+                                                               'right_pressure', 'upper_bx', 'upper_by', 'lower_by', &
+                                                               'tolerance', 'maxit']
+   real(real64), parameter :: DEFAULTS(N_VALUES) = [real(real64) :: &
+                                                    0, 1, 1, 4, 3, 4, 3, 0, 0, 1, 0.5, 0, 1, 0.5, 0, 0, &
+                                                    1, 0.3, 1, 1, 0.3, 1, 0, 0.3, 0, 0, 1, 1, 0, 0, 0, 0, &
+                                                    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]
    character(len=*), parameter :: MARK = '** scene: '
 
    type :: scene_t
