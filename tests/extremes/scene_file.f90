@@ -94,6 +94,7 @@ contains
       do
          read (unit, '(a)', iostat=status) line
          if (status /= 0) return
+         if (line(1:1) == '*' .and. line(2:2) /= '*') is_deck = .true.
          if (index(line, MARK) == 1) then
             is_deck = .true.
             call set_from_text(scene, line(len(MARK) + 1:))
@@ -113,11 +114,11 @@ contains
       read (text(equals + 1:), *, iostat=status) value
       if (equals < 2 .or. status /= 0) then
          print '(2a)', 'scene: not name = value: ', trim(text)
-         error stop 2
+         stop 2, quiet=.true.
       end if
       if (.not. is_name(adjustl(text(:equals - 1)))) then
          print '(2a)', 'scene: no such name: ', trim(text)
-         error stop 2
+         stop 2, quiet=.true.
       end if
       call set_value(scene, adjustl(text(:equals - 1)), value)
    end subroutine set_from_text
