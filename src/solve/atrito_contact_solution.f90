@@ -13,7 +13,7 @@ module atrito_contact_solution
 
    type :: outer_controls_t
       integer(ip) :: method = 1                       !< METHOD_* of the model
-      real(wp) :: tolerance = 1.0e-8_wp
+      real(wp) :: tolerance = 1.0e-10_wp
       integer(ip) :: max_iterations = 100
       real(wp) :: relaxation = 1.0_wp
    end type outer_controls_t

@@ -197,8 +197,8 @@ contains
          call accelerator%update(good, image, tau)
          call find_cycle(visited, tau, solution%residual, cycle_length)
          if (cycle_length > 1 .and. steps_back == 0) then
-            solution%verdict = 'the loop cycles between '//to_text(cycle_length) &
-                               //' states; METHOD=ANDERSON may find the solution'
+            solution%verdict = 'the loop cycles between '//to_text(cycle_length)//' states'
+            if (controls%method == METHOD_PICARD) solution%verdict = solution%verdict//'; METHOD=ANDERSON may find the solution'
             return
          end if
       end do

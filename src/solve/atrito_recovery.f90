@@ -149,6 +149,9 @@ contains
       i = line%tangential(j)
       if (i == 0) then
          slip = row_value(rows, j, rows%tangent(:, j), u)
+      else if (abs(solution%state%q(i)) < tiny(slip)/epsilon(slip) .and. solution%bounds%d(i) > 0.0_wp) then
+         ! the force has lost its digits at the end of the range of numbers
+         slip = row_value(rows, j, rows%tangent(:, j), u)
       else
          slip = solution%bounds%d(i)*solution%state%q(i)
          if (solution%state%state(i) /= FREE) slip = slip + solution%state%r(i)

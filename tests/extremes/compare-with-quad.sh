@@ -22,7 +22,7 @@ digits() {
       function kept(worst, top) {
          if (worst == 0) return 16
          if (top == 0) return 0
-         worst = -log(worst/top)/log(10)
+         worst = int(-log(worst/top)/log(10)*10)/10
          return worst > 16 ? 16 : worst }
       FNR == 1 { file++ }
       /^# columns:/ { for (i = 3; i <= NF; i++) place[file, $i] = i - 2 }
@@ -30,12 +30,13 @@ digits() {
       { p = $place[file, "pressure"]; t = $place[file, "shear"]
         if (p !~ /^[-+0-9.eE]+$/ || t !~ /^[-+0-9.eE]+$/) bad = 1 }
       file == 1 { n++; pa[n] = p + 0; ta[n] = t + 0 }
-      file == 2 { m++; p += 0; t += 0
-        if (abs(p - pa[m]) > ep) ep = abs(p - pa[m]); if (abs(p) > mp) mp = abs(p)
-        if (abs(t - ta[m]) > et) et = abs(t - ta[m]); if (abs(t) > mt) mt = abs(t) }
+      file == 2 { m++; pb[m] = p + 0; tb[m] = t + 0; if (abs(p) > mp) mp = abs(p); if (abs(t) > mt) mt = abs(t) }
       END {
-        # shear that is round-off of a shear-free solution is measured by the pressure
-        if (mt < 1e-20*mp) mt = mp
+        # what is below 1e-14 of the largest pressure is written as 0
+        for (i = 1; i <= m; i++) {
+           if (abs(pb[i] - pa[i]) > ep) ep = abs(pb[i] - pa[i])
+           if (abs(tb[i] - ta[i]) > et && (ta[i] != 0 || abs(tb[i]) > 1e-14*mp)) et = abs(tb[i] - ta[i])
+        }
         if (bad || n != m || n == 0) print "- -"; else printf "%.1f %.1f\n", kept(ep, mp), kept(et, mt) }' "$1" "$2"
 }
 
