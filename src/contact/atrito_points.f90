@@ -49,6 +49,8 @@ module atrito_points
    real(wp), parameter :: END_TOLERANCE = 1.0e-6_wp
    !> Closer than this to a master node is at the node.
    real(wp), parameter :: NODE_TOLERANCE = 1.0e-10_wp
+   !> Errors of rounding that a distance may have.
+   real(wp), parameter :: ROUND_OFFS = 8.0_wp
    !> Cosine below which two surfaces face each other.
    real(wp), parameter :: FACING = -1.0e-3_wp
 
@@ -274,7 +276,8 @@ contains
       points%master_shape = points%master_shape(:, :n)
    end subroutine trim_points
 
-   !> Initial distances, and the master's shape functions where each point faces it.
+   !> Initial distances, and the master's shape functions where each point faces it. A distance that is round-off of the
+   !> coordinates is none: displacements may be smaller than that.
    pure subroutine look_for_master(mesh, master, faces, points)
       type(mesh_t), intent(in) :: mesh
       type(master_t), intent(in) :: master
@@ -289,6 +292,7 @@ contains
          ! where two faces meet at an angle, the mean normal may miss the end of the master
          if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master)
          points%gap(i) = sight%distance
+         if (abs(sight%distance) <= ROUND_OFFS*EPS_MACH*maxval(abs(points%x))) points%gap(i) = 0.0_wp
          if (master%rigid) cycle
          nodes = face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))
          n = size(nodes, kind=ip)
