@@ -3,7 +3,7 @@ module atrito_outer_loop
    use atrito_accelerator, only: accelerator_t, picard_t, anderson_t
    use atrito_box_problem, only: box_problem_t, FREE
    use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, stop_level, relative_residual
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, has_settled, relative_residual
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_model, only: METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
@@ -166,7 +166,7 @@ contains
       has_good = .false.
       steps_back = 0
       solution%converged = .false.
-      last_residual = 0.0_wp
+      last_residual = -1.0_wp
       visited = -1.0_wp
       call accelerator%reset()
       do outer = 1, controls%max_iterations
@@ -189,8 +189,8 @@ contains
          call end_outer(solution%history, solution%residual)
          call tell(reporter, outer, solution)
          if (last_residual > 0.0_wp) solution%contraction = solution%residual/last_residual
+         solution%converged = has_settled(controls%tolerance, solution%inner%condition, last_residual, solution%residual)
          last_residual = solution%residual
-         solution%converged = solution%residual <= stop_level(controls%tolerance, solution)
          if (solution%converged) return
          good = tau
          has_good = .true.

@@ -7,7 +7,7 @@ module atrito_solve
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
    use atrito_contact_rows, only: contact_rows_t, build_rows
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, stop_level
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, lp, wp
@@ -103,7 +103,7 @@ contains
       call recover(model, data, condensed, solution, results)
       call stop_phase('recover')
       call start_phase('check')
-      call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
+      call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results)
       call stop_phase('check')
       call warn(model, data, solution, results)
    end subroutine solve_static

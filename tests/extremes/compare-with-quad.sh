@@ -92,7 +92,7 @@ while read -r _ name scene expected values; do
       if [ "$code" -eq 0 ]; then
          "$quad" compare/deck.inp >compare/quad 2>&1 && kept=$(digits compare/out/contact.tab compare/quad)
          # shellcheck disable=SC2086 # two words
-         if ! at_least 5 $kept; then
+         if ! at_least 2 $kept; then
             "$quad" compare/deck.inp compare/out/contact.tab >compare/next 2>&1 && kept=$(digits compare/out/contact.tab compare/next) &&
                note=other
          fi

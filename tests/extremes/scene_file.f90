@@ -35,7 +35,7 @@ module scene_file
                                                                'tolerance', 'maxit']
    real(real64), parameter :: DEFAULTS(N_VALUES) = [real(real64) :: &
                                                     0, 1, 1, 4, 3, 4, 3, 0, 0, 1, 0.5, 0, 1, 0.5, 0, 0, &
-                                                    1, 0.3, 1, 1, 0.3, 1, 0, 0.3, 0, 0, 1, 1, 0, 0, 0, 0, &
+                                                    1, 0.3_real64, 1, 1, 0.3_real64, 1, 0, 0.3_real64, 0, 0, 1, 1, 0, 0, 0, 0, &
                                                     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]
    character(len=*), parameter :: MARK = '** scene: '
 
@@ -114,11 +114,11 @@ contains
       read (text(equals + 1:), *, iostat=status) value
       if (equals < 2 .or. status /= 0) then
          print '(2a)', 'scene: not name = value: ', trim(text)
-         stop 2, quiet=.true.
+         stop 2, quiet = .true.
       end if
       if (.not. is_name(adjustl(text(:equals - 1)))) then
          print '(2a)', 'scene: no such name: ', trim(text)
-         stop 2, quiet=.true.
+         stop 2, quiet = .true.
       end if
       call set_value(scene, adjustl(text(:equals - 1)), value)
    end subroutine set_from_text

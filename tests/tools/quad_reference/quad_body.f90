@@ -1,8 +1,8 @@
 !> An elastic block in quadruple precision: mesh, stiffness, supports, loads, and its flexibility seen from its contact nodes.
 !>
-!> Written apart from atrito on purpose: its own elements, its own elimination. A block is a quadrilateral of nx x ny equal elements,
-!> nodes numbered column by column. A body that its supports leave free is pinned far from the contact; the pins take no force
-!> where the loads balance, and the rigid motions are given apart.
+!> Written apart from atrito on purpose: its own elements, its own elimination. A block is a quadrilateral of nx x ny equal
+!> elements, nodes numbered column by column. A body that its supports leave free is pinned far from the contact; the pins take no
+!> force where the loads balance, and the rigid motions are given apart.
 module quad_body
    use, intrinsic :: iso_fortran_env, only: real64, real128
    implicit none (type, external)
@@ -298,7 +298,7 @@ contains
       row = merge(body%my, 0, body%contact_side == SIDE_BOTTOM)
       a = node_of(body, 0, row)
       b = node_of(body, body%mx, row)
-      allocate (modes(2*n, count([.not. any(held_x), .not. any(held_y), turns])))
+      allocate (modes(2*n, count([.not. any(held_x),.not. any(held_y), turns])))
       modes = 0
       k = 0
       if (.not. any(held_x)) then

@@ -40,7 +40,7 @@ program quad_reference
       call solve_contact(contact, state, how)
    end if
    call print_solution()
-   if (how == '') stop 3, quiet=.true.
+   if (how == '') stop 3, quiet = .true.
 
 contains
 

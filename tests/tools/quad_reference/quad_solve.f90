@@ -1,9 +1,9 @@
 !> Solves the contact problem in quadruple precision: slow, by several ways, and with a check of its own.
 !>
 !> A state says for each point whether it is open or closed, and whether it sticks or slips. Newton's method with changing states
-!> ends in a solution to full precision when it starts near one. Where to start: from problems with a frozen friction bound, which are
-!> convex (block principal pivoting with Murty's finite rule behind it, weak springs holding free bodies), in a damped Picard loop;
-!> from smaller coefficients of friction; at random; and by trying all states where there are few points.
+!> ends in a solution to full precision when it starts near one. Where to start: from problems with a frozen friction bound, which
+!> are convex (block principal pivoting with Murty's finite rule behind it, weak springs holding free bodies), in a damped Picard
+!> loop; from smaller coefficients of friction; at random; and by trying all states where there are few points.
 module quad_solve
    use, intrinsic :: iso_fortran_env, only: real128
    use quad_contact, only: contact_t, place_of, bound_of
