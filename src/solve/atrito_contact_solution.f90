@@ -11,6 +11,8 @@ module atrito_contact_solution
    private
    public :: contact_solution_t, outer_controls_t, solve_with_bound, has_settled, relative_residual
 
+   real(wp), parameter :: MOST_ROUND_OFF = 1.0e-7_wp
+
    type :: outer_controls_t
       integer(ip) :: method = 1                       !< METHOD_* of the model
       real(wp) :: tolerance = 1.0e-10_wp
@@ -63,7 +65,8 @@ contains
    end function relative_residual
 
    !> Whether the outer loop stops at this residual: below the tolerance; or below what round-off of the matrix can do to it, and no
-   !> longer halved by an iteration. (Round-off mostly does far less than its bound, so the bound alone stops too early.)
+   !> longer halved by an iteration. (Round-off mostly does far less than its bound, so the bound alone stops too early.) Above
+   !> MOST_ROUND_OFF it never does: friction that is less certain is no solution.
    pure logical function has_settled(tolerance, condition, last_residual, residual) result(settled)
       real(wp), intent(in) :: tolerance
       real(wp), intent(in) :: condition               !< of the scaled matrix of the free set
@@ -71,7 +74,8 @@ contains
       real(wp), intent(in) :: residual
 
       settled = residual <= tolerance
-      if (last_residual >= 0.0_wp .and. residual <= EPS_MACH*condition) settled = settled .or. residual > 0.5_wp*last_residual
+      if (last_residual < 0.0_wp .or. residual > min(EPS_MACH*condition, MOST_ROUND_OFF)) return
+      settled = settled .or. residual > 0.5_wp*last_residual
    end function has_settled
 
 end module atrito_contact_solution

@@ -17,6 +17,7 @@ module atrito_solve
    use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
+   use atrito_range, only: work_of
    use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: results_t, scene_t, iteration_t, body_result_t
@@ -318,7 +319,7 @@ contains
                                                      //to_text(imbalance, 3)
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
-      results%external_work = sum(data%f*results%u) + sum(results%reaction*results%u)
+      results%external_work = work_of(size(results%u, kind=ip), data%f + results%reaction, results%u)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call recover_stress(model, data%fem, results)
       call balance_forces(data, contact, results)
