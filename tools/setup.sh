@@ -15,6 +15,7 @@ missing_packages() {
    command -v cmake >/dev/null 2>&1 || printf ' cmake'
    command -v make >/dev/null 2>&1 || printf ' make'
    found_openblas || printf ' libopenblas-dev'
+   found_hdf5 || printf ' libhdf5-dev'
 }
 
 found_openblas() {
@@ -24,10 +25,34 @@ found_openblas() {
    return 1
 }
 
+found_hdf5() {
+   for folder in /usr/include/hdf5/serial /usr/include /usr/local/include; do
+      [ -e "$folder/hdf5.mod" ] && return 0
+   done
+   return 1
+}
+
 # Installs what is missing; nothing to do is nothing said, and no network is needed then.
 install_missing() {
    packages=$(missing_packages)
-   [ -n "$packages" ] || return 0
+   command -v gnuplot >/dev/null 2>&1 || install_gnuplot
+   [ -z "$packages" ] || install_packages "$packages"
+}
+
+# gnuplot draws the pictures of --plot and is needed for nothing else: it comes along with the other packages, else it is tried
+# once, and without it the build goes on.
+install_gnuplot() {
+   if [ -n "$packages" ]; then
+      packages="$packages gnuplot-nox"
+   elif [ ! -e "$top/build/gnuplot-tried" ]; then
+      mkdir -p "$top/build"
+      : >"$top/build/gnuplot-tried"
+      (install_packages ' gnuplot-nox') || say "without gnuplot --plot writes its scripts, but no pictures"
+   fi
+}
+
+install_packages() {
+   packages=$1
    as_root=
    if [ "$(id -u)" -ne 0 ]; then
       command -v sudo >/dev/null 2>&1 || fail "please install$packages (no sudo here)"

@@ -1,7 +1,7 @@
 !> The command line, docs/user/running.md: what is to be done, with which options.
 module atrito_command_line
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, append_string, nearest_names, to_text
+   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
    use atrito_files, only: file_exists
    use atrito_messages, only: message_t, SEVERITY_ERROR
@@ -9,7 +9,7 @@ module atrito_command_line
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
-   public :: command_t, parse_command, fetch_arguments
+   public :: command_t, parse_command, fetch_arguments, output_folder
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_OPTIONS, TASK_VERSION
    public :: SOLVERS
 
@@ -35,6 +35,7 @@ module atrito_command_line
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: quiet = .false.
+      logical :: plot = .false.                     !< pictures by gnuplot
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
    end type command_t
 
@@ -59,7 +60,7 @@ module atrito_command_line
                                 option_t('--rtol   ', Y, [N, N, Y, N, N], Y), &
                                 option_t('--atol   ', Y, [N, N, Y, N, N], Y), &
                                 option_t('--refine ', Y, [Y, Y, N, N, Y], Y), &
-                                option_t('--plot   ', N, [Y, N, N, N, Y], N), &
+                                option_t('--plot   ', N, [Y, N, N, N, Y], Y), &
                                 option_t('--levels ', Y, [N, N, N, N, N], N), &
                                 option_t('--vary   ', Y, [N, N, N, N, Y], Y), &
                                 option_t('--help   ', N, [Y, Y, Y, Y, Y], Y), &
@@ -340,6 +341,8 @@ contains
          call take_real(given%value, 1.0_wp, command%rtol, ok)
       case ('--atol')
          call take_real(given%value, huge(1.0_wp), command%atol, ok)
+      case ('--plot')
+         command%plot = .true.
       case ('--quiet')
          command%quiet = .true.
       end select
@@ -427,6 +430,18 @@ contains
       ok = outcome == NUMBER_OK .and. found >= 0.0_wp .and. found <= most
       if (ok) value = found
    end subroutine take_real
+
+   !> Where the tables go: -o, or output/ and the name of the deck without folder and .inp.
+   pure function output_folder(command) result(folder)
+      type(command_t), intent(in) :: command
+      character(len=:), allocatable :: folder
+
+      if (allocated(command%folder)) then
+         folder = command%folder
+      else
+         folder = 'output/'//deck_name(command%names(1)%s)
+      end if
+   end function output_folder
 
    !> A folder without the slash at its end.
    pure function without_slash(path) result(folder)

@@ -54,6 +54,7 @@ contains
       call add_line(page, '  --solver NAME      auto (default), skyline or banded')
       call add_line(page, '  --threads N        default 1')
       call add_line(page, '  --digits N         significant digits of the tables, 6 to 17, default 10')
+      call add_line(page, '  --plot             pictures by gnuplot: mesh and contact pairs, into DIR/plots')
       call add_line(page, '  --quiet            no progress, no notes, no summary; only warnings and errors')
       call add_line(page, 'options of compare')
       call add_line(page, '  --rtol R           relative to the largest value of the column, default 1e-6')

@@ -10,8 +10,8 @@ module atrito_files
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: read_file, file_exists, is_folder, make_folder, remove_file
-   public :: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files, discard_files
+   public :: read_file, file_exists, is_folder, make_folder, remove_file, remove_empty_folder
+   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text, commit_files, discard_files
 
    !> A set of files that appear together or not at all.
    type :: file_set_t
@@ -147,6 +147,14 @@ contains
       ignored = c_unlink(path//c_null_char)
    end subroutine remove_file
 
+   !> Removes a folder; one that is not empty stays.
+   subroutine remove_empty_folder(path)
+      character(len=*), intent(in) :: path
+      integer(c_int) :: ignored
+
+      ignored = c_rmdir(path//c_null_char)
+   end subroutine remove_empty_folder
+
    !> Begins a set of files in a folder, which is made where it is missing.
    subroutine begin_files(set, folder, status)
       type(file_set_t), intent(out) :: set
@@ -169,17 +177,26 @@ contains
       previous = c_signal(SIGXFSZ, transfer(SIG_IGN, c_null_funptr))
    end subroutine ignore_size_limit
 
+   !> Takes a file into the set that is written by other means, under the temporary path that is given back.
+   subroutine reserve_file(set, name, path)
+      type(file_set_t), intent(inout) :: set
+      character(len=*), intent(in) :: name             !< final name, without folder
+      character(len=:), allocatable, intent(out) :: path
+
+      call append_string(set%names, name)
+      path = set%folder//'/'//name//TEMPORARY
+      call remove_file(path)
+   end subroutine reserve_file
+
    !> Opens a file of the set under its temporary name. A failure is kept in the file until close_text.
    subroutine open_text(set, name, file)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name
       type(text_file_t), intent(out) :: file
 
-      call append_string(set%names, name)
       file%final_path = set%folder//'/'//name
-      file%path = file%final_path//TEMPORARY
       allocate (character(len=BUFFER_LENGTH) :: file%buffer)
-      call remove_file(file%path)
+      call reserve_file(set, name, file%path)
       file%stream = c_fopen(file%path//c_null_char, 'wb'//c_null_char)
       if (.not. c_associated(file%stream)) call set_status(file%status, STATUS_FILE, file%final_path//': cannot be written')
    end subroutine open_text
@@ -195,7 +212,8 @@ contains
       if (length > BUFFER_LENGTH) then
          call put_text(file, line//NEW_LINE_CHARACTER)
       else
-         file%buffer(file%used + 1:file%used + length) = line//NEW_LINE_CHARACTER
+         file%buffer(file%used + 1:file%used + length - 1) = line
+         file%buffer(file%used + length:file%used + length) = NEW_LINE_CHARACTER
          file%used = file%used + length
       end if
    end subroutine put_line
@@ -281,13 +299,12 @@ contains
    subroutine discard_files(set)
       type(file_set_t), intent(in) :: set
       integer :: i
-      integer(c_int) :: ignored
 
       if (.not. allocated(set%names)) return
       do i = 1, size(set%names)
          call remove_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
       end do
-      if (set%is_new) ignored = c_rmdir(set%folder//c_null_char)   ! fails on one that is not empty, as it should
+      if (set%is_new) call remove_empty_folder(set%folder)
    end subroutine discard_files
 
 end module atrito_files

@@ -3,7 +3,8 @@ module atrito_strings
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: string_t, lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string
+   public :: string_t, lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, &
+             deck_name
 
    !> A string of its own length, for lists of strings.
    type :: string_t
@@ -226,5 +227,18 @@ contains
       is_prefix = len(a) >= 3 .and. len(a) <= len(b)
       if (is_prefix) is_prefix = lower_case(a) == lower_case(b(:len(a)))
    end function is_prefix
+
+   !> Name of a deck: its path without folder and .inp.
+   pure function deck_name(path) result(name)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: name
+      integer :: k
+
+      name = path(index(path, '/', back=.true.) + 1:)
+      k = len(name) - len('.inp')
+      if (k > 0) then
+         if (lower_case(name(k + 1:)) == '.inp') name = name(:k)
+      end if
+   end function deck_name
 
 end module atrito_strings

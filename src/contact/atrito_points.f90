@@ -5,7 +5,9 @@
 module atrito_points
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_faces, only: face_list_t, face_length, face_normal
+   use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
+   use atrito_faces, only: face_list_t
+   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, look_along, look_at_end, nearest_end
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
@@ -30,49 +32,43 @@ module atrito_points
       logical :: rigid = .false.
    end type contact_points_t
 
-   !> The master as a list of straight pieces in the plane.
-   type :: master_t
-      logical :: rigid = .false.
+   !> The nodal rule on a face, in the order of travel.
+   type :: nodal_rule_t
       integer(ip) :: n = 0
-      real(wp), allocatable :: a(:, :), b(:, :)     !< (2, n) ends [L]
-      real(wp), allocatable :: normal(:, :)         !< (2, n) outward
-   end type master_t
+      integer(ip) :: node(3) = 0
+      real(wp) :: s(3) = 0.0_wp                     !< arc length from the face's first node [L]
+      real(wp) :: weight(3) = 0.0_wp                !< [L]
+      real(wp) :: normal(2, 3) = 0.0_wp             !< outward unit normals of the face
+   end type nodal_rule_t
 
-   !> What a point sees.
-   type :: sight_t
-      integer(ip) :: piece = 0                      !< 0: nothing
-      real(wp) :: t = 0.0_wp                        !< place on the piece, 0..1
-      real(wp) :: distance = 0.0_wp                 !< along the normal [L]
-   end type sight_t
-
-   !> A point may hang over the end of the master by this part of its piece; nodes that match do so within it.
-   real(wp), parameter :: END_TOLERANCE = 1.0e-6_wp
-   !> Closer than this to a master node is at the node.
-   real(wp), parameter :: NODE_TOLERANCE = 1.0e-10_wp
+   !> From this sine on two faces meet at a corner, and do not stand for a curve.
+   real(wp), parameter :: CORNER = 0.8_wp
    !> Errors of rounding that a distance may have.
    real(wp), parameter :: ROUND_OFFS = 8.0_wp
-   !> Cosine below which two surfaces face each other.
-   real(wp), parameter :: FACING = -1.0e-3_wp
+   !> Sides match when their nodes are this close, in parts of an edge.
+   real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
 
 contains
 
    !> Points of the slave that face the master. n = 0 when none does.
-   pure subroutine pair_surfaces(mesh, thickness, slave, master_faces, master_points, points)
+   pure subroutine pair_surfaces(mesh, thickness, slave, master_faces, master_points, points, is_arc, centre)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
       real(wp), intent(in) :: master_points(:, :)   !< ends of the rigid segments [L], (2, pieces+1) or (2, 0)
       type(contact_points_t), intent(out) :: points
+      logical, intent(in), optional :: is_arc(:)    !< (pieces) of the rigid segments; default: straight
+      real(wp), intent(in), optional :: centre(:, :) !< (2, pieces) of the arcs [L]
       type(master_t) :: master
       integer(ip), allocatable :: place(:)
       logical, allocatable :: used(:)
       integer(ip) :: i
 
       if (master_faces%n > 0) then
-         call take_faces(mesh, master_faces, master)
+         call master_of_faces(mesh, master_faces, master)
       else
-         call take_segments(master_points, master)
+         call master_of_segments(master_points, master, is_arc, centre)
       end if
       points%rigid = master%rigid
       points%n_faces = slave%n
@@ -86,92 +82,53 @@ contains
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master_faces, points)
    end subroutine pair_surfaces
 
-   pure subroutine take_faces(mesh, faces, master)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
-      type(master_t), intent(out) :: master
-      integer(ip) :: i, ends(3)
-
-      master%n = faces%n
-      allocate (master%a(2, faces%n), master%b(2, faces%n), master%normal(2, faces%n))
-      do i = 1, faces%n
-         ends(:2) = reshape(face_nodes(mesh, faces%element(i), faces%face(i)), [2])
-         master%a(:, i) = mesh%x(:, ends(1))
-         master%b(:, i) = mesh%x(:, ends(2))
-         master%normal(:, i) = face_normal(mesh, faces%element(i), faces%face(i))
-      end do
-   end subroutine take_faces
-
-   !> Rigid segments: the outward normal is the direction of travel turned by +90 degrees.
-   pure subroutine take_segments(ends, master)
-      real(wp), intent(in) :: ends(:, :)
-      type(master_t), intent(out) :: master
-      real(wp) :: d(2)
-      integer(ip) :: i
-
-      master%rigid = .true.
-      master%n = max(size(ends, 2, kind=ip) - 1, 0)
-      allocate (master%a(2, master%n), master%b(2, master%n), master%normal(2, master%n))
-      do i = 1, master%n
-         master%a(:, i) = ends(:, i)
-         master%b(:, i) = ends(:, i + 1)
-         d = ends(:, i + 1) - ends(:, i)
-         master%normal(:, i) = [-d(2), d(1)]/norm2(d)
-      end do
-   end subroutine take_segments
-
-   !> A face is a candidate when each of its nodes finds the master along the face's normal.
+   !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave that normal is
+   !> only as good as the faces resolve the curve: at the end of the master it may miss by as much as the normal turns at the face.
    pure logical function finds_master(mesh, slave, i, master) result(finds)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
       integer(ip), intent(in) :: i
       type(master_t), intent(in) :: master
+      type(nodal_rule_t) :: rule
       type(sight_t) :: sight
-      real(wp) :: normal(2), reach
-      integer(ip), allocatable :: nodes(:)
       integer(ip) :: k
 
-      nodes = face_nodes(mesh, slave%element(i), slave%face(i))
-      normal = face_normal(mesh, slave%element(i), slave%face(i))
-      reach = face_length(mesh, slave%element(i), slave%face(i))
+      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
       finds = .true.
-      do k = 1, size(nodes, kind=ip)
-         sight = look_along(mesh%x(:, nodes(k)), normal, reach, master)
+      do k = 1, rule%n
+         associate (x => mesh%x(:, rule%node(k)), normal => rule%normal(:, k), reach => rule%s(rule%n))
+            sight = look_along(x, normal, reach, master)
+            if (sight%piece == 0) sight = look_at_end(x, normal, reach, turn_at(mesh, slave, i, rule), master)
+         end associate
          finds = finds .and. sight%piece > 0
       end do
    end function finds_master
 
-   !> The nearest piece of the master on the line through x along the normal; a piece seen from behind is not seen, nor one that
-   !> lies deeper inside than the longer of the slave's face and the piece. A piece that the line misses by END_TOLERANCE or less is
-   !> taken only where no other is as near. The distance is that to the piece or its straight continuation.
-   pure function look_along(x, normal, reach, master) result(best)
-      real(wp), intent(in) :: x(2), normal(2)
-      real(wp), intent(in) :: reach                 !< length of the slave's face [L]
-      type(master_t), intent(in) :: master
-      type(sight_t) :: best
-      real(wp) :: d(2), r(2), cross, t, distance, nearness, nearest
-      integer(ip) :: i
+   !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner.
+   pure real(wp) function turn_at(mesh, slave, i, rule) result(turn)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      type(nodal_rule_t), intent(in) :: rule        !< of face i
+      type(nodal_rule_t) :: other
+      integer(ip) :: k
 
-      nearest = huge(nearest)
-      do i = 1, master%n
-         if (dot_product(normal, master%normal(:, i)) > FACING) cycle
-         d = master%b(:, i) - master%a(:, i)
-         r = x - master%a(:, i)
-         cross = d(1)*normal(2) - d(2)*normal(1)
-         t = (r(1)*normal(2) - r(2)*normal(1))/cross
-         if (t < -END_TOLERANCE .or. t > 1 + END_TOLERANCE) cycle
-         nearness = 0.0_wp
-         if (t < -NODE_TOLERANCE .or. t > 1 + NODE_TOLERANCE) nearness = 2*END_TOLERANCE*norm2(d)
-         distance = dot_product(t*d - r, normal)
-         if (t < NODE_TOLERANCE) t = 0.0_wp
-         if (t > 1 - NODE_TOLERANCE) t = 1.0_wp
-         if (distance < -max(reach, norm2(d))) cycle
-         nearness = nearness + abs(distance)
-         if (nearness >= nearest) cycle
-         nearest = nearness
-         best = sight_t(i, t, distance)
+      turn = sine(rule%normal(:, 1), rule%normal(:, rule%n))
+      do k = max(i - 1, 1_ip), min(i + 1, slave%n)
+         if (k == i) cycle
+         other = nodal_rule(mesh, slave%element(k), slave%face(k))
+         if (k < i) turn = max(turn, sine(other%normal(:, other%n), rule%normal(:, 1)))
+         if (k > i) turn = max(turn, sine(rule%normal(:, rule%n), other%normal(:, 1)))
       end do
-   end function look_along
+      if (turn > CORNER) turn = 0.0_wp
+   end function turn_at
+
+   pure real(wp) function sine(a, b)
+      real(wp), intent(in) :: a(2), b(2)            !< unit vectors
+
+      sine = abs(a(1)*b(2) - a(2)*b(1))
+      if (dot_product(a, b) < 0.0_wp) sine = 1.0_wp
+   end function sine
 
    pure subroutine allocate_points(points, most)
       type(contact_points_t), intent(inout) :: points
@@ -190,26 +147,22 @@ contains
       logical, intent(in) :: used(:)
       type(contact_points_t), intent(inout) :: points
       integer(ip), intent(inout) :: place(:)        !< point of a node, 0 so far
-      integer(ip), allocatable :: nodes(:)
-      real(wp) :: s, length
-      real(wp), allocatable :: rule(:), where_on_face(:)
+      type(nodal_rule_t) :: rule
+      real(wp) :: s
       integer(ip) :: i, k
 
       s = 0.0_wp
       do i = 1, slave%n
-         length = face_length(mesh, slave%element(i), slave%face(i))
-         if (used(i)) then
-            call nodal_rule(face_nodes(mesh, slave%element(i), slave%face(i)), nodes, rule, where_on_face)
-            do k = 1, size(nodes, kind=ip)
-               call add_point(mesh, nodes(k), s + where_on_face(k)*length, points, place)
-               associate (j => place(nodes(k)))
-                  points%length(j) = points%length(j) + rule(k)*length
-                  points%weight(j) = points%weight(j) + rule(k)*length*thickness(slave%element(i))
-                  points%normal(:, j) = points%normal(:, j) + length*face_normal(mesh, slave%element(i), slave%face(i))
-               end associate
-            end do
-         end if
-         s = s + length
+         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+         do k = 1, merge(rule%n, 0_ip, used(i))
+            call add_point(mesh, rule%node(k), s + rule%s(k), points, place)
+            associate (j => place(rule%node(k)))
+               points%length(j) = points%length(j) + rule%weight(k)
+               points%weight(j) = points%weight(j) + rule%weight(k)*thickness(slave%element(i))
+               points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
+            end associate
+         end do
+         s = s + rule%s(rule%n)
       end do
       do i = 1, points%n
          points%normal(:, i) = points%normal(:, i)/norm2(points%normal(:, i))
@@ -227,22 +180,35 @@ contains
       normal = normal/norm2(normal)
    end subroutine clear_round_off
 
-   !> Trapezoidal or Simpson's rule on a face, nodes in the order of travel.
-   pure subroutine nodal_rule(face, nodes, rule, where_on_face)
-      integer(ip), intent(in) :: face(:)            !< first, last[, middle]
-      integer(ip), allocatable, intent(out) :: nodes(:)
-      real(wp), allocatable, intent(out) :: rule(:), where_on_face(:)
+   !> Trapezoidal or Simpson's rule on a face. On a curved face the Jacobian differs from node to node. Simpson's weights times the
+   !> normals are the nodal forces of a uniform pressure, to the last bit: the shape functions times dx/dt are cubics.
+   pure function nodal_rule(mesh, element, face) result(rule)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face
+      type(nodal_rule_t) :: rule
+      integer(ip) :: nodes(3), k, n
+      real(wp) :: x(2, 3), t(3), w(3)
 
-      if (size(face) == 2) then
-         nodes = face
-         rule = [0.5_wp, 0.5_wp]
-         where_on_face = [0.0_wp, 1.0_wp]
+      nodes = 0
+      n = size(face_nodes(mesh, element, face), kind=ip)
+      nodes(:n) = face_nodes(mesh, element, face)
+      x(:, :n) = mesh%x(:, nodes(:n))
+      rule%n = n
+      if (n == 2) then
+         t(:n) = [-1.0_wp, 1.0_wp]
+         w(:n) = 1.0_wp
       else
-         nodes = face([1, 3, 2])
-         rule = [1.0_wp, 4.0_wp, 1.0_wp]/6.0_wp
-         where_on_face = [0.0_wp, 0.5_wp, 1.0_wp]
+         nodes = nodes([1, 3, 2])
+         t = [-1.0_wp, 0.0_wp, 1.0_wp]
+         w = [1.0_wp, 4.0_wp, 1.0_wp]/3.0_wp
       end if
-   end subroutine nodal_rule
+      rule%node = nodes
+      do k = 1, n
+         rule%s(k) = face_arc_length(x(:, :n), t(k))
+         rule%weight(k) = w(k)*norm2(face_direction(x(:, :n), t(k)))
+         rule%normal(:, k) = outward_normal(x(:, :n), t(k))
+      end do
+   end function nodal_rule
 
    pure subroutine add_point(mesh, node, s, points, place)
       type(mesh_t), intent(in) :: mesh
@@ -302,26 +268,6 @@ contains
       end do
    end subroutine look_for_master
 
-   !> The master's end that is nearest to the line through x along the normal.
-   pure function nearest_end(x, normal, master) result(best)
-      real(wp), intent(in) :: x(2), normal(2)
-      type(master_t), intent(in) :: master
-      type(sight_t) :: best
-      real(wp) :: away, least, d(2)
-      integer(ip) :: i, k
-
-      least = huge(least)
-      do i = 1, master%n
-         do k = 0, 1
-            d = merge(master%a(:, i), master%b(:, i), k == 0) - x
-            away = abs(d(1)*normal(2) - d(2)*normal(1))
-            if (away >= least .or. dot_product(normal, master%normal(:, i)) > FACING) cycle
-            least = away
-            best = sight_t(i, real(k, wp), dot_product(d, normal))
-         end do
-      end do
-   end function nearest_end
-
    !> Each slave node faces a master node, and both sides are of one order.
    pure logical function are_matching(mesh, slave, faces, points)
       type(mesh_t), intent(in) :: mesh
@@ -331,7 +277,7 @@ contains
 
       are_matching = .true.
       do i = 1, points%n
-         are_matching = are_matching .and. maxval(points%master_shape(:, i)) >= 1 - 4*END_TOLERANCE
+         are_matching = are_matching .and. maxval(points%master_shape(:, i)) >= 1 - 4*MATCH_TOLERANCE
       end do
       if (slave%n > 0) are_matching = are_matching .and. &
                                       all(mesh%shape(faces%element(:faces%n)) == mesh%shape(slave%element(1)))

@@ -20,6 +20,7 @@ module atrito_expressions
       character(len=:), allocatable :: text          !< not allocated: nothing
       integer :: first = 1, last = 1                 !< characters of the expression
       logical :: unknown_name = .false.              !< they are a name that is not known
+      logical :: of_value = .false.                  !< an operation has no result for these values; others may be right
    end type expression_fault_t
 
    !> An expression, and how far it is read.
@@ -304,10 +305,10 @@ contains
       value = x
       select case (name)
       case ('sqrt')
-         if (x < 0.0_wp) call fail(parser, first, last, 'sqrt of a negative number')
+         if (x < 0.0_wp) call fail_value(parser, first, last, 'sqrt of a negative number')
          value = sqrt(max(x, 0.0_wp))
       case ('log')
-         if (x <= 0.0_wp) call fail(parser, first, last, 'log of a number that is not positive')
+         if (x <= 0.0_wp) call fail_value(parser, first, last, 'log of a number that is not positive')
          if (x > 0.0_wp) value = log(x)
       case ('exp')
          call exponential_safely(x, value, outcome)
@@ -379,11 +380,11 @@ contains
       select case (outcome)
       case (ARITHMETIC_OK)
       case (ARITHMETIC_OVERFLOW)
-         call fail(parser, first, last, 'the result is too large for a real')
+         call fail_value(parser, first, last, 'the result is too large for a real')
       case (ARITHMETIC_ZERO_DIVISION)
-         call fail(parser, first, last, 'division by zero')
+         call fail_value(parser, first, last, 'division by zero')
       case default
-         call fail(parser, first, last, 'a negative number can only be raised to a whole power')
+         call fail_value(parser, first, last, 'a negative number can only be raised to a whole power')
       end select
    end subroutine judge
 
@@ -392,6 +393,17 @@ contains
 
       has_failed = allocated(parser%fault%text)
    end function has_failed
+
+   !> A fault of the values, not of the text.
+   pure subroutine fail_value(parser, first, last, text)
+      type(parser_t), intent(inout) :: parser
+      integer, intent(in) :: first, last
+      character(len=*), intent(in) :: text
+
+      if (has_failed(parser)) return
+      call fail(parser, first, last, text)
+      parser%fault%of_value = .true.
+   end subroutine fail_value
 
    !> The first fault counts.
    pure subroutine fail(parser, first, last, text)

@@ -8,7 +8,7 @@ module atrito_items
    implicit none (type, external)
    private
    public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer
-   public :: parameter_names, index_of_parameter, LONGEST_NAME
+   public :: parameter_names, index_of_parameter, report_later, LONGEST_NAME
 
    integer, parameter :: LONGEST_NAME = 80
 
@@ -189,12 +189,24 @@ contains
       end if
       associate (parameter => deck%parameters(i))
          if (parameter%order < reading_order(deck, place%source, place%line)) return
-         call report_error(deck, place, 'E-PARAMETER', 'parameter '//name//' is used before its definition in '// &
-                           deck%sources(parameter%place%source)%name//':'//to_text(parameter%place%line), expected=what, &
-                           keyword='PARAMETER')
       end associate
+      call report_later(deck, place, i, what)
       i = 0
    end subroutine find_parameter
+
+   !> A parameter is used before its definition.
+   subroutine report_later(deck, place, i, what)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: i                     !< the parameter
+      character(len=*), intent(in) :: what             !< what was expected
+
+      associate (parameter => deck%parameters(i))
+         call report_error(deck, place, 'E-PARAMETER', 'parameter '//token_text(deck, place)//' is used before its '// &
+                           'definition in '//deck%sources(parameter%place%source)%name//':'//to_text(parameter%place%line), &
+                           expected=what, keyword='PARAMETER')
+      end associate
+   end subroutine report_later
 
    !> Index of a parameter, 0 when there is none of this name.
    pure integer(ip) function index_of_parameter(deck, name) result(i)

@@ -193,7 +193,8 @@ contains
       call add_option(k, 'ELSET', KIND_NAME, 'name of the block', required=.true.)
       call add_option(k, 'NX', KIND_INTEGER, 'elements along BOTTOM', required=.true.)
       call add_option(k, 'NY', KIND_INTEGER, 'elements along LEFT', required=.true.)
-      call add_option(k, 'MERGE', KIND_NAME, 'block with which it shares the nodes that coincide within 1e-6 of an edge')
+      call add_option(k, 'MERGE', KIND_NAME, 'block, of as many nodes an element, with which it shares the '// &
+                      'nodes that coincide within 1e-6 of an edge')
       call add_form(k, 'the four corners, counter-clockwise', 4, 4)
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
@@ -213,7 +214,8 @@ contains
       call define_keyword(k, 'SURFACE', LEVEL_MODEL, 'names a surface: faces of elements, or a drawn line', &
                           doc='Over a set, face Sn of each of its elements; without a face, all outer faces. A face inside the '// &
                           'mesh is an error. The outward normal of a drawn line is its direction of travel turned by +90 '// &
-                          'degrees: a floor drawn from left to right faces up.')
+                          'degrees: a floor drawn from left to right faces up. An arc runs the shorter way round its centre, '// &
+                          'which is as far from both ends within 1e-4 and is moved to be so exactly.')
       call add_option(k, 'NAME', KIND_NAME, 'name of the surface', required=.true.)
       call add_option(k, 'TYPE', KIND_WORD, 'kind of surface', default='ELEMENT', choices='ELEMENT SEGMENTS')
       call add_option(k, 'INTERNAL', KIND_FLAG, 'mark of a preprocessor', harmless=.true.)
@@ -223,10 +225,10 @@ contains
       call add_form(k, 'where the line begins', 1, 1, when='TYPE=SEGMENTS', word='START')
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
-      call add_form(k, 'a straight segment', 1, ANY_NUMBER, when='TYPE=SEGMENTS', word='LINE')
+      call add_form(k, 'a straight segment', 0, ANY_NUMBER, when='TYPE=SEGMENTS', word='LINE')
       call add_item(k, 'x', KIND_REAL, 'coordinate of its end', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate of its end', dimension='L')
-      call add_form(k, 'an arc', 0, ANY_NUMBER, when='TYPE=SEGMENTS', word='CIRCL', built=.false.)
+      call add_form(k, 'an arc of less than 180 degrees', 0, ANY_NUMBER, when='TYPE=SEGMENTS', word='CIRCL')
       call add_item(k, 'x', KIND_REAL, 'coordinate of its end', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate of its end', dimension='L')
       call add_item(k, 'xc', KIND_REAL, 'coordinate of its centre', dimension='L')

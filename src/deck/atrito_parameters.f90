@@ -5,7 +5,7 @@ module atrito_parameters
    use atrito_diagnostics, only: report_error
    use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name, &
                                  reserved_names
-   use atrito_items, only: index_of_parameter, parameter_names, LONGEST_NAME
+   use atrito_items, only: index_of_parameter, parameter_names, report_later, LONGEST_NAME
    use atrito_lexer, only: find_equals, trim_place
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
    use atrito_strings, only: string_t, append_string, same_name, nearest_names, join, to_text
@@ -39,13 +39,13 @@ contains
          equals = index(list(i)%s, '=')
          name = trim(adjustl(list(i)%s(:max(equals - 1, 0))))
          if (.not. is_name(name)) then
-            call set_status(status, STATUS_USAGE, '--set '//list(i)%s//': NAME=VALUE is expected')
+            call set_status(status, STATUS_USAGE, 'setting '//list(i)%s//': NAME=VALUE is expected')
             return
          end if
          call append_string(settings%names, name)
          call evaluate_expression(list(i)%s(equals + 1:), none, [real(wp) ::], settings%values(i), fault)
          if (allocated(fault%text)) then
-            call set_status(status, STATUS_USAGE, '--set '//list(i)%s//': '//fault%text)
+            call set_status(status, STATUS_USAGE, 'setting '//list(i)%s//': '//fault%text)
             return
          end if
       end do
@@ -146,27 +146,37 @@ contains
       call collect_known(deck, expression, names, values)
       call evaluate_expression(token_text(deck, expression), names, values, value, fault)
       known = .not. allocated(fault%text)
-      if (.not. known) call report_fault(deck, expression, fault, '', 'PARAMETER')
+      if (.not. known) call report_fault(deck, expression, fault, [string_t ::], 'PARAMETER')
    end subroutine evaluate
 
+   !> A fault of an expression, at its place. Passed over in silence when it is a parameter whose definition was reported.
    subroutine report_fault(deck, expression, fault, also, keyword)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: expression
       type(expression_fault_t), intent(in) :: fault
-      character(len=*), intent(in) :: also             !< names that the expression knows besides, e.g. 'x, y, '
+      type(string_t), intent(in) :: also(:)            !< names that the expression knows besides
       character(len=*), intent(in) :: keyword
       type(token_t) :: place
+      character(len=:), allocatable :: others
+      integer(ip) :: i
 
       place = expression
       place%first = expression%first + fault%first - 1
       place%last = min(expression%last, expression%first + fault%last - 1)
       place%column = expression%column + fault%first - 1
+      others = join(also, ', ')
+      if (len(others) > 0) others = others//', '
+      i = 0
+      if (fault%unknown_name) i = index_of_parameter(deck, token_text(deck, place))
       if (.not. fault%unknown_name) then
          call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
-                           expected='numbers, '//also//'earlier parameters, + - * / ** ( ), functions')
-      else if (index_of_parameter(deck, token_text(deck, place)) == 0) then
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=[parameter_names(deck), &
-                                                         reserved_names()], expected=also//'an earlier parameter, a function or pi')
+                           expected='numbers, '//others//'earlier parameters, + - * / ** ( ), functions')
+      else if (i == 0) then
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
+                           known=[also, parameter_names(deck), reserved_names()], &
+                           expected=others//'an earlier parameter, a function or pi')
+      else if (deck%parameters(i)%known) then
+         call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
       end if
    end subroutine report_fault
 
@@ -174,15 +184,17 @@ contains
    subroutine evaluate_function(deck, expression, x, values, ok, keyword)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: expression
-      real(wp), intent(in) :: x(:, :)                  !< (2, n) [L]
+      real(wp), intent(in) :: x(:, :)                  !< (2, n) [L]; without a place only the text is checked
       real(wp), intent(out) :: values(:)               !< (n)
       logical, intent(out) :: ok                       !< .false.: reported, once
       character(len=*), intent(in) :: keyword
       type(expression_fault_t) :: fault
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: known(:)
+      type(string_t) :: coordinates(2)
       integer(ip) :: i
 
+      coordinates = [string_t('x'), string_t('y')]
       call collect_known(deck, expression, names, known)
       values = 0.0_wp
       do i = 1, size(names, kind=ip)
@@ -192,18 +204,34 @@ contains
                            expected='another name of the parameter', keyword=keyword)
          return
       end do
-      call append_string(names, 'x')
-      call append_string(names, 'y')
+      names = [coordinates, names]
       ok = .true.
+      if (size(values) == 0) call check_text(deck, expression, names, known, ok, keyword)
       do i = 1, size(values, kind=ip)
-         call evaluate_expression(token_text(deck, expression), names, [known, x(:, i)], values(i), fault)
+         call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault)
          ok = .not. allocated(fault%text)
          if (ok) cycle
-         if (.not. fault%unknown_name) fault%text = fault%text//' at x = '//to_text(x(1, i))//', y = '//to_text(x(2, i))
-         call report_fault(deck, expression, fault, 'x, y, ', keyword)
+         if (fault%of_value) fault%text = fault%text//' at x = '//to_text(x(1, i))//', y = '//to_text(x(2, i))
+         call report_fault(deck, expression, fault, coordinates, keyword)
          return
       end do
    end subroutine evaluate_function
+
+   !> Without a place only the text of an expression can be wrong.
+   subroutine check_text(deck, expression, names, known, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      type(string_t), intent(in) :: names(:)           !< x, y, parameters
+      real(wp), intent(in) :: known(:)                 !< values of the parameters
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      type(expression_fault_t) :: fault
+      real(wp) :: value
+
+      call evaluate_expression(token_text(deck, expression), names, [0.0_wp, 0.0_wp, known], value, fault)
+      ok = .not. allocated(fault%text) .or. fault%of_value
+      if (.not. ok) call report_fault(deck, expression, fault, names(:2), keyword)
+   end subroutine check_text
 
    !> The parameters that have values and are defined before a place.
    subroutine collect_known(deck, place, names, values)
@@ -211,12 +239,12 @@ contains
       type(token_t), intent(in) :: place
       type(string_t), allocatable, intent(out) :: names(:)
       real(wp), allocatable, intent(out) :: values(:)
-      integer(ip) :: i
+      integer(ip) :: i, order
 
       allocate (names(0), values(0))
+      order = reading_order(deck, place%source, place%line)
       do i = 1, deck%n_parameters
-         if (.not. deck%parameters(i)%known) cycle
-         if (deck%parameters(i)%order >= reading_order(deck, place%source, place%line)) cycle
+         if (.not. deck%parameters(i)%known .or. deck%parameters(i)%order >= order) cycle
          call append_string(names, deck%parameters(i)%name)
          values = [values, deck%parameters(i)%value]
       end do
@@ -233,7 +261,7 @@ contains
 
       do i = 1, size(settings%names)
          if (index_of_parameter(deck, settings%names(i)%s) > 0) cycle
-         text = '--set '//settings%names(i)%s//': '//deck%path//' has no such parameter'
+         text = 'setting '//settings%names(i)%s//': '//deck%path//' has no such parameter'
          near = nearest_names(settings%names(i)%s, parameter_names(deck), MOST_NEAREST)
          if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
          if (deck%n_parameters > 0) text = text//'; it has: '//join(parameter_names(deck), ', ')

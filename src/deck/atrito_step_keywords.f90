@@ -11,6 +11,9 @@ module atrito_step_keywords
    character(len=16), parameter :: HARMLESS(11) = [character(len=16) :: 'OUTPUT', 'NODE OUTPUT', 'ELEMENT OUTPUT', &
                          'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'RESTART', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
 
+   character(len=*), parameter :: FIELD_FILE = '<deck name>.h5, an HDF5 file that ParaView opens by <deck name>.xdmf; there is '// &
+                                  'one when a *... FILE asks for it.'
+
 contains
 
    subroutine define_step_keywords(table)
@@ -26,9 +29,9 @@ contains
       call define_node_print(table(7))
       call define_el_print(table(8))
       call define_contact_print(table(9))
-      call define_file(table(10), 'NODE FILE', 'nodes')
-      call define_file(table(11), 'EL FILE', 'elements')
-      call define_file(table(12), 'CONTACT FILE', 'contact points')
+      call define_node_file(table(10))
+      call define_el_file(table(11))
+      call define_contact_file(table(12))
       call define_end_step(table(13))
    end subroutine define_step_keywords
 
@@ -173,15 +176,50 @@ contains
       call add_option(k, 'TIME POINTS', KIND_NAME, 'there is one step', harmless=.true.)
    end subroutine add_print_options
 
-   subroutine define_file(k, name, what)
+   subroutine define_node_file(k)
       type(keyword_t), intent(out) :: k
-      character(len=*), intent(in) :: name, what
 
-      call define_keyword(k, name, LEVEL_STEP, 'contents of the HDF5 file: '//what, built=.false.)
+      call define_keyword(k, 'NODE FILE', LEVEL_STEP, 'writes displacements (U) and reactions (RF) into the field file', &
+                          doc=FIELD_FILE//' Nodes outside NSET are nan there.')
+      call add_option(k, 'NSET', KIND_NAME, 'these nodes only')
+      call add_file_options(k)
+      call add_form(k, 'the fields', 1, ANY_NUMBER)
+      call add_word_item(k, 'variable', 'U RF', 'displacements, reactions', repeats=.true.)
+      call add_example(k, '*NODE FILE|U, RF')
+   end subroutine define_node_file
+
+   subroutine define_el_file(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'EL FILE', LEVEL_STEP, 'writes stresses (S) into the field file', &
+                          doc=FIELD_FILE//' Nodes that are on no element of ELSET are nan there.')
+      call add_option(k, 'ELSET', KIND_NAME, 'these elements only')
+      call add_file_options(k)
+      call add_form(k, 'the fields', 1, ANY_NUMBER)
+      call add_word_item(k, 'variable', 'S', 'stresses, at the integration points and recovered at the nodes', repeats=.true.)
+      call add_example(k, '*EL FILE, ELSET=plate|S')
+   end subroutine define_el_file
+
+   subroutine define_contact_file(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'CONTACT FILE', LEVEL_STEP, 'writes the fields of the contact points into the field file', &
+                          doc=FIELD_FILE//' All columns of contact.tab, and the traction upon the slave.')
+      call add_file_options(k)
       call add_form(k, 'variables', 0, ANY_NUMBER)
-      call add_item(k, 'variable', KIND_NAME, 'name of a variable', required=.false., repeats=.true.)
-      call add_example(k, '*'//name)
-   end subroutine define_file
+      call add_item(k, 'variable', KIND_NAME, 'of other programs; the file always has all fields', required=.false., &
+                    repeats=.true.)
+      call add_example(k, '*CONTACT FILE')
+   end subroutine define_contact_file
+
+   subroutine add_file_options(k)
+      type(keyword_t), intent(inout) :: k
+
+      call add_option(k, 'FREQUENCY', KIND_INTEGER, 'there is one step', harmless=.true.)
+      call add_option(k, 'GLOBAL', KIND_WORD, 'axes are global', harmless=.true.)
+      call add_option(k, 'TIME POINTS', KIND_NAME, 'there is one step', harmless=.true.)
+      call add_option(k, 'OUTPUT', KIND_WORD, 'the file is of the plane', harmless=.true.)
+   end subroutine add_file_options
 
    subroutine define_end_step(k)
       type(keyword_t), intent(out) :: k

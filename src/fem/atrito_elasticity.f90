@@ -4,7 +4,7 @@ module atrito_elasticity
    use atrito_mesh, only: PLANE_STRESS
    implicit none (type, external)
    private
-   public :: elastic_t, elasticity_matrix, stress_33, von_mises
+   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises
 
    !> What an element needs to know of its section.
    type :: elastic_t
@@ -37,6 +37,27 @@ contains
       d(2, 2) = lambda + 2*shear
       d(3, 3) = shear
    end function elasticity_matrix
+
+   !> The inverse of the elasticity matrix [L^2/F]; it stays finite at Poisson's ratio 1/2.
+   pure function compliance_matrix(section, state) result(c)
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state     !< PLANE_STRAIN or PLANE_STRESS
+      real(wp) :: c(3, 3)
+
+      c = 0.0_wp
+      associate (young => section%young, mu => section%poisson)
+         if (state == PLANE_STRESS) then
+            c(1, 1) = 1/young
+            c(1, 2) = -mu/young
+         else
+            c(1, 1) = (1 + mu)*(1 - mu)/young
+            c(1, 2) = -(1 + mu)*mu/young
+         end if
+         c(3, 3) = 2*(1 + mu)/young
+      end associate
+      c(2, 2) = c(1, 1)
+      c(2, 1) = c(1, 2)
+   end function compliance_matrix
 
    !> The stress across the plane.
    pure real(wp) function stress_33(section, state, s)

@@ -5,7 +5,7 @@ module atrito_faces
    implicit none (type, external)
    private
    public :: face_list_t, node_elements_t, chain_report_t
-   public :: list_node_elements, is_outer_face, outer_faces, order_chain, face_length, face_normal, add_face
+   public :: list_node_elements, is_outer_face, outer_faces, order_chain, face_normal, add_face
 
    !> A list of element faces.
    type :: face_list_t
@@ -177,15 +177,7 @@ contains
       last_node = mesh%nodes(face_end(list%face(i)), list%element(i))
    end function last_node
 
-   !> Length [L] of the straight line between a face's corners.
-   pure real(wp) function face_length(mesh, element, face)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, face
-
-      face_length = norm2(mesh%x(:, mesh%nodes(face_end(face), element)) - mesh%x(:, mesh%nodes(face, element)))
-   end function face_length
-
-   !> Outward unit normal of a straight face: the direction of travel turned by -90 degrees.
+   !> Outward unit normal of the straight line between a face's corners: the direction of travel turned by -90 degrees.
    pure function face_normal(mesh, element, face) result(n)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element, face

@@ -144,20 +144,22 @@ contains
       face_end = mod(face, FACES) + 1
    end function face_end
 
-   !> How many of the elements' faces join the same two corners (2 inside the mesh, 1 on its outline).
+   !> How many of the elements' faces join the same two corners the other way round, by the same middle (1 inside the mesh, 0 on its
+   !> outline). The middle tells two curved faces that close a circle.
    pure integer(ip) function opposite_face_count(mesh, element, face, elements_of_node) result(n)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element, face
       integer(ip), intent(in) :: elements_of_node(:) !< the elements at the face's first node
-      integer(ip) :: i, other, a, b
+      integer(ip) :: i, other, a, b, middle
 
       a = mesh%nodes(face, element)
       b = mesh%nodes(face_end(face), element)
+      middle = mesh%nodes(FACES + face, element)      ! 0 for Q1
       n = 0
       do i = 1, size(elements_of_node, kind=ip)
          do other = 1, FACES
-            if (mesh%nodes(other, elements_of_node(i)) == b .and. &
-                mesh%nodes(face_end(other), elements_of_node(i)) == a) n = n + 1
+            if (mesh%nodes(other, elements_of_node(i)) == b .and. mesh%nodes(face_end(other), elements_of_node(i)) == a &
+                .and. mesh%nodes(FACES + other, elements_of_node(i)) == middle) n = n + 1
          end do
       end do
    end function opposite_face_count
@@ -165,12 +167,12 @@ contains
    !> The nodes of an element from their square of 2 x 2 (Q1) or 3 x 3 (Q2): corners counter-clockwise, mid-sides, centre.
    pure function nodes_of_square(square) result(nodes)
       integer(ip), intent(in) :: square(:, :)
-      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: nodes(size(square))
       integer(ip) :: n
 
       n = size(square, 1, kind=ip)
-      nodes = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
-      if (n == 3) nodes = [nodes, square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
+      nodes(:FACES) = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
+      if (n == 3) nodes(FACES + 1:) = [square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
    end function nodes_of_square
 
    !> Coordinates [L] of an element's nodes, (2, shape).

@@ -140,6 +140,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
       type(mesh_t), intent(inout) :: fine
+      integer(ip), allocatable :: grid(:, :)
       integer(ip) :: n, e, i, greatest
       logical :: known
 
@@ -155,18 +156,18 @@ contains
          call add_id(fine%node_map, fine%node_id(i), i, known)
       end do
       do e = 1, mesh%n_elements
-         call map_element(mesh, refinement, e, fine%x)
+         call map_element(mesh, refinement, e, fine%x, grid)
       end do
    end subroutine place_nodes
 
    !> Places the new nodes of an element. An edge is mapped by its own nodes alone, hence alike from both sides, and the differences
    !> are formed first, so that a constant coordinate stays constant to the last bit.
-   pure subroutine map_element(mesh, refinement, element, x)
+   pure subroutine map_element(mesh, refinement, element, x, grid)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
       real(wp), intent(inout) :: x(:, :)
-      integer(ip), allocatable :: grid(:, :)
+      integer(ip), allocatable, intent(inout) :: grid(:, :)   !< room
       real(wp) :: line(2, 3), s, t
       integer(ip) :: i, j, k, n
 
@@ -246,15 +247,18 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
-      integer(ip), allocatable, intent(out) :: grid(:, :)
+      integer(ip), allocatable, intent(inout) :: grid(:, :)   !< kept where its size is right: there are many elements
       integer(ip) :: i, j, k, n
 
       n = order_of(mesh, element)*refinement%pieces
-      allocate (grid(0:n, 0:n))
-      grid(:, 0) = edge_line(mesh, refinement, element, 1_ip)
-      grid(n, :) = edge_line(mesh, refinement, element, 2_ip)
-      grid(n:0:-1, n) = edge_line(mesh, refinement, element, 3_ip)
-      grid(0, n:0:-1) = edge_line(mesh, refinement, element, 4_ip)
+      if (allocated(grid)) then
+         if (ubound(grid, 1) /= n) deallocate (grid)
+      end if
+      if (.not. allocated(grid)) allocate (grid(0:n, 0:n))
+      call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
+      call put_edge(mesh, refinement, element, 2_ip, grid(n, :))
+      call put_edge(mesh, refinement, element, 3_ip, grid(n:0:-1, n))
+      call put_edge(mesh, refinement, element, 4_ip, grid(0, n:0:-1))
       k = refinement%inner_first(element)
       do j = 1, n - 1
          do i = 1, n - 1
@@ -269,24 +273,30 @@ contains
    end subroutine fill_grid
 
    !> The nodes of an edge in the direction in which an element travels it.
-   pure function edge_line(mesh, refinement, element, face) result(line)
+   pure subroutine put_edge(mesh, refinement, element, face, line)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element, face
-      integer(ip), allocatable :: line(:)
-      integer(ip) :: edge, k, middle
+      integer(ip), intent(inout) :: line(0:)
+      integer(ip) :: edge, i, k, n
 
       edge = refinement%face_edge(face, element)
-      line = [(k, k=refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1)]
+      n = ubound(line, 1, kind=ip)
       associate (node => refinement%edge_node(:, edge))
-         if (node(3) > 0) then
-            middle = size(line, kind=ip)/2
-            line = [line(:middle), node(3), line(middle + 1:)]
-         end if
-         line = [node(1), line, node(2)]
-         if (node(1) /= mesh%nodes(face, element)) line = line(size(line):1:-1)
+         line(0) = node(1)
+         k = refinement%edge_first(edge)
+         do i = 1, n - 1
+            if (node(3) > 0 .and. 2*i == n) then
+               line(i) = node(3)
+            else
+               line(i) = k
+               k = k + 1
+            end if
+         end do
+         line(n) = node(2)
+         if (node(1) /= mesh%nodes(face, element)) line = line(n:0:-1)
       end associate
-   end function edge_line
+   end subroutine put_edge
 
    !> The pieces of an element stand together, row by row from its side 1-2; they are numbered (id - 1) pieces^2 + 1, 2, ... where
    !> these numbers are not too large, else from 1.
@@ -330,7 +340,10 @@ contains
       integer(ip) :: i, k, children
 
       children = refinement%pieces**2
-      pieces = [((((members(i) - 1)*children + k), k=1, children), i=1, size(members, kind=ip))]
+      allocate (pieces(children*size(members, kind=ip)))
+      do i = 1, size(members, kind=ip)
+         pieces((i - 1)*children + 1:i*children) = [((members(i) - 1)*children + k, k=1, children)]
+      end do
    end function fine_elements
 
    !> True when a fine element has part of its parent's face as its own face of that number.
@@ -354,31 +367,36 @@ contains
       end select
    end function is_on_side
 
-   !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members; what lies between nodes of an edge
-   !> that are all members, if the edge is on the outline or all nodes of one of its elements are members; and what lies inside such
-   !> elements.
+   !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members, what lies on an edge all of whose
+   !> nodes are members, and what lies inside an element all of whose nodes are members.
    pure function fine_nodes(mesh, refinement, members) result(fine)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: members(:)          !< places in the coarse mesh
       integer(ip), allocatable :: fine(:)
-      logical, allocatable :: chosen(:), whole(:)
-      integer(ip) :: e, i, k
+      logical, allocatable :: chosen(:)
+      integer(ip) :: e, i, k, n
 
-      allocate (chosen(0:refinement%inner_first(mesh%n_elements + 1) - 1), source=.false.)
-      allocate (whole(0:mesh%n_elements), source=.false.)
+      n = refinement%inner_first(mesh%n_elements + 1) - 1
+      allocate (chosen(0:n), source=.false.)
       chosen(0) = .true.                             ! the middle of an edge that has none
       chosen(members) = .true.
-      do e = 1, mesh%n_elements
-         whole(e) = all(chosen(mesh%nodes(:mesh%shape(e), e)))
-         if (whole(e)) chosen(refinement%inner_first(e):refinement%inner_first(e + 1) - 1) = .true.
-      end do
       do i = 1, refinement%n_edges
          if (.not. all(chosen(refinement%edge_node(:, i)))) cycle
-         if (refinement%edge_element(2, i) > 0 .and. .not. any(whole(refinement%edge_element(:, i)))) cycle
          chosen(refinement%edge_first(i):refinement%edge_first(i + 1) - 1) = .true.
       end do
-      fine = [members, pack([(k, k=mesh%n_nodes + 1, size(chosen, kind=ip) - 1)], chosen(mesh%n_nodes + 1:))]
+      do e = 1, mesh%n_elements
+         if (.not. all(chosen(mesh%nodes(:mesh%shape(e), e)))) cycle
+         chosen(refinement%inner_first(e):refinement%inner_first(e + 1) - 1) = .true.
+      end do
+      k = size(members, kind=ip)
+      allocate (fine(k + count(chosen(mesh%n_nodes + 1:), kind=ip)))
+      fine(:k) = members
+      do i = mesh%n_nodes + 1, n
+         if (.not. chosen(i)) cycle
+         k = k + 1
+         fine(k) = i
+      end do
    end function fine_nodes
 
 end module atrito_refinement

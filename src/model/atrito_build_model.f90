@@ -20,7 +20,7 @@ module atrito_build_model
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
    use atrito_refine_model, only: refine_model
-   use atrito_strings, only: append_string, lower_case
+   use atrito_strings, only: append_string, deck_name
    implicit none (type, external)
    private
    public :: build_model
@@ -82,11 +82,7 @@ contains
       integer(ip) :: i, k
 
       model%deck_path = deck%path
-      model%deck_name = deck%path(index(deck%path, '/', back=.true.) + 1:)
-      k = len(model%deck_name) - len('.inp')
-      if (k > 0) then
-         if (lower_case(model%deck_name(k + 1:)) == '.inp') model%deck_name = model%deck_name(:k)
-      end if
+      model%deck_name = deck_name(deck%path)
       allocate (model%heading(0))
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) /= 'HEADING') cycle

@@ -1,4 +1,4 @@
-!> *CONTROLS, and the tables that the step asks for.
+!> *CONTROLS, and the tables and fields that the step asks for.
 module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
@@ -10,7 +10,7 @@ module atrito_build_requests
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: build_requests
+   public :: build_requests, refuse_field_files
 
    real(wp), parameter :: LARGEST_TOLERANCE = 0.1_wp
    character(len=*), parameter :: WHAT_TOLERANCE = 'tolerance of the outer iteration, 0 < r <= 0.1 [-]'
@@ -40,6 +40,12 @@ contains
             call read_el_print_card(deck, deck%cards(i), model, draft)
          case ('CONTACT PRINT')
             model%requests%contact = .true.
+         case ('NODE FILE')
+            call read_node_file_card(deck, deck%cards(i), model, draft)
+         case ('EL FILE')
+            call read_el_file_card(deck, deck%cards(i), model, draft)
+         case ('CONTACT FILE')
+            model%requests%fields%contact = .true.
          end select
       end do
       call check_relaxation(deck, model%controls)
@@ -148,6 +154,66 @@ contains
       model%requests%stress = .true.
       model%requests%element_s = model%requests%element_s .or. chosen
    end subroutine read_el_print_card
+
+   subroutine read_node_file_card(deck, card, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      logical, allocatable :: chosen(:)
+      logical :: ok
+
+      call choose_members(deck, card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, draft, chosen, ok)
+      if (.not. ok) return
+      associate (fields => model%requests%fields)
+         if (asks_for(deck, card, 'U')) call ask_for(chosen, fields%nodes, fields%node_u)
+         if (asks_for(deck, card, 'RF')) call ask_for(chosen, fields%reactions, fields%node_rf)
+      end associate
+   end subroutine read_node_file_card
+
+   subroutine read_el_file_card(deck, card, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(in) :: draft
+      logical, allocatable :: chosen(:)
+      logical :: ok
+
+      call choose_members(deck, card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, draft, chosen, ok)
+      if (.not. ok) return
+      associate (fields => model%requests%fields)
+         if (asks_for(deck, card, 'S')) call ask_for(chosen, fields%stress, fields%element_s)
+      end associate
+   end subroutine read_el_file_card
+
+   !> Adds members to those asked for before.
+   pure subroutine ask_for(chosen, wanted, mask)
+      logical, intent(in) :: chosen(:)
+      logical, intent(inout) :: wanted
+      logical, allocatable, intent(inout) :: mask(:)
+
+      wanted = .true.
+      if (allocated(mask)) then
+         mask = mask .or. chosen
+      else
+         mask = chosen
+      end if
+   end subroutine ask_for
+
+   !> Reports every card that asks for fields: for a build that cannot write them.
+   subroutine refuse_field_files(deck)
+      type(deck_t), intent(in) :: deck
+      integer(ip) :: i
+
+      do i = 1, deck%n_cards
+         select case (keyword_name(deck%cards(i)))
+         case ('NODE FILE', 'EL FILE', 'CONTACT FILE')
+            call report_error(deck, deck%cards(i)%place, 'E-NOT-BUILT', '*'//keyword_name(deck%cards(i))// &
+                              ': this build of atrito has no HDF5', expected='an atrito built with -DATRITO_HDF5=ON, or no *'// &
+                              keyword_name(deck%cards(i)), keyword=keyword_name(deck%cards(i)))
+         end select
+      end do
+   end subroutine refuse_field_files
 
    !> The members of the set that an option names; all without it.
    subroutine choose_members(deck, card, option, noun, sets, n, draft, chosen, ok)

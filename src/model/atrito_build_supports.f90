@@ -19,9 +19,12 @@ module atrito_build_supports
    integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6
    character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
 
+   !> Two values of one dof are the same when they differ by less than this part of the values: expressions are rounded.
+   real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
+
    !> A refined mesh: what the lines of a card prescribe at single nodes, one after the other along an edge.
    type :: by_number_t
-      integer(ip), allocatable :: line(:, :)           !< (2, nodes of the deck): place in deck%lines; 0: not prescribed
+      integer(ip), allocatable :: token(:, :)          !< (2, nodes of the deck): first of the line; 0: not prescribed
       real(wp), allocatable :: value(:, :)             !< [L]
       integer(ip) :: n = 0
    end type by_number_t
@@ -40,11 +43,11 @@ contains
       do i = 1, deck%n_cards
          associate (card => deck%cards(i))
             if (keyword_name(card) /= 'BOUNDARY') cycle
-            call begin_numbers(model%mesh%n_nodes, draft, numbered)
+            call begin_numbers(draft, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. deck%lines(k)%ok) cycle
                if (has_option(deck, card, 'FUNCTION')) then
-                  call read_function_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft)
+                  call read_function_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft, numbered)
                else
                   call read_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft, numbered)
                end if
@@ -88,12 +91,13 @@ contains
    end subroutine read_line
 
    !> Node or set, first dof[, last dof], expression in x and y.
-   subroutine read_function_line(deck, line, in_model, model, draft)
+   subroutine read_function_line(deck, line, in_model, model, draft, numbered)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
+      type(by_number_t), intent(inout) :: numbered
       type(token_t) :: expression
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: values(:)
@@ -109,35 +113,28 @@ contains
       ok(4) = .not. in_model
       if (in_model) call report_error(deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
                                       expected='*BOUNDARY, FUNCTION in the step', keyword='BOUNDARY')
-      if (.not. all(ok(2:))) return
-      ok(2) = last <= PLANE_DOFS
-      if (ok(2)) then
-         if (.not. are_dofs(deck, line, first, last, 0.0_wp)) return
-      else
-         call report_error(deck, line_item(deck, line, 3_ip), 'E-DOF', 'dof '//to_text(last)//' does not exist in the plane', &
-                           expected=WHAT_DOF, keyword='BOUNDARY')
-      end if
-      if (.not. all(ok)) return
+      ! a function is not 0, whatever it is: there are no harmless dofs
+      if (all(ok(2:3))) ok(2) = are_dofs(deck, line, first, last, 1.0_wp)
       allocate (values(size(nodes)))
-      call evaluate_function(deck, expression, model%mesh%x(:, nodes), values, ok(1), 'BOUNDARY')
-      if (.not. ok(1)) return
+      if (ok(4)) call evaluate_function(deck, expression, model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
+      if (.not. all(ok)) return
       call note_loose(deck, line, model, draft, nodes)
       do dof = first, last
          call prescribe(deck, line, nodes, dof, values, model, draft)
       end do
+      if (size(nodes) == 1 .and. draft%refinement%pieces > 1) call take_number(line, nodes(1), first, last, values(1), numbered)
    end subroutine read_function_line
 
-   subroutine begin_numbers(n_nodes, draft, numbered)
-      integer(ip), intent(in) :: n_nodes
+   pure subroutine begin_numbers(draft, numbered)
       type(draft_t), intent(in) :: draft
       type(by_number_t), intent(inout) :: numbered
 
       if (draft%refinement%pieces == 1) return
-      if (.not. allocated(numbered%line)) then
-         allocate (numbered%line(PLANE_DOFS, n_nodes), source=0_ip)
-         allocate (numbered%value(PLANE_DOFS, n_nodes), source=0.0_wp)
+      if (.not. allocated(numbered%token)) then
+         allocate (numbered%token(PLANE_DOFS, draft%refinement%n_nodes), source=0_ip)
+         allocate (numbered%value(PLANE_DOFS, draft%refinement%n_nodes), source=0.0_wp)
       else if (numbered%n > 0) then
-         numbered%line = 0
+         numbered%token = 0
       end if
       numbered%n = 0
    end subroutine begin_numbers
@@ -150,7 +147,7 @@ contains
       integer(ip) :: dof
 
       do dof = first, min(last, PLANE_DOFS)
-         numbered%line(dof, node) = line%first_token
+         numbered%token(dof, node) = line%first_token
          numbered%value(dof, node) = value
       end do
       numbered%n = numbered%n + 1
@@ -171,8 +168,8 @@ contains
             if (fine%edge_element(2, edge) > 0) cycle
             n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
             do dof = 1, PLANE_DOFS
-               if (any(numbered%line(dof, fine%edge_node(:n, edge)) == 0)) cycle
-               line%first_token = numbered%line(dof, fine%edge_node(1, edge))
+               if (any(numbered%token(dof, fine%edge_node(:n, edge)) == 0)) cycle
+               line%first_token = numbered%token(dof, fine%edge_node(1, edge))
                line%n_tokens = 1
                do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
                   call prescribe(deck, line, [k], dof, [edge_value(numbered%value(dof, fine%edge_node(:n, edge)), &
@@ -238,11 +235,13 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: clashes
-      real(wp) :: first_value
+      real(wp) :: first_value, scale
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
 
       loose = in_no_element(draft, nodes)
+      scale = 0.0_wp
+      if (size(nodes) > 0) scale = maxval(abs(value))
       do i = 1, size(nodes, kind=ip)
          if (loose(i)) cycle
          entry = draft%dof_entry(dof, nodes(i))
@@ -250,13 +249,21 @@ contains
             call add_prescribed(model%prescribed, nodes(i), dof, value(i))
             draft%dof_entry(dof, nodes(i)) = model%prescribed%n
             draft%dof_token(dof, nodes(i)) = line%first_token
-         else if (abs(model%prescribed%value(entry) - value(i)) > 0.0_wp) then
+         else if (.not. is_same(model%prescribed%value(entry), value(i), scale)) then
             if (clashes%n == 0) first_value = value(i)
             call add_number(clashes, nodes(i))
          end if
       end do
       if (clashes%n > 0) call report_clash(deck, line, model, draft, numbers_of(clashes), dof, first_value)
    end subroutine prescribe
+
+   !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
+   pure logical function is_same(earlier, value, scale)
+      real(wp), intent(in) :: earlier, value
+      real(wp), intent(in) :: scale                    !< largest value of the line
+
+      is_same = abs(earlier - value) <= SAME_VALUE*max(abs(earlier), scale)
+   end function is_same
 
    subroutine report_clash(deck, line, model, draft, nodes, dof, value)
       type(deck_t), intent(in) :: deck
@@ -265,13 +272,17 @@ contains
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value
+      integer, parameter :: FEW = 6, ALL_DIGITS = 15
       type(token_t) :: earlier
+      real(wp) :: other
+      integer :: digits
 
       earlier = deck%tokens(draft%dof_token(dof, nodes(1)))
+      other = model%prescribed%value(draft%dof_entry(dof, nodes(1)))
+      digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
       call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
-                        ids_text(model%mesh%node_id(nodes))//' is '//to_text(value)//' here but '// &
-                        to_text(model%prescribed%value(draft%dof_entry(dof, nodes(1))))//' in '// &
-                        place_text(deck, earlier, deck%tokens(line%first_token)), &
+                        ids_text(model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '// &
+                        to_text(other, digits)//' in '//place_text(deck, earlier, deck%tokens(line%first_token)), &
                         expected='one value for each dof [L]; those before *STEP hold in the step', keyword='BOUNDARY')
    end subroutine report_clash
 

@@ -19,6 +19,9 @@ module atrito_build_surfaces
    private
    public :: build_surfaces
 
+   !> Coordinates of a deck have a few digits: the centre of an arc lies as far from both ends within this part of the radius.
+   real(wp), parameter :: RADIUS_TOLERANCE = 1.0e-4_wp
+
 contains
 
    !> All surfaces of a model.
@@ -117,7 +120,7 @@ contains
          call read_faces(deck, card, model, draft, surface%faces, ok)
       else
          surface%kind = SURFACE_SEGMENTS
-         call read_segments(deck, card, surface%points, ok)
+         call read_segments(deck, card, surface, ok)
       end if
       if (.not. ok) call spoil_name(draft, surface%name)
       call add_surface(model, draft, surface, place)
@@ -201,38 +204,94 @@ contains
                         keyword='SURFACE')
    end subroutine take_faces
 
-   !> START and LINE.
-   subroutine read_segments(deck, card, points, ok)
+   !> START, LINE and CIRCL.
+   subroutine read_segments(deck, card, surface, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
-      real(wp), allocatable, intent(out) :: points(:, :)
+      type(surface_t), intent(inout) :: surface
       logical, intent(out) :: ok
-      real(wp) :: x(2)
+      real(wp) :: x(2), centre(2)
       integer(ip) :: i, n
-      logical :: good(3)
+      logical :: good, is_arc
 
       ok = .true.
       n = 0
-      allocate (points(2, card%n_lines), source=0.0_wp)
+      allocate (surface%points(2, card%n_lines), surface%centre(2, card%n_lines), source=0.0_wp)
+      allocate (surface%is_arc(card%n_lines), source=.false.)
       do i = card%first_line, card%first_line + card%n_lines - 1
-         good = deck%lines(i)%ok
-         if (good(1)) then
-            call get_coordinate(deck, line_item(deck, deck%lines(i), 2_ip), 'x, a real [L]', x(1), good(1), 'SURFACE')
-            call get_coordinate(deck, line_item(deck, deck%lines(i), 3_ip), 'y, a real [L]', x(2), good(2), 'SURFACE')
-            good(3) = follows(deck, card, i)
-         end if
-         ok = ok .and. all(good)
+         call read_segment(deck, card, i, x, is_arc, centre, good)
+         ok = ok .and. good
          if (.not. ok) cycle
          n = n + 1
-         points(:, n) = x
-         if (n > 1) ok = has_length(deck, deck%lines(i), points(:, n - 1), x)
+         surface%points(:, n) = x
+         if (n == 1) cycle
+         surface%is_arc(n - 1) = is_arc
+         ok = has_length(deck, deck%lines(i), surface%points(:, n - 1), x)
+         if (ok .and. is_arc) call centre_arc(deck, deck%lines(i), surface%points(:, n - 1), x, centre, ok)
+         surface%centre(:, n - 1) = centre
       end do
-      points = points(:, :n)
+      surface%points = surface%points(:, :n)
+      surface%is_arc = surface%is_arc(:max(n - 1, 0))
+      surface%centre = surface%centre(:, :max(n - 1, 0))
       if (.not. ok .or. n /= 1) return
       ok = .false.
+      ! without START the reader has told it
+      if (.not. same_name(token_text(deck, line_item(deck, deck%lines(card%first_line), 1_ip)), 'START')) return
       call report_error(deck, card%place, 'E-MISSING', 'the surface has no segment', &
-                        expected='START, x, y and LINE, x, y [L]', keyword='SURFACE')
+                        expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]', keyword='SURFACE')
    end subroutine read_segments
+
+   !> One line: where it ends, and the centre of an arc.
+   subroutine read_segment(deck, card, i, x, is_arc, centre, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(in) :: i                     !< place in deck%lines
+      real(wp), intent(out) :: x(2), centre(2)
+      logical, intent(out) :: is_arc, ok
+      logical :: good(5)
+
+      x = 0.0_wp
+      centre = 0.0_wp
+      is_arc = .false.
+      ok = deck%lines(i)%ok
+      if (.not. ok) return
+      good = .true.
+      is_arc = same_name(token_text(deck, line_item(deck, deck%lines(i), 1_ip)), 'CIRCL')
+      call get_coordinate(deck, line_item(deck, deck%lines(i), 2_ip), 'x, a real [L]', x(1), good(1), 'SURFACE')
+      call get_coordinate(deck, line_item(deck, deck%lines(i), 3_ip), 'y, a real [L]', x(2), good(2), 'SURFACE')
+      if (is_arc) then
+         call get_coordinate(deck, line_item(deck, deck%lines(i), 4_ip), 'xc, a real [L]', centre(1), good(3), 'SURFACE')
+         call get_coordinate(deck, line_item(deck, deck%lines(i), 5_ip), 'yc, a real [L]', centre(2), good(4), 'SURFACE')
+      end if
+      good(5) = follows(deck, card, i)
+      ok = all(good)
+   end subroutine read_segment
+
+   !> The centre is as far from both ends, within the digits of a deck, and moved so that it is exactly; the arc is less than a half
+   !> circle, else it could run on either side.
+   subroutine centre_arc(deck, line, a, b, centre, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      real(wp), intent(in) :: a(2), b(2)               !< ends [L]
+      real(wp), intent(inout) :: centre(2)             !< [L]
+      logical, intent(out) :: ok
+      real(wp) :: chord(2), middle(2), radius(2)
+
+      radius = [norm2(a - centre), norm2(b - centre)]
+      ok = abs(radius(1) - radius(2)) <= RADIUS_TOLERANCE*maxval(radius)
+      if (.not. ok) then
+         call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the centre is '//to_text(radius(1))// &
+                           ' from the start of the arc and '//to_text(radius(2))//' from its end', &
+                           expected='a centre as far from both ends, within 1e-4 [L]', keyword='SURFACE')
+         return
+      end if
+      chord = (b - a)/norm2(b - a)
+      middle = 0.5_wp*a + 0.5_wp*b
+      centre = centre - dot_product(centre - middle, chord)*chord
+      ok = norm2(centre - middle) > RADIUS_TOLERANCE*maxval(radius)
+      if (.not. ok) call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'the arc is a half circle, which could '// &
+                                      'run on either side', expected='arcs of less than 180 degrees', keyword='SURFACE')
+   end subroutine centre_arc
 
    !> START comes first; that it is there once is checked by the reader.
    logical function follows(deck, card, i)
@@ -242,7 +301,7 @@ contains
 
       follows = i == card%first_line .or. .not. same_name(token_text(deck, line_item(deck, deck%lines(i), 1_ip)), 'START')
       if (.not. follows) call report_error(deck, line_item(deck, deck%lines(i), 1_ip), 'E-VALUE', &
-                                           'START is not the first line', expected='START, x, y first, then LINE, x, y', &
+                                           'START is not the first line', expected='START, x, y first, then LINE or CIRCL', &
                                            keyword='SURFACE')
    end function follows
 

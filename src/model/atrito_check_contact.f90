@@ -3,6 +3,7 @@ module atrito_check_contact
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_draft, only: draft_t, ids_text, place_text, has_errors, is_spoiled
+   use atrito_face_geometry, only: has_quarter_node
    use atrito_faces, only: order_chain, chain_report_t, face_list_t, face_normal
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
@@ -93,8 +94,29 @@ contains
                               ' does not continue the others', &
                               expected='one connected chain of faces; otherwise a pair for each', keyword='CONTACT PAIR')
          end if
+         call check_middles(deck, model%mesh, surface%faces, place)
       end associate
    end subroutine check_slave
+
+   !> A slave face whose middle lies at a quarter of it, as at the tip of a crack: a node of it has no part of the surface.
+   subroutine check_middles(deck, mesh, faces, place)
+      type(deck_t), intent(in) :: deck
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: faces
+      type(token_t), intent(in) :: place
+      type(number_list_t) :: elements
+      integer(ip) :: i
+
+      do i = 1, faces%n
+         associate (x => mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))))
+            if (has_quarter_node(x)) call add_number(elements, mesh%element_id(faces%element(i)))
+         end associate
+      end do
+      if (elements%n > 0) call report_error(deck, place, 'E-PAIR', 'a slave face of element '//ids_text(numbers_of(elements))// &
+                                            ' has its middle node at a quarter of it', &
+                                            expected='middle nodes in the middle of the faces of a slave', &
+                                            keyword='CONTACT PAIR')
+   end subroutine check_middles
 
    subroutine check_master(deck, model, draft, i, place)
       type(deck_t), intent(in) :: deck
@@ -194,7 +216,8 @@ contains
       do i = 1, size(model%pairs, kind=ip)
          associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
             if (master%kind == SURFACE_SEGMENTS) then
-               call pair_surfaces(model%mesh, thickness, slave%faces, no_faces, master%points, points)
+               call pair_surfaces(model%mesh, thickness, slave%faces, no_faces, master%points, points, &
+                                  master%is_arc, master%centre)
             else
                call pair_surfaces(model%mesh, thickness, slave%faces, master%faces, no_points, points)
             end if

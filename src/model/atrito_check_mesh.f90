@@ -1,22 +1,19 @@
 !> Checks of the finished mesh: shapes, sections, loose nodes, materials in use.
 module atrito_check_mesh
-   use atrito_build_materials, only: SECTION_SPOILED
+   use atrito_check_edges, only: check_edges
+   use atrito_check_shapes, only: check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_draft, only: draft_t, place_token, ids_text, has_errors, is_spoiled
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, PLANE_STRAIN, FACES, Q2_NODES
-   use atrito_messages, only: MOST_ERRORS
+   use atrito_mesh, only: PLANE_STRAIN, Q1_NODES
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: check_mesh, corner_jacobians
+   public :: check_mesh
 
-   integer(ip), parameter :: SHAPE_GOOD = 0, SHAPE_CLOCKWISE = 1, SHAPE_DEGENERATE = 2
-   !> A corner whose Jacobian is smaller than this part of the longest side squared is flat.
-   real(wp), parameter :: FLAT = 1.0e-12_wp
    !> From this ratio on fully integrated Q1 elements lock in plane strain.
    real(wp), parameter :: LOCKING_RATIO = 0.49_wp
 
@@ -33,93 +30,12 @@ contains
                                                         expected='*ELEMENT or *BLOCK', keyword='BLOCK')
          return
       end if
-      call check_shapes(deck, model, draft)
+      call check_shapes(deck, model%mesh, draft)
+      if (draft%refinement%pieces == 1) call check_edges(deck, model, draft)
       call check_sections(deck, model, draft)
       call check_materials(deck, model, draft)
       call note_loose_nodes(deck, model, draft)
    end subroutine check_mesh
-
-   subroutine check_shapes(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
-      integer(ip) :: e, shape, corner, n
-
-      n = 0
-      do e = 1, model%mesh%n_elements
-         call judge_shape(model%mesh, e, shape, corner)
-         if (shape == SHAPE_GOOD) cycle
-         n = n + 1
-         if (n <= MOST_ERRORS) call report_shape(deck, model%mesh, e, shape, corner, place_token(deck, draft%element_place(e)))
-      end do
-      if (n > MOST_ERRORS) call report_deck_error(deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &
-                                                  ' further elements are clockwise or degenerate', &
-                                                  expected='corners counter-clockwise', keyword='ELEMENT')
-   end subroutine check_shapes
-
-   subroutine report_shape(deck, mesh, e, shape, corner, place)
-      type(deck_t), intent(in) :: deck
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, shape, corner
-      type(token_t), intent(in) :: place
-      character(len=:), allocatable :: name
-
-      name = 'element '//to_text(mesh%element_id(e))
-      if (shape == SHAPE_CLOCKWISE) then
-         call report_error(deck, place, 'E-SHAPE', name//' runs clockwise', expected='corners counter-clockwise, for example '// &
-                           corners_text(mesh, e), keyword='ELEMENT')
-      else
-         call report_error(deck, place, 'E-SHAPE', name//' is degenerate: its angle at node '// &
-                           to_text(mesh%node_id(mesh%nodes(corner, e)))//' is not between 0 and 180 degrees', &
-                           expected='a convex quadrilateral, corners counter-clockwise', keyword='ELEMENT')
-      end if
-   end subroutine report_shape
-
-   !> The corners the other way round.
-   pure function corners_text(mesh, e) result(text)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e
-      character(len=:), allocatable :: text
-      integer(ip) :: k
-
-      text = to_text(mesh%node_id(mesh%nodes(1, e)))
-      do k = FACES, 2, -1
-         text = text//', '//to_text(mesh%node_id(mesh%nodes(k, e)))
-      end do
-   end function corners_text
-
-   pure subroutine judge_shape(mesh, e, shape, corner)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e
-      integer(ip), intent(out) :: shape                !< SHAPE_*
-      integer(ip), intent(out) :: corner               !< the worst one
-      real(wp) :: jacobian(FACES)
-
-      jacobian = corner_jacobians(mesh%x(:, mesh%nodes(:FACES, e)))
-      corner = minloc(jacobian, dim=1, kind=ip)
-      shape = SHAPE_GOOD
-      if (jacobian(corner) > FLAT) return
-      shape = SHAPE_DEGENERATE
-      if (maxval(jacobian) < -FLAT) shape = SHAPE_CLOCKWISE
-   end subroutine judge_shape
-
-   !> Cross product of the two sides at each corner over the longest side squared; 1 for a square.
-   pure function corner_jacobians(x) result(jacobian)
-      real(wp), intent(in) :: x(2, FACES)              !< corners [L]
-      real(wp) :: jacobian(FACES)
-      real(wp) :: side(2, FACES), longest
-      integer(ip) :: k
-
-      side(:, :FACES - 1) = x(:, 2:) - x(:, :FACES - 1)
-      side(:, FACES) = x(:, 1) - x(:, FACES)
-      longest = max(maxval(abs(side)), tiny(1.0_wp))
-      side = side/longest
-      do k = 1, FACES
-         associate (before => side(:, modulo(k - 2, FACES) + 1), after => side(:, k))
-            jacobian(k) = before(1)*after(2) - before(2)*after(1)
-         end associate
-      end do
-   end function corner_jacobians
 
    !> Every element has a section.
    subroutine check_sections(deck, model, draft)
@@ -148,14 +64,17 @@ contains
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
-      logical :: strained(size(model%materials))
+      logical, dimension(size(model%materials)) :: strained, in_four_nodes
       integer(ip) :: e, i
 
       strained = .false.
+      in_four_nodes = .false.
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) <= 0) cycle
          associate (material => model%sections(model%section_of(e))%material)
-            strained(material) = strained(material) .or. model%mesh%state(e) == PLANE_STRAIN
+            if (model%mesh%state(e) /= PLANE_STRAIN) cycle
+            strained(material) = .true.
+            in_four_nodes(material) = in_four_nodes(material) .or. model%mesh%shape(e) == Q1_NODES
          end associate
       end do
       do i = 1, size(model%materials, kind=ip)
@@ -166,23 +85,24 @@ contains
                                     expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
                end if
             else if (strained(i) .and. .not. draft%elastic_spoiled(i)) then
-               call check_strained(deck, material%poisson, draft%poisson(i))
+               call check_strained(deck, material%poisson, in_four_nodes(i), draft%poisson(i))
             end if
          end associate
       end do
    end subroutine check_materials
 
    !> Poisson's ratio of a material in plane strain.
-   subroutine check_strained(deck, poisson, place)
+   subroutine check_strained(deck, poisson, in_four_nodes, place)
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: poisson
+      logical, intent(in) :: in_four_nodes             !< of elements with four nodes; those with nine hardly lock
       type(token_t), intent(in) :: place
 
       if (poisson >= 0.5_wp) then
          call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson)//' in plane strain', &
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
-      else if (poisson >= LOCKING_RATIO) then
+      else if (poisson >= LOCKING_RATIO .and. in_four_nodes) then
          call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: fully integrated Q1 elements are much too stiff '// &
                              'in plane strain', expected='mu < 0.49 [-]', keyword='ELASTIC')
       end if

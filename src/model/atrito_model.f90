@@ -9,7 +9,7 @@ module atrito_model
    implicit none (type, external)
    private
    public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, prescribed_t, node_load_t, element_load_t
-   public :: controls_t, requests_t, parameter_value_t
+   public :: controls_t, requests_t, field_requests_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_NODAL, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
@@ -38,13 +38,15 @@ module atrito_model
       integer(ip) :: formulation = FORMULATION_STANDARD
    end type section_t
 
-   !> A surface of element faces (a connected chain when it is a slave) or of straight rigid segments.
+   !> A surface of element faces (a connected chain when it is a slave) or of rigid segments, straight ones and arcs.
    type :: surface_t
       character(len=:), allocatable :: name
       integer(ip) :: kind = SURFACE_ELEMENTS
       logical :: is_rigid_body = .false.       !< a *RIGID BODY names it
       type(face_list_t) :: faces               !< SURFACE_ELEMENTS
       real(wp), allocatable :: points(:, :)    !< SURFACE_SEGMENTS: ends of the segments [L], (2, n+1), in direction of travel
+      logical, allocatable :: is_arc(:)        !< (n)
+      real(wp), allocatable :: centre(:, :)    !< (2, n) of arcs [L]
    end type surface_t
 
    type :: interaction_t
@@ -94,10 +96,17 @@ module atrito_model
       real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
    end type controls_t
 
+   !> What the field file holds; there is none when nothing is asked for.
+   type :: field_requests_t
+      logical :: nodes = .false., reactions = .false., stress = .false., contact = .false.
+      logical, allocatable :: node_u(:), node_rf(:), element_s(:)  !< which nodes, nodes, elements; allocated when asked for
+   end type field_requests_t
+
    !> What is to be printed.
    type :: requests_t
       logical :: nodes = .false., reactions = .false., stress = .false., contact = .false.
       logical, allocatable :: node_u(:), node_rf(:), element_s(:)  !< which nodes, nodes, elements
+      type(field_requests_t) :: fields
    end type requests_t
 
    type :: parameter_value_t
@@ -112,6 +121,7 @@ module atrito_model
       type(string_t), allocatable :: heading(:)
       type(parameter_value_t), allocatable :: parameters(:)
       type(mesh_t) :: mesh
+      integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
       type(set_list_t) :: node_sets, element_sets
       type(material_t), allocatable :: materials(:)
       type(section_t), allocatable :: sections(:)

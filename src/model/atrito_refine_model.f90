@@ -22,19 +22,17 @@ contains
       integer(ip), intent(in) :: levels                !< > 0; each quadrilateral into 4**levels
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      type(mesh_t) :: fine
+      type(mesh_t) :: coarse
       integer(ip) :: i
 
-      if (count_fine_nodes(model%mesh, 2**levels) > int(MOST_NODES, lp)) then
-         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
-                                ' nodes', expected='a smaller number: each one more makes four elements of one')
-         return
-      end if
-      call refine_mesh(model%mesh, draft%around, 2**levels, fine, draft%refinement)
+      if (.not. is_possible(deck, levels, model%mesh)) return
+      coarse = model%mesh
+      call refine_mesh(coarse, draft%around, 2**levels, model%mesh, draft%refinement)
+      model%levels = levels
       if (allocated(model%node_sets%sets)) then
          do i = 1, size(model%node_sets%sets, kind=ip)
             associate (set => model%node_sets%sets(i))
-               set%members = fine_nodes(model%mesh, draft%refinement, set%members)
+               set%members = fine_nodes(coarse, draft%refinement, set%members)
             end associate
          end do
       end if
@@ -45,11 +43,31 @@ contains
             end associate
          end do
       end if
-      draft%deck_elements = model%mesh%element_map
-      call keep_places(model%mesh, fine, draft)
-      model%mesh = fine
+      draft%deck_elements = coarse%element_map
+      call keep_places(coarse, model%mesh, draft)
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
+
+   !> There are not too many nodes, and there are numbers left for them. The numbers of elements are chosen so that they fit.
+   logical function is_possible(deck, levels, mesh)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: levels
+      type(mesh_t), intent(in) :: mesh
+      integer(lp) :: n, greatest
+
+      n = count_fine_nodes(mesh, 2**levels)
+      greatest = maxval(mesh%node_id(:mesh%n_nodes))
+      is_possible = n <= int(MOST_NODES, lp)
+      if (.not. is_possible) then
+         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
+                                ' nodes', expected='a smaller number: each one more makes four elements of one')
+         return
+      end if
+      is_possible = greatest + (n - int(mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
+      if (.not. is_possible) call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//': the numbers of the new '// &
+                                                    'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
+                                                    expected='smaller node numbers')
+   end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.
    subroutine keep_places(coarse, fine, draft)

@@ -14,6 +14,8 @@ module atrito_results
       integer(ip) :: n = 0
       real(wp), allocatable :: s(:)                 !< arc length along the slave surface [L]
       real(wp), allocatable :: x(:, :)              !< (2, n) [L]
+      real(wp), allocatable :: normal(:, :)         !< (2, n) outward unit normal of the slave
+      real(wp), allocatable :: u(:, :)              !< (2, n) displacement of the slave [L]
       real(wp), allocatable :: gap(:)               !< initial distance - u_n [L]; negative: penetration
       real(wp), allocatable :: pressure(:)          !< p = -sigma_n [F/L^2], >= 0
       real(wp), allocatable :: weighted_pressure(:) !< S_rho(p) [F/L^2]

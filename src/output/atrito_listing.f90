@@ -2,7 +2,7 @@
 module atrito_listing
    use atrito_blas_info, only: blas_name
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
@@ -28,16 +28,17 @@ contains
    !> Writes <deck name>.lst into a set of files.
    !>
    !> status: STATUS_FILE when it could not be written.
-   subroutine write_listing(model, results, set, status)
+   subroutine write_listing(model, results, set, status, pictures)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
+      type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
       type(page_t) :: page
       type(text_file_t) :: file
       integer :: i
 
-      call compose_listing(model, results, page)
+      call compose_listing(model, results, page, pictures)
       call open_text(set, model%deck_name//'.lst', file)
       do i = 1, page%n
          call put_line(file, page%lines(i)%s)
@@ -46,10 +47,11 @@ contains
    end subroutine write_listing
 
    !> Composes the listing, without writing it.
-   subroutine compose_listing(model, results, page)
+   subroutine compose_listing(model, results, page, pictures)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(page_t), intent(out) :: page
+      type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
 
       call begin_page(page, WIDTH)
       call add_title(page, model, results)
@@ -74,7 +76,13 @@ contains
       call add_heading(page, '7  MESSAGES')
       call add_messages(page)
       call add_heading(page, '8  ERROR AND TIME')
+      call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
       call add_times(page)
+      if (present(pictures)) then
+         call add_blank(page)
+         call add_entry(page, 'plots, drawn after this listing', 'plots/')
+         call add_paragraph(page, join(pictures, ', '), 6)
+      end if
    end subroutine compose_listing
 
    subroutine add_title(page, model, results)
@@ -213,7 +221,8 @@ contains
       call add_blank(page)
       list = step_quantities(results)
       do i = 1, size(list)
-         if (.not. list(i)%is_count) call add_quantity(page, list(i))
+         if (list(i)%is_count .or. list(i)%name == 'error_estimate_percent') cycle
+         call add_quantity(page, list(i))
       end do
       if (results%converged .and. results%law_holds) then
          call add_entry(page, 'contact law, checked anew', 'holds at every point')
@@ -259,7 +268,6 @@ contains
       type(phase_time_t), allocatable :: phases(:)
       integer :: i
 
-      call add_entry(page, 'estimated discretisation error', 'not computed by this version')
       call add_entry(page, 'peak memory', bytes(peak_memory()))
       call add_blank(page)
       call add_line(page, '   '//left('phase', 24)//right('wall [s]', 12)//right('cpu [s]', 12))

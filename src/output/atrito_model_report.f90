@@ -32,6 +32,7 @@ contains
       call describe_supports(page, model)
       call describe_loads(page, model)
       call describe_interactions(page, model)
+      call describe_fields(page, model)
    end subroutine describe_model
 
    !> How much there is of each kind.
@@ -41,6 +42,8 @@ contains
 
       call add_entry(page, 'nodes', to_text(model%mesh%n_nodes))
       call add_entry(page, 'elements', to_text(model%mesh%n_elements)//element_types(model))
+      if (model%levels > 0) call add_entry(page, 'refined', plural(model%levels, 'time', 'times')// &
+                                           ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
       call add_entry(page, 'node sets, element sets', &
                      to_text(size(set_names(model%node_sets), kind=ip))//', '// &
                      to_text(size(set_names(model%element_sets), kind=ip)))
@@ -270,6 +273,24 @@ contains
                         number(controls%tolerance, 3)//', at most '//plural(controls%max_iterations, 'iteration', 'iterations'))
       end associate
    end subroutine describe_interactions
+
+   !> The field file that the deck asks for.
+   subroutine describe_fields(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
+
+      associate (fields => model%requests%fields)
+         text = ''
+         if (fields%nodes) text = text//' U'
+         if (fields%reactions) text = text//' RF'
+         if (fields%stress) text = text//' S'
+         if (fields%contact) text = text//' contact'
+      end associate
+      if (len(text) == 0) return
+      call add_blank(page)
+      call add_entry(page, 'field file', model%deck_name//'.xdmf, with .h5:'//text)
+   end subroutine describe_fields
 
    pure function contact_text(interaction) result(text)
       type(interaction_t), intent(in) :: interaction

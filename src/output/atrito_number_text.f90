@@ -1,11 +1,10 @@
 !> Numbers to text in fields of a fixed width: what the tables are made of.
 !>
 !> A table of half a million rows holds millions of numbers, too many for one internal write each. The digits are found by
-!> scaling with a power of ten in twice the precision; the rare number that this leaves undecided goes through the run-time
-!> library, so that every number is rounded correctly and 17 digits give back the same double.
+!> multiplication with a power of ten in integers of 128 bits; the rare number that this leaves undecided goes through the
+!> run-time library, so that every number is rounded correctly and 17 digits give back the same double.
 module atrito_number_text
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use atrito_kinds, only: ip, lp, wp, HUGE_REAL
+   use atrito_kinds, only: ip, lp, wp, HUGE_REAL, is_nan
    implicit none (type, external)
    private
    public :: put_real, put_integer, real_width, integer_width, trimmed_real
@@ -13,14 +12,36 @@ module atrito_number_text
 
    integer, parameter :: LEAST_DIGITS = 6, MOST_DIGITS = 17, DEFAULT_DIGITS = 10
 
-   !> Powers of ten that a double holds exactly.
-   integer, parameter :: EXACT_POWERS = 22
-   real(wp), parameter :: POWER(0:EXACT_POWERS) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, 1e8_wp, &
-        1e9_wp, 1e10_wp, 1e11_wp, 1e12_wp, 1e13_wp, 1e14_wp, 1e15_wp, 1e16_wp, 1e17_wp, 1e18_wp, 1e19_wp, 1e20_wp, 1e21_wp, 1e22_wp]
-   !> Decimal digits of the largest power of two below a number.
-   real(wp), parameter :: LOG10_OF_2 = 0.30102999566398119521_wp
-   !> Closer than this to a half, the double-length product does not decide the rounding (its error is below 1e-12).
-   real(wp), parameter :: UNDECIDED = 1.0e-9_wp
+   !> Integers of 128 bits: the product of two of 63.
+   integer, parameter :: XP = selected_int_kind(38)
+   !> 10**k = POWER(k) 2**(shift_of_power(k)), 2**62 <= POWER(k) < 2**63, rounded; exact for 0 <= k <= LAST_EXACT.
+   integer, parameter :: MOST_POWER = 44, LAST_EXACT = 27
+   integer(lp), parameter :: POWER(-MOST_POWER:MOST_POWER) = [ &
+           8227522786606030211_lp, 5142201741628768882_lp, 6427752177035961102_lp, 8034690221294951378_lp, 5021681388309344611_lp, &
+           6277101735386680764_lp, 7846377169233350955_lp, 4903985730770844347_lp, 6129982163463555433_lp, 7662477704329444292_lp, &
+           4789048565205902682_lp, 5986310706507378353_lp, 7482888383134222941_lp, 4676805239458889338_lp, 5846006549323611673_lp, &
+           7307508186654514591_lp, 9134385233318143239_lp, 5708990770823839524_lp, 7136238463529799405_lp, 8920298079412249257_lp, &
+           5575186299632655785_lp, 6968982874540819732_lp, 8711228593176024665_lp, 5444517870735015415_lp, 6805647338418769269_lp, &
+           8507059173023461587_lp, 5316911983139663492_lp, 6646139978924579365_lp, 8307674973655724206_lp, 5192296858534827629_lp, &
+           6490371073168534536_lp, 8112963841460668170_lp, 5070602400912917606_lp, 6338253001141147007_lp, 7922816251426433759_lp, &
+           4951760157141521100_lp, 6189700196426901374_lp, 7737125245533626718_lp, 4835703278458516699_lp, 6044629098073145874_lp, &
+           7555786372591432342_lp, 4722366482869645214_lp, 5902958103587056517_lp, 7378697629483820646_lp, 4611686018427387904_lp, &
+           5764607523034234880_lp, 7205759403792793600_lp, 9007199254740992000_lp, 5629499534213120000_lp, 7036874417766400000_lp, &
+           8796093022208000000_lp, 5497558138880000000_lp, 6871947673600000000_lp, 8589934592000000000_lp, 5368709120000000000_lp, &
+           6710886400000000000_lp, 8388608000000000000_lp, 5242880000000000000_lp, 6553600000000000000_lp, 8192000000000000000_lp, &
+           5120000000000000000_lp, 6400000000000000000_lp, 8000000000000000000_lp, 5000000000000000000_lp, 6250000000000000000_lp, &
+           7812500000000000000_lp, 4882812500000000000_lp, 6103515625000000000_lp, 7629394531250000000_lp, 4768371582031250000_lp, &
+           5960464477539062500_lp, 7450580596923828125_lp, 4656612873077392578_lp, 5820766091346740723_lp, 7275957614183425903_lp, &
+           9094947017729282379_lp, 5684341886080801487_lp, 7105427357601001859_lp, 8881784197001252323_lp, 5551115123125782702_lp, &
+           6938893903907228378_lp, 8673617379884035472_lp, 5421010862427522170_lp, 6776263578034402713_lp, 8470329472543003391_lp, &
+                             5293955920339377119_lp, 6617444900424221399_lp, 8271806125530276749_lp, 5169878828456422968_lp]
+   !> Of a double: bits of the fraction with the leading one, that one, exponent of the least normal number.
+   integer, parameter :: POWER_BITS = 62, FRACTION_BITS = 53, BIAS = 1022
+   integer(lp), parameter :: LAST_BIT = 2_lp**(FRACTION_BITS - 1)
+   integer, parameter :: ZERO = iachar('0'), EIGHT = 8
+   integer :: i, j
+   integer(lp), parameter :: TEN_TO(0:MOST_DIGITS) = [(10_lp**i, i=0, MOST_DIGITS)]
+   character(len=2), parameter :: PAIR(0:99) = [((achar(ZERO + i)//achar(ZERO + j), j=0, 9), i=0, 9)]
 
 contains
 
@@ -54,7 +75,7 @@ contains
       logical :: decided
 
       field = ''
-      if (ieee_is_nan(x)) then
+      if (is_nan(x)) then
          field(len(field) - 2:) = 'nan'
       else if (abs(x) > HUGE_REAL) then
          field(len(field) - 3:) = merge('-inf', ' inf', x < 0.0_wp)
@@ -105,86 +126,56 @@ contains
       integer, intent(out) :: exponent_of_ten
       logical, intent(out) :: decided
 
-      mantissa = 0_lp
-      exponent_of_ten = floor(LOG10_OF_2*real(exponent(x) - 1, wp))   ! the right one or one too small
+      exponent_of_ten = shifta((binary_exponent(x) - 1)*19728, 16)   ! the right one or one too small
       call scale_and_round(x, digits - 1 - exponent_of_ten, mantissa, decided)
       if (.not. decided) return
-      if (mantissa >= 10_lp**digits) then
+      if (mantissa >= TEN_TO(digits)) then
          exponent_of_ten = exponent_of_ten + 1
          call scale_and_round(x, digits - 1 - exponent_of_ten, mantissa, decided)
       end if
    end subroutine find_digits
 
-   !> The integer nearest to x 10**k.
+   !> The integer nearest to x 10**k: x is an integer of 53 bits times a power of two, and so is 10**k but for the rounding of
+   !> POWER, at most a half. Where that half, or a tie, could change the outcome, nothing is decided.
    pure subroutine scale_and_round(x, k, rounded, decided)
-      real(wp), intent(in) :: x
+      real(wp), intent(in) :: x                    !< > 0
       integer, intent(in) :: k
       integer(lp), intent(out) :: rounded
       logical, intent(out) :: decided
-      real(wp) :: high, low, rest
+      integer(lp) :: significand
+      integer(XP) :: product, rest, half, doubt
+      integer :: shift
 
       rounded = 0_lp
-      decided = abs(k) <= 2*EXACT_POWERS
+      decided = abs(k) <= MOST_POWER
       if (.not. decided) return
-      high = x
-      low = 0.0_wp
-      if (k >= 0) then
-         call multiply(high, low, POWER(min(k, EXACT_POWERS)))
-         if (k > EXACT_POWERS) call multiply(high, low, POWER(k - EXACT_POWERS))
-      else
-         call divide(high, low, POWER(min(-k, EXACT_POWERS)))
-         if (-k > EXACT_POWERS) call divide(high, low, POWER(-k - EXACT_POWERS))
-      end if
-      rounded = int(high, lp)
-      rest = (high - real(rounded, wp)) + low
-      decided = abs(rest - (real(floor(rest), wp) + 0.5_wp)) > UNDECIDED
-      rounded = rounded + int(floor(rest + 0.5_wp), lp)
+      significand = ior(iand(transfer(x, 0_lp), LAST_BIT - 1_lp), LAST_BIT)
+      product = int(significand, XP)*int(POWER(k), XP)
+      shift = FRACTION_BITS - binary_exponent(x) - shift_of_power(k)
+      decided = shift > 1 .and. shift < 120
+      if (.not. decided) return
+      half = shiftl(1_XP, shift - 1)
+      rest = iand(product, shiftl(half, 1) - 1_XP)
+      doubt = 0_XP
+      if (k < 0 .or. k > LAST_EXACT) doubt = int(significand, XP)
+      decided = abs(rest - half) > doubt
+      rounded = int(shiftr(product, shift), lp)
+      if (rest > half) rounded = rounded + 1_lp
    end subroutine scale_and_round
 
-   !> Multiplies high + low by p in twice the precision.
-   pure subroutine multiply(high, low, p)
-      real(wp), intent(inout) :: high, low
-      real(wp), intent(in) :: p
-      real(wp) :: product_high, product_low
+   !> The same as exponent(x), read off the bits of a number that is not denormal (10**MOST_POWER has long refused those).
+   pure integer function binary_exponent(x)
+      real(wp), intent(in) :: x                    !< > 0
 
-      product_high = high*p
-      product_low = rounding_error(high, p, product_high) + low*p
-      high = product_high + product_low
-      low = product_low - (high - product_high)
-   end subroutine multiply
+      binary_exponent = int(shiftr(transfer(x, 0_lp), FRACTION_BITS - 1)) - BIAS
+   end function binary_exponent
 
-   !> Divides high + low by p in twice the precision.
-   pure subroutine divide(high, low, p)
-      real(wp), intent(inout) :: high, low
-      real(wp), intent(in) :: p
-      real(wp) :: quotient, back, correction
+   !> floor(k log2(10)) - 62.
+   pure integer function shift_of_power(k)
+      integer, intent(in) :: k                     !< -MOST_POWER..MOST_POWER
 
-      quotient = high/p
-      back = quotient*p
-      correction = (((high - back) - rounding_error(quotient, p, back)) + low)/p
-      high = quotient + correction
-      low = correction - (high - quotient)
-   end subroutine divide
-
-   !> a b - product exactly (Dekker), where product is a b rounded. The halves are cut by masking bits, which no compiler
-   !> option changes.
-   pure real(wp) function rounding_error(a, b, product)
-      real(wp), intent(in) :: a, b, product
-      real(wp) :: a_high, a_low, b_high, b_low
-
-      a_high = upper_half(a)
-      a_low = a - a_high
-      b_high = upper_half(b)
-      b_low = b - b_high
-      rounding_error = (((a_high*b_high - product) + a_high*b_low) + a_low*b_high) + a_low*b_low
-   end function rounding_error
-
-   pure real(wp) function upper_half(x)
-      real(wp), intent(in) :: x
-      integer(lp), parameter :: MASK = not(2_lp**27 - 1_lp)
-
-      upper_half = transfer(iand(transfer(x, 0_lp), MASK), 0.0_wp)
-   end function upper_half
+      shift_of_power = shifta(k*217706, 16) - POWER_BITS
+   end function shift_of_power
 
    !> The same as find_digits by way of the run-time library.
    pure subroutine find_digits_slowly(x, digits, mantissa, exponent_of_ten)
@@ -221,26 +212,51 @@ contains
       integer(lp), intent(in) :: mantissa
       integer, intent(in) :: digits, exponent_of_ten
       character(len=*), intent(inout) :: field
-      integer(lp) :: rest
-      integer :: place, e, i
+      character(len=3*EIGHT) :: all
+      integer :: place, e
 
-      place = len(field)
+      call put_digits(mantissa, all)
       e = abs(exponent_of_ten)
-      do i = 1, merge(3, 2, e > 99)
-         field(place:place) = achar(iachar('0') + mod(e, 10))
-         e = e/10
-         place = place - 1
-      end do
-      field(place - 1:place) = merge('e-', 'e+', exponent_of_ten < 0)
+      place = len(field)
+      field(place - 1:place) = PAIR(mod(e, 100))
       place = place - 2
-      rest = mantissa
-      do i = 2, digits
-         field(place:place) = achar(iachar('0') + int(mod(rest, 10_lp)))
-         rest = rest/10_lp
+      if (e > 99) then
+         field(place:place) = achar(ZERO + e/100)
          place = place - 1
-      end do
-      field(place - 1:place) = achar(iachar('0') + int(rest))//'.'
+      end if
+      field(place:place) = '+'
+      if (exponent_of_ten < 0) field(place:place) = '-'
+      field(place - 1:place - 1) = 'e'
+      place = place - 1 - digits
+      field(place + 1:place + digits - 1) = all(len(all) - digits + 2:)
+      field(place:place) = '.'
+      field(place - 1:place - 1) = all(len(all) - digits + 1:len(all) - digits + 1)
       if (negative) field(place - 2:place - 2) = '-'
    end subroutine lay_out
+
+   !> All digits of a number, zeros before it.
+   pure subroutine put_digits(number, text)
+      integer(lp), intent(in) :: number            !< 0 .. 10**MOST_DIGITS
+      character(len=3*EIGHT), intent(out) :: text
+      integer(lp) :: upper
+
+      upper = number/TEN_TO(EIGHT)
+      call put_eight(int(number - upper*TEN_TO(EIGHT)), text(2*EIGHT + 1:))
+      call put_eight(int(mod(upper, TEN_TO(EIGHT))), text(EIGHT + 1:2*EIGHT))
+      call put_eight(int(upper/TEN_TO(EIGHT)), text(:EIGHT))
+   end subroutine put_digits
+
+   pure subroutine put_eight(number, text)
+      integer, intent(in) :: number                !< 0 .. 99999999
+      character(len=EIGHT), intent(out) :: text
+      integer :: upper, lower
+
+      upper = number/10000
+      lower = number - 10000*upper
+      text(1:2) = PAIR(upper/100)
+      text(3:4) = PAIR(mod(upper, 100))
+      text(5:6) = PAIR(lower/100)
+      text(7:8) = PAIR(mod(lower, 100))
+   end subroutine put_eight
 
 end module atrito_number_text

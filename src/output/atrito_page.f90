@@ -1,7 +1,6 @@
 !> A page of text for people: the listing, the closing summary and the report of `atrito check` are made of these lines.
 module atrito_page
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, lp, wp, is_nan
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -189,7 +188,7 @@ contains
       integer, intent(in) :: digits                 !< significant digits
       character(len=:), allocatable :: text
 
-      if (ieee_is_nan(x)) then
+      if (is_nan(x)) then
          text = 'undefined'
       else if (abs(x) > huge(x)) then
          text = 'infinite'

@@ -1,32 +1,33 @@
 !> The closing summary of a run: at most a screen of 80 columns by 24 lines.
 module atrito_screen
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_timers, only: phase_time_t, get_phases, peak_memory
    use atrito_model, only: model_t, METHOD_NAME
    use atrito_results, only: results_t, scene_t
    use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, bytes, plural
+   use atrito_plot_files, only: plot_folder
    use atrito_summary, only: pair_summary_t, summarise_pair
    implicit none (type, external)
    private
    public :: compose_summary
 
    integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
-   integer, parameter :: MOST_PAIRS = 2             !< pairs on the screen; the rest is in the listing
    integer, parameter :: DIGITS = 5
    integer, parameter :: LABEL_WIDTH = 34           !< columns of a pair's name
 
 contains
 
    !> Composes the summary. folder and files: where the run was written.
-   subroutine compose_summary(model, results, folder, files, page)
+   subroutine compose_summary(model, results, folder, files, page, pictures)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: files(:)        !< names without folder
       type(page_t), intent(out) :: page
+      type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
 
       call begin_page(page, WIDTH)
       call add_rule(page, '=')
@@ -37,9 +38,10 @@ contains
       call add_rule(page, '-')
       call add_verdict(page, results)
       call add_sizes(page, model, results)
-      call add_pairs(page, results)
+      call add_pairs(page, results, most_pairs(results, files, present(pictures)))
       call add_rule(page, '-')
       call add_closing(page, folder, files)
+      if (present(pictures)) call add_pictures(page, folder, pictures)
       call add_rule(page, '=')
    end subroutine compose_summary
 
@@ -75,6 +77,7 @@ contains
       if (results%converged .and. results%law_holds) then
          call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)// &
                        ' of the largest force; the contact law holds')
+         call add_item(page, 'estimated', 'error of '//number(results%error_estimate, 3)//' % of the energy norm')
       else
          call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force')
       end if
@@ -133,15 +136,32 @@ contains
       end if
    end function iteration_text
 
+   !> How many pairs leave the rest its place: a verdict takes two lines, a field file one.
+   pure integer(ip) function most_pairs(results, files, has_pictures) result(most)
+      type(results_t), intent(in) :: results
+      type(string_t), intent(in) :: files(:)
+      logical, intent(in) :: has_pictures
+      integer :: i, extra
+
+      extra = merge(1, 2, results%converged .and. results%law_holds)  ! the estimated error, or what is wrong
+      if (has_pictures) extra = extra + 1
+      do i = 1, size(files)
+         if (ends_with(files(i)%s, '.xdmf')) extra = extra + 1
+      end do
+      most = 2
+      if (extra > 2) most = 1
+   end function most_pairs
+
    !> A row a pair as in Quadro I of the paper, and a line of tractions.
-   subroutine add_pairs(page, results)
+   subroutine add_pairs(page, results, most)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: most               !< pairs on the screen; the rest is in the listing
       integer(ip) :: i, shown
 
       if (.not. allocated(results%contact)) return
       if (size(results%contact) == 0) return
-      shown = min(size(results%contact, kind=ip), int(MOST_PAIRS, ip))
+      shown = min(size(results%contact, kind=ip), most)
       call add_rule(page, '-')
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
@@ -192,7 +212,7 @@ contains
       type(string_t), intent(in) :: files(:)
       type(phase_time_t), allocatable :: phases(:)
       character(len=:), allocatable :: tables
-      integer :: i, length
+      integer :: i
 
       phases = get_phases()
       call add_item(page, 'time', seconds(sum(phases%wall))//' s ('//seconds(sum(phases%cpu))//' s of processor), '// &
@@ -200,16 +220,32 @@ contains
                     plural(count_messages(SEVERITY_NOTE), 'note', 'notes'))
       tables = ''
       do i = 1, size(files)
-         length = len(files(i)%s)
-         if (files(i)%s(length - 3:) == '.tab') then
-            tables = tables//' '//files(i)%s(:length - 4)
-         else
+         if (ends_with(files(i)%s, '.tab')) then
+            tables = tables//' '//files(i)%s(:len(files(i)%s) - 4)
+         else if (ends_with(files(i)%s, '.lst')) then
             call add_line(page, left('listing', 13)//folder//'/'//files(i)%s)
+         else if (ends_with(files(i)%s, '.xdmf')) then
+            call add_line(page, left('fields', 13)//folder//'/'//files(i)%s//', with .h5')
          end if
       end do
       call add_line(page, left('tables in', 13)//folder)
       call add_line(page, left('', 12)//left(tables, WIDTH - 12))
    end subroutine add_closing
+
+   pure logical function ends_with(name, ending)
+      character(len=*), intent(in) :: name, ending
+
+      ends_with = index(name, ending, back=.true.) == max(1, len(name) - len(ending) + 1)
+   end function ends_with
+
+   subroutine add_pictures(page, folder, pictures)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: pictures(:)
+
+      if (size(pictures) == 0) return
+      call add_item(page, 'plots in', plot_folder(folder)//': '//join(pictures, ' '))
+   end subroutine add_pictures
 
    !> Seconds to the millisecond.
    pure function seconds(time) result(text)

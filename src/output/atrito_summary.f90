@@ -132,7 +132,8 @@ contains
               counted('linear_solves', int(results%linear_solves, ip)), &
               quantity('equilibrium_residual', '-', results%equilibrium_residual, 0.0_wp), &
               quantity('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
-              quantity('external_work', 'F L', results%external_work, 0.0_wp)]
+              quantity('external_work', 'F L', results%external_work, 0.0_wp), &
+              quantity('error_estimate_percent', '-', results%error_estimate, 0.0_wp)]
    end function step_quantities
 
    pure function quantity(name, dimension, value, scale)

@@ -1,6 +1,6 @@
 !> A table: named columns with dimensions, and how it becomes a text file that people, numpy and gnuplot read.
 module atrito_table
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, is_nan
    use atrito_strings, only: string_t, append_string
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
@@ -236,11 +236,23 @@ contains
       line = repeat(' ', table%columns(size(table%columns))%last)
       do row = 1, table%n_rows
          do i = 1, size(table%columns)
+            if (stays(table%columns(i), row)) cycle
             call put_value(table%columns(i), row, digits, line(table%columns(i)%first:table%columns(i)%last))
          end do
          call put_line(file, line)
       end do
    end subroutine write_rows
+
+   !> Whether the text of the row before still stands for this one.
+   pure logical function stays(column, row)
+      type(column_t), intent(in) :: column
+      integer(ip), intent(in) :: row
+
+      stays = .false.
+      if (row == 1) return
+      if (column%kind == KIND_REAL) stays = column%reals(row) == column%reals(row - 1)
+      if (column%kind == KIND_INTEGER) stays = column%integers(row) == column%integers(row - 1)
+   end function stays
 
    pure subroutine put_value(column, row, digits, field)
       type(column_t), intent(in) :: column
@@ -268,11 +280,10 @@ contains
    end subroutine put_word
 
    elemental real(wp) function without_rounding(x, zero)
-      use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
       real(wp), intent(in) :: x, zero
 
       without_rounding = x
-      if (ieee_is_nan(x)) return
+      if (is_nan(x)) return
       if (abs(x) < zero) without_rounding = 0.0_wp
    end function without_rounding
 

@@ -1,6 +1,6 @@
 !> The tables of a run, docs/user/tables.md: what is in them and when each is written.
 module atrito_write_tables
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, is_nan
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
@@ -12,11 +12,14 @@ module atrito_write_tables
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table, ZERO_SHARE
    implicit none (type, external)
    private
-   public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
+   public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES, STRESS_NAMES
 
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(7) = &
                                  [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', 'iterations', 'timing']
+
+   !> The rows of results%stress.
+   character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
 
 contains
 
@@ -213,11 +216,10 @@ contains
 
    !> |x| < limit, false for NaN, which must not meet an ordered comparison while invalid operations are trapped.
    pure logical function abs_is_below(x, limit)
-      use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
       real(wp), intent(in) :: x, limit
 
       abs_is_below = .false.
-      if (.not. ieee_is_nan(x)) abs_is_below = abs(x) < limit
+      if (.not. is_nan(x)) abs_is_below = abs(x) < limit
    end function abs_is_below
 
    !> The dimensions of the column `value`, one comment line a dimension.
@@ -286,24 +288,36 @@ contains
       if (allocated(mask)) list = pack(list, mask)
    end function places
 
+   !> Places in results%stress of the points of these elements; all where nothing is said.
+   pure function stress_rows(results, mask) result(list)
+      type(results_t), intent(in) :: results
+      logical, allocatable, intent(in) :: mask(:)
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i
+
+      list = [(i, i=1, size(results%stress_element, kind=ip))]
+      if (allocated(mask)) list = pack(list, mask(results%stress_element))
+   end function stress_rows
+
    subroutine build_stress(model, results, scales, table)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
-      character(len=5), parameter :: NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
+      integer(ip), allocatable :: row(:)
       integer(ip) :: n
       integer :: i
 
-      n = size(results%stress_element, kind=ip)
+      row = stress_rows(results, model%requests%element_s)
+      n = size(row, kind=ip)
       call begin_table(table, 'stress', 'a row a quadrature point of an element', n)
       call add_integers(table, 'step', spread(results%step, 1, n))
-      call add_integers(table, 'element', model%mesh%element_id(results%stress_element))
-      call add_integers(table, 'point', results%stress_point)
-      call add_reals(table, 'x', 'L', results%stress_x(1, :), scales%length)
-      call add_reals(table, 'y', 'L', results%stress_x(2, :), scales%length)
-      do i = 1, size(NAMES)
-         call add_reals(table, trim(NAMES(i)), 'F/L^2', results%stress(i, :), scales%stress)
+      call add_integers(table, 'element', model%mesh%element_id(results%stress_element(row)))
+      call add_integers(table, 'point', results%stress_point(row))
+      call add_reals(table, 'x', 'L', results%stress_x(1, row), scales%length)
+      call add_reals(table, 'y', 'L', results%stress_x(2, row), scales%length)
+      do i = 1, size(STRESS_NAMES)
+         call add_reals(table, trim(STRESS_NAMES(i)), 'F/L^2', results%stress(i, row), scales%stress)
       end do
    end subroutine build_stress
 

@@ -9,17 +9,21 @@ module atrito_recovery
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
-   use atrito_element, only: element_stress
+   use atrito_elasticity, only: stress_33, von_mises
+   use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: element_coordinates
+   use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_model, only: model_t
+   use atrito_point_stress, only: point_rule_t, element_data_t, make_point_rule, fetch_element, point_stress
    use atrito_points, only: contact_points_t
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_shape_functions, only: gauss_count
+   use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
    implicit none (type, external)
    private
-   public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress
+   public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
+             estimate_error
 
 contains
 
@@ -109,6 +113,8 @@ contains
             c%n = points(i)%n
             c%s = points(i)%s
             c%x = points(i)%x
+            c%normal = points(i)%normal
+            c%u = u(:, points(i)%node(:points(i)%n))
             c%weight = points(i)%weight
             allocate (c%gap(c%n), c%slip(c%n), c%status(c%n), c%pressure(c%n), c%shear(c%n), c%weighted_pressure(c%n))
             do j = 1, c%n
@@ -184,26 +190,69 @@ contains
       type(model_t), intent(in) :: model
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
-      integer(ip) :: e, k, row, n
+      type(point_rule_t) :: rules(2)
+      logical :: wanted(model%mesh%n_elements)
+      integer(ip) :: e, row, n
 
-      if (.not. model%requests%stress) return
+      associate (requests => model%requests)
+         if (.not. (requests%stress .or. requests%fields%stress)) return
+         wanted = .false.
+         if (requests%stress) wanted = requests%element_s
+         if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
+      end associate
+      call make_point_rule(Q1_NODES, gauss_count(Q1_NODES), rules(1))
+      call make_point_rule(Q2_NODES, gauss_count(Q2_NODES), rules(2))
       n = 0
       do e = 1, fem%mesh%n_elements
-         if (model%requests%element_s(e)) n = n + gauss_count(fem%mesh%shape(e))**2
+         if (wanted(e)) n = n + gauss_count(fem%mesh%shape(e))**2
       end do
       allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
       row = 0
       do e = 1, fem%mesh%n_elements
-         if (.not. model%requests%element_s(e)) cycle
-         do k = 1, gauss_count(fem%mesh%shape(e))**2
-            row = row + 1
-            results%stress_element(row) = e
-            results%stress_point(row) = k
-            call element_stress(element_coordinates(fem%mesh, e), fem%sections(fem%section_of(e)), fem%mesh%state(e), &
-                                results%u(:, fem%mesh%nodes(:fem%mesh%shape(e), e)), k, results%stress_x(:, row), &
-                                results%stress(:, row))
-         end do
+         if (wanted(e)) call add_element(fem, e, rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)), row, results)
       end do
    end subroutine recover_stress
+
+   !> The rows of one element.
+   pure subroutine add_element(fem, e, rule, row, results)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      type(point_rule_t), intent(in) :: rule
+      integer(ip), intent(inout) :: row              !< the last one filled
+      type(results_t), intent(inout) :: results
+      type(element_data_t) :: data
+      real(wp) :: plane(3), inverse(2, 2), jacobian, place(2)
+      integer(ip) :: k, i
+
+      call fetch_element(fem, e, results%u, data)
+      do k = 1, rule%n
+         row = row + 1
+         call point_stress(data, rule, k, plane, inverse, jacobian)
+         place = fem%mesh%x(:, fem%mesh%nodes(1, e))
+         do i = 2, data%n
+            place = place + data%x(:, i)*rule%value(i, k)
+         end do
+         results%stress_element(row) = e
+         results%stress_point(row) = k
+         results%stress_x(:, row) = place
+         results%stress(1:2, row) = plane(1:2)
+         results%stress(3, row) = stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), plane)
+         results%stress(4, row) = plane(3)
+         results%stress(5, row) = von_mises(plane, results%stress(3, row))
+      end do
+   end subroutine add_element
+
+   !> Continuous stresses at the nodes, and the error in the energy norm that they tell. Both want the displacements.
+   subroutine estimate_error(fem, results)
+      type(fem_t), intent(in) :: fem
+      type(results_t), intent(inout) :: results
+      type(stress_field_t) :: field
+      type(energies_t) :: energies
+
+      call recover_stress_field(fem, results%u, field)
+      call nodal_stresses(fem, field, results%nodal_stress)
+      call measure_error(fem, results%u, field, energies)
+      results%error_estimate = relative_error(energies)
+   end subroutine estimate_error
 
 end module atrito_recovery

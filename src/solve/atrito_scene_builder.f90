@@ -10,11 +10,11 @@ module atrito_scene_builder
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_scene, section_thickness, pair_points
+   public :: build_scene, build_bodies, section_thickness, pair_points
 
 contains
 
-   !> Bodies, equations (contact nodes last), rigid motions, prescribed dofs and values, and the points of every pair.
+   !> Mesh and sections, prescribed dofs and values, and the points of every pair; build_bodies adds the bodies.
    subroutine build_scene(model, fem, held, value, points)
       type(model_t), intent(in) :: model
       type(fem_t), intent(out) :: fem
@@ -36,13 +36,23 @@ contains
       do i = 1, size(model%pairs, kind=ip)
          call pair_points(model, i, points(i))
       end do
+   end subroutine build_scene
+
+   !> Bodies, equations (contact nodes last) and rigid motions.
+   subroutine build_bodies(model, held, points, fem)
+      type(model_t), intent(in) :: model
+      logical, intent(in) :: held(:, :)                        !< (2, n_nodes)
+      type(contact_points_t), intent(in) :: points(:)
+      type(fem_t), intent(inout) :: fem
+      integer(ip) :: i
+
       call find_bodies(fem%mesh, fem%bodies)
       call name_bodies(model, fem)
       do i = 1, fem%bodies%n
          call number_equations(fem%mesh, fem%bodies, i, held, contact_nodes(fem, i, points))
          call find_rigid_modes(fem%mesh, fem%bodies%list(i), held)
       end do
-   end subroutine build_scene
+   end subroutine build_bodies
 
    pure subroutine list_prescribed(model, held, value)
       type(model_t), intent(in) :: model
@@ -68,7 +78,8 @@ contains
 
       associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
          if (master%kind == SURFACE_SEGMENTS) then
-            call pair_surfaces(model%mesh, section_thickness(model), slave%faces, no_faces, master%points, points)
+            call pair_surfaces(model%mesh, section_thickness(model), slave%faces, no_faces, master%points, points, &
+                               master%is_arc, master%centre)
          else
             call pair_surfaces(model%mesh, section_thickness(model), slave%faces, master%faces, no_points, points)
          end if

@@ -3,7 +3,8 @@ module atrito_solve
    use atrito_assembly, only: fem_t, body_profile, internal_forces
    use atrito_blas_info, only: set_blas_threads, is_reference_blas
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
-   use atrito_condensed_body, only: condensed_body_t, condense_body, choose_storage, set_load, motion_text
+   use atrito_body_store, only: body_store_t, provide_bodies, take_numbering
+   use atrito_condensed_body, only: condensed_body_t, choose_storage, motion_text
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
    use atrito_contact_rows, only: contact_rows_t, build_rows
@@ -18,10 +19,11 @@ module atrito_solve
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
    use atrito_range, only: work_of
-   use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
+                              estimate_error
+   use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t, iteration_t, body_result_t
-   use atrito_scene_builder, only: build_scene
+   use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_solve_history, only: solve_history_t
    use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
@@ -61,37 +63,58 @@ contains
       type(scene_t), intent(out) :: scene
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
+      type(body_store_t) :: store
 
-      call prepare(model, data)
+      call prepare(model, store, data)
       call describe_scene(model, data, options, scene)
       call check_known_points(data, status)
    end subroutine survey_scene
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact). results%converged and law_holds tell the rest.
-   subroutine solve_static(model, options, reporter, results, status)
+   subroutine solve_static(model, options, reporter, results, status, kept)
       type(model_t), intent(in) :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
+      type(body_store_t), intent(inout), optional :: kept  !< bodies of an earlier run; on return those of this one
+      type(body_store_t) :: store
+
+      if (present(kept)) then
+         call solve_with_store(model, options, reporter, kept, results, status)
+      else
+         call solve_with_store(model, options, reporter, store, results, status)
+      end if
+   end subroutine solve_static
+
+   subroutine solve_with_store(model, options, reporter, store, results, status)
+      type(model_t), intent(in) :: model
+      type(solve_options_t), intent(in) :: options
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
+      type(results_t), intent(out) :: results
+      type(status_t), intent(out) :: status
       type(scene_data_t) :: data
-      type(condensed_body_t), allocatable :: condensed(:)
       type(box_problem_t) :: problem
       type(contact_solution_t) :: solution
       type(outer_controls_t) :: controls
 
       call set_blas_threads(int(options%threads, ip))
       call start_phase('order')
-      call prepare(model, data)
+      call prepare(model, store, data)
       call describe_scene(model, data, options, results%scene)
       call stop_phase('order')
       call check_known_points(data, status)
       if (.not. is_ok(status)) return
-      call condense_all(data, options, reporter, condensed, results, status)
+      call start_phase('factor')
+      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), options%storage_kind, reporter, &
+                          results%scene%bodies, status)
+      results%factorisations = store%factorisations
+      call stop_phase('factor')
       if (.not. is_ok(status)) return
       call start_phase('iterate')
-      call build_problem(data%fem, condensed, data%rows, data%line, data%value, data%f, problem)
+      call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
       controls = outer_controls_t(model%controls%method, model%controls%tolerance, model%controls%max_iterations, &
                                   model%controls%relaxation)
       call solve_contact_line(problem, data%line, controls, reporter, solution, status)
@@ -101,19 +124,26 @@ contains
          return
       end if
       call start_phase('recover')
-      call recover(model, data, condensed, solution, results)
+      call recover(model, data, store%bodies, solution, results)
       call stop_phase('recover')
+      call start_phase('estimate')
+      call estimate_error(data%fem, results)
+      call stop_phase('estimate')
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results)
       call stop_phase('check')
       call warn(model, data, solution, results)
-   end subroutine solve_static
+   end subroutine solve_with_store
 
-   subroutine prepare(model, data)
+   subroutine prepare(model, store, data)
       type(model_t), intent(in) :: model
+      type(body_store_t), intent(in) :: store
       type(scene_data_t), intent(out) :: data
+      logical :: known
 
       call build_scene(model, data%fem, data%held, data%value, data%points)
+      call take_numbering(store, data%held, data%points, data%fem, known)
+      if (.not. known) call build_bodies(model, data%held, data%points, data%fem)
       call build_rows(data%points, data%rows)
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
       data%f = nodal_loads(model)
@@ -209,32 +239,6 @@ contains
          return
       end do
    end subroutine check_known_points
-
-   !> Factors every body and reduces its load.
-   subroutine condense_all(data, options, reporter, condensed, results, status)
-      type(scene_data_t), intent(in) :: data
-      type(solve_options_t), intent(in) :: options
-      type(reporter_t), intent(in) :: reporter
-      type(condensed_body_t), allocatable, intent(out) :: condensed(:)
-      type(results_t), intent(inout) :: results
-      type(status_t), intent(out) :: status
-      real(wp), allocatable :: load(:, :)
-      integer(ip) :: b
-
-      call start_phase('factor')
-      allocate (condensed(data%fem%bodies%n))
-      load = free_load(data)
-      do b = 1, data%fem%bodies%n
-         call condense_body(data%fem, b, options%storage_kind, condensed(b), results%scene%bodies(b), status)
-         if (.not. is_ok(status)) exit
-         results%factorisations = results%factorisations + 1
-         call set_load(data%fem, b, load, condensed(b))
-         call report_progress(reporter, 'body '//data%fem%bodies%list(b)%name//'  dofs ' &
-                              //to_text(data%fem%bodies%list(b)%n)//'  contact dofs ' &
-                              //to_text(data%fem%bodies%list(b)%n_kept)//'  '//condensed(b)%storage%name())
-      end do
-      call stop_phase('factor')
-   end subroutine condense_all
 
    !> Applied forces less those of the prescribed displacements.
    function free_load(data) result(load)

@@ -4,10 +4,10 @@ module fem_cases
    use atrito_bodies, only: find_bodies, number_equations
    use atrito_elasticity, only: elastic_t
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: add_element, add_node, trim_mesh, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: add_element, add_node, nodes_of_square, trim_mesh, PLANE_STRAIN, Q1_NODES, Q2_NODES
    implicit none (type, external)
    private
-   public :: SHAPES, PLACES, node_places, distorted, linear_field, row_of_elements, dense_stiffness
+   public :: SHAPES, PLACES, node_places, distorted, linear_field, row_of_elements, dense_stiffness, grid_of_elements
 
    integer(ip), parameter :: SHAPES(2) = [Q1_NODES, Q2_NODES]
    !> Places in the parent element where functions are tried.
@@ -76,6 +76,35 @@ contains
       allocate (held(2, fem%mesh%n_nodes), source=.false.)
       call number_equations(fem%mesh, fem%bodies, 1_ip, held, [2*n + 1, 2*n + 2])
    end subroutine row_of_elements
+
+   !> nx x ny elements of one section on [0, nx] x [0, ny], nodes row by row; no bodies, no equations.
+   subroutine grid_of_elements(n_nodes, nx, ny, fem)
+      integer(ip), intent(in) :: n_nodes               !< Q1_NODES or Q2_NODES
+      integer(ip), intent(in) :: nx, ny
+      type(fem_t), intent(out) :: fem
+      integer(ip), parameter :: SOME(3) = [1, 2, 3]
+      integer(ip) :: square(3, 3), p, i, j, k, row
+      logical :: known
+
+      p = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
+      row = p*nx + 1
+      do j = 0, p*ny
+         do i = 0, p*nx
+            call add_node(fem%mesh, row*j + i + 1, [real(i, wp)/p, real(j, wp)/p], known)
+         end do
+      end do
+      do j = 1, ny
+         do i = 1, nx
+            do k = 0, p
+               square(:p + 1, k + 1) = row*(p*(j - 1) + k) + p*(i - 1) + SOME(:p + 1)
+            end do
+            call add_element(fem%mesh, nx*(j - 1) + i, PLANE_STRAIN, nodes_of_square(square(:p + 1, :p + 1)), known)
+         end do
+      end do
+      call trim_mesh(fem%mesh)
+      fem%sections = [elastic_t(200.0_wp, 0.3_wp, 0.5_wp, 0.0_wp), elastic_t(90.0_wp, 0.2_wp, 1.0_wp, 0.0_wp)]
+      allocate (fem%section_of(nx*ny), source=1_ip)
+   end subroutine grid_of_elements
 
    !> The full matrix of some element stiffnesses, in the order u1, u2 of node 1, of node 2, ...
    pure subroutine dense_stiffness(nodes, k, dense)

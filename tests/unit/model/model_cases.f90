@@ -13,7 +13,7 @@ module model_cases
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, said, first_text, node_ids, element_ids, faces_text
+   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, said, first_text, node_ids, element_ids, faces_text
 
    !> Two unit squares side by side.
    character(len=*), parameter :: PLATE = '*NODE|1, 0, 0|2, 1, 0|3, 2, 0|11, 0, 1|12, 1, 1|13, 2, 1|'// &
@@ -37,18 +37,29 @@ contains
       call build_with(text, none, model)
    end subroutine build
 
+   !> As build, refined.
+   subroutine build_refined(text, levels, model)
+      character(len=*), intent(in) :: text
+      integer(ip), intent(in) :: levels
+      type(model_t), intent(out) :: model
+      type(string_t) :: none(0)
+
+      call build_with(text, none, model, levels)
+   end subroutine build_refined
+
    !> As build, with settings.
-   subroutine build_with(text, settings, model)
+   subroutine build_with(text, settings, model, levels)
       character(len=*), intent(in) :: text
       type(string_t), intent(in) :: settings(:)
       type(model_t), intent(out) :: model
+      integer(ip), intent(in), optional :: levels       !< of refinement
       type(deck_t) :: deck
       type(status_t) :: status
 
       call clear_messages()
       call write_deck(text)
       call read_deck(FOLDER//'/scene.inp', settings, deck, status)
-      call build_model(deck, model)
+      call build_model(deck, model, levels)
       call sort_messages()
    end subroutine build_with
 

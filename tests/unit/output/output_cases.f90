@@ -58,6 +58,8 @@ contains
       contact%n = 3
       contact%s = [0.0_wp, 1.0_wp, 2.0_wp]
       contact%x = reshape([0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 2.0_wp, 0.0_wp], [2, 3])
+      contact%normal = reshape([0.0_wp, -1.0_wp, 0.6_wp, -0.8_wp, 0.0_wp, -1.0_wp], [2, 3])
+      contact%u = reshape([-0.5_wp, 0.0_wp, 0.0_wp, 0.25_wp, 0.0_wp, 0.0_wp], [2, 3])
       contact%gap = [1.0e-2_wp, 0.0_wp, -1.0e-6_wp]
       contact%pressure = [0.0_wp, 0.5_wp, 3.0_wp]
       contact%weighted_pressure = [0.0_wp, 0.5_wp, 3.0_wp]
@@ -92,6 +94,7 @@ contains
       results%equilibrium_residual = 1.0e-15_wp
       results%strain_energy = 0.5_wp
       results%external_work = 1.0_wp
+      results%error_estimate = 12.5_wp
       allocate (results%iterations(2))
       results%iterations%outer = [1_ip, 2_ip]
    end subroutine make_results

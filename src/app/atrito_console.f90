@@ -1,0 +1,87 @@
+!> What goes to the terminal: messages, failures, lines.
+module atrito_console
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use atrito_kinds, only: ip
+   use atrito_messages, only: message_t, count_messages, get_message, format_message, &
+                              SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
+   use atrito_status, only: status_t, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR, STATUS_FILE
+   use atrito_strings, only: string_t, to_text
+   use atrito_version, only: PROGRAM_NAME
+   implicit none (type, external)
+   private
+   public :: print_messages, print_status, print_lines
+
+contains
+
+   !> Prints the messages from number `first` on: the first errors, warnings and notes, and the count of the others.
+   subroutine print_messages(quiet, first)
+      logical, intent(in) :: quiet                  !< no notes
+      integer(ip), intent(in) :: first
+      type(message_t) :: message
+      integer(ip) :: i, printed(SEVERITY_NOTE), n(SEVERITY_NOTE)
+      character(len=8), parameter :: WORD(SEVERITY_NOTE) = ['errors  ', 'warnings', 'notes   ']
+
+      n = 0
+      do i = first, count_messages()
+         message = get_message(i)
+         if (quiet .and. message%severity == SEVERITY_NOTE) cycle
+         n(message%severity) = n(message%severity) + 1
+         if (n(message%severity) <= MOST_ERRORS) call print_lines(format_message(message), error_unit)
+      end do
+      printed = min(n, int(MOST_ERRORS, ip))
+      do i = 1, SEVERITY_NOTE
+         if (n(i) > printed(i)) call print_lines([string_t('... the first '//to_text(printed(i))//' of '//to_text(n(i))// &
+                                                           ' '//trim(WORD(i)))], error_unit)
+      end do
+      if (n(SEVERITY_ERROR) > 0) call print_lines([string_t(to_text(n(SEVERITY_ERROR))//' '// &
+                                                        trim(merge('error ', 'errors', n(SEVERITY_ERROR) == 1))//' in the deck')], &
+                                                  error_unit)
+   end subroutine print_messages
+
+   !> Tells a failure that belongs to no place in the deck.
+   subroutine print_status(status, file)
+      type(status_t), intent(in) :: status
+      character(len=*), intent(in) :: file          !< the deck, as the user wrote it
+      type(message_t) :: message
+
+      if (.not. allocated(status%text)) return
+      message%id = status_id(status%code)
+      message%file = file
+      if (status%code == STATUS_FILE .or. status%code == STATUS_USAGE) message%file = PROGRAM_NAME
+      message%text = status%text
+      call print_lines(format_message(message), error_unit)
+   end subroutine print_status
+
+   pure function status_id(code) result(id)
+      integer, intent(in) :: code
+      character(len=:), allocatable :: id
+
+      select case (code)
+      case (STATUS_USAGE)
+         id = 'E-COMMAND'
+      case (STATUS_DECK)
+         id = 'E-DECK'
+      case (STATUS_NOT_CONVERGED)
+         id = 'E-NOT-CONVERGED'
+      case (STATUS_SINGULAR)
+         id = 'E-SINGULAR'
+      case (STATUS_FILE)
+         id = 'E-FILE'
+      case default
+         id = 'E-INTERNAL'
+      end select
+   end function status_id
+
+   !> A failure to print is nobody's error.
+   subroutine print_lines(lines, unit)
+      type(string_t), intent(in) :: lines(:)
+      integer, intent(in) :: unit
+      integer :: i, ios
+
+      do i = 1, size(lines)
+         write (unit, '(a)', iostat=ios) lines(i)%s
+         if (ios /= 0) return
+      end do
+   end subroutine print_lines
+
+end module atrito_console

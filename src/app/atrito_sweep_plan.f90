@@ -1,0 +1,173 @@
+!> The runs of a sweep: every combination of the values of --vary, the last parameter changing fastest.
+module atrito_sweep_plan
+   use atrito_kinds, only: ip, wp
+   use atrito_parameters, only: settings_t, read_settings
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
+   use atrito_strings, only: string_t, append_string, same_name, to_text
+   implicit none (type, external)
+   private
+   public :: sweep_plan_t, plan_sweep
+
+   integer(ip), parameter :: MOST_RUNS = 10000_ip
+
+   type :: sweep_plan_t
+      integer(ip) :: n_runs = 0
+      type(string_t), allocatable :: names(:)        !< the parameters that vary
+      type(string_t), allocatable :: texts(:, :)     !< (parameters, runs) values as the user wrote them
+      real(wp), allocatable :: values(:, :)          !< (parameters, runs)
+      type(string_t), allocatable :: labels(:)       !< (runs) 'nu=0.3, eps=1e-4'
+      type(string_t), allocatable :: folders(:)      !< (runs) 'nu_0.3,eps_1e-4': no blank, and no = that awk takes for an order
+   end type sweep_plan_t
+
+   !> One --vary.
+   type :: variation_t
+      character(len=:), allocatable :: name
+      type(string_t), allocatable :: texts(:)
+      real(wp), allocatable :: values(:)
+   end type variation_t
+
+contains
+
+   !> Makes the plan. status: STATUS_USAGE for what is not NAME=v1,v2,..., a name given twice, also by --set, or a value twice.
+   subroutine plan_sweep(vary, settings, plan, status)
+      type(string_t), intent(in) :: vary(:)            !< 'NAME=v1,v2,...'
+      type(string_t), intent(in) :: settings(:)        !< 'NAME=VALUE' of --set
+      type(sweep_plan_t), intent(out) :: plan
+      type(status_t), intent(out) :: status
+      type(variation_t) :: variations(size(vary))
+      integer :: i
+
+      allocate (plan%names(0))
+      plan%n_runs = 1
+      do i = 1, size(vary)
+         call read_variation(vary(i)%s, variations(i), status)
+         if (is_ok(status)) call check_name(variations(i)%name, vary(i)%s, plan%names, settings, status)
+         if (.not. is_ok(status)) return
+         call append_string(plan%names, variations(i)%name)
+         if (size(variations(i)%texts) > MOST_RUNS/plan%n_runs) then
+            call set_status(status, STATUS_USAGE, '--vary: more than '//to_text(MOST_RUNS)//' runs')
+            return
+         end if
+         plan%n_runs = plan%n_runs*size(variations(i)%texts, kind=ip)
+      end do
+      call combine(variations, plan)
+   end subroutine plan_sweep
+
+   !> Takes NAME=v1,v2,... apart.
+   subroutine read_variation(text, variation, status)
+      character(len=*), intent(in) :: text
+      type(variation_t), intent(out) :: variation
+      type(status_t), intent(out) :: status
+      type(settings_t) :: setting
+      integer :: i, j, equals
+
+      equals = index(text, '=')
+      variation%name = trim(adjustl(text(:max(equals - 1, 0))))
+      variation%texts = split_at_commas(text(equals + 1:))
+      allocate (variation%values(size(variation%texts)))
+      do i = 1, size(variation%texts)
+         call read_settings([string_t(variation%name//'='//variation%texts(i)%s)], setting, status)
+         if (.not. is_ok(status)) then
+            call set_status(status, STATUS_USAGE, '--vary '//text//': '//status%text)
+            return
+         end if
+         variation%values(i) = setting%values(1)
+         do j = 1, i - 1
+            if (variation%values(j) /= variation%values(i)) cycle
+            call set_status(status, STATUS_USAGE, '--vary '//text//': '//variation%texts(i)%s//' is given twice')
+            return
+         end do
+      end do
+   end subroutine read_variation
+
+   subroutine check_name(name, text, names, settings, status)
+      character(len=*), intent(in) :: name, text
+      type(string_t), intent(in) :: names(:), settings(:)
+      type(status_t), intent(inout) :: status
+      integer :: i
+
+      do i = 1, size(names)
+         if (same_name(names(i)%s, name)) call set_status(status, STATUS_USAGE, '--vary '//text//': '//name//' varies already')
+      end do
+      do i = 1, size(settings)
+         if (.not. same_name(trim(adjustl(settings(i)%s(:index(settings(i)%s, '=') - 1))), name)) cycle
+         call set_status(status, STATUS_USAGE, '--vary '//text//': '//name//' is given by --set '//settings(i)%s)
+      end do
+   end subroutine check_name
+
+   !> The parts between commas; those within parentheses belong to a function.
+   pure function split_at_commas(text) result(parts)
+      character(len=*), intent(in) :: text
+      type(string_t), allocatable :: parts(:)
+      integer :: i, first, depth
+
+      allocate (parts(0))
+      first = 1
+      depth = 0
+      do i = 1, len(text)
+         if (text(i:i) == '(') depth = depth + 1
+         if (text(i:i) == ')') depth = depth - 1
+         if (text(i:i) /= ',' .or. depth > 0) cycle
+         call append_string(parts, trim(adjustl(text(first:i - 1))))
+         first = i + 1
+      end do
+      call append_string(parts, trim(adjustl(text(first:))))
+   end function split_at_commas
+
+   pure subroutine combine(variations, plan)
+      type(variation_t), intent(in) :: variations(:)
+      type(sweep_plan_t), intent(inout) :: plan
+      integer(ip) :: i, run, rest, place, n
+
+      allocate (plan%texts(size(variations), plan%n_runs), plan%values(size(variations), plan%n_runs))
+      allocate (plan%labels(plan%n_runs), plan%folders(plan%n_runs))
+      do run = 1, plan%n_runs
+         rest = run - 1
+         do i = size(variations, kind=ip), 1, -1
+            n = size(variations(i)%texts, kind=ip)
+            place = mod(rest, n) + 1
+            rest = rest/n
+            plan%texts(i, run)%s = variations(i)%texts(place)%s
+            plan%values(i, run) = variations(i)%values(place)
+         end do
+         call name_run(plan, run)
+      end do
+   end subroutine combine
+
+   pure subroutine name_run(plan, run)
+      type(sweep_plan_t), intent(inout) :: plan
+      integer(ip), intent(in) :: run
+      character(len=:), allocatable :: label, folder
+      integer(ip) :: i
+
+      label = ''
+      folder = ''
+      do i = 1, size(plan%names, kind=ip)
+         if (i > 1) label = label//', '
+         if (i > 1) folder = folder//','
+         label = label//plan%names(i)%s//'='//plan%texts(i, run)%s
+         folder = folder//plan%names(i)%s//'_'//plain(plan%texts(i, run)%s)
+      end do
+      do i = 1, run - 1
+         if (plan%folders(i)%s /= folder) cycle       ! 1/3 and 1*3 read alike
+         folder = folder//'-'//to_text(run)
+         exit
+      end do
+      call move_alloc(label, plan%labels(run)%s)
+      call move_alloc(folder, plan%folders(run)%s)
+   end subroutine name_run
+
+   !> A value as part of the name of a folder: letters, digits, point and signs stay.
+   pure function plain(text) result(name)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: name
+      integer :: i
+      character(len=*), parameter :: HARMLESS = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-'
+
+      name = text
+      do i = 1, len(text)
+         if (scan(text(i:i), HARMLESS) == 0) name(i:i) = '_'
+      end do
+   end function plain
+
+end module atrito_sweep_plan

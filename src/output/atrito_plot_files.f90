@@ -1,0 +1,82 @@
+!> The names of the files that atrito writes into DIR/plots, and their removal.
+!>
+!> Pictures of an earlier run beside new tables would lie, so a run that replaces tables removes them, whether or not it draws
+!> new ones. Files under other names are the user's and stay.
+module atrito_plot_files
+   use atrito_kinds, only: ip
+   use atrito_strings, only: to_text
+   use atrito_files, only: file_exists, is_folder, remove_file, remove_empty_folder
+   use atrito_messages, only: add_warning
+   implicit none (type, external)
+   private
+   public :: plot_folder, remove_plots, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT
+
+   character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary'
+   character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
+   character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
+   character(len=3), parameter :: ENDINGS(4) = ['gp ', 'dat', 'png', 'svg']
+
+contains
+
+   pure function plot_folder(folder) result(path)
+      character(len=*), intent(in) :: folder        !< of the tables
+      character(len=:), allocatable :: path
+
+      path = folder//'/plots'
+   end function plot_folder
+
+   !> Removes atrito's own files from the folder of plots, and the folder when nothing else is in it. A
+   !> picture that stays is a warning.
+   subroutine remove_plots(folder)
+      character(len=*), intent(in) :: folder        !< of the tables
+      character(len=:), allocatable :: path
+
+      path = plot_folder(folder)
+      if (.not. is_folder(path)) return
+      call remove_picture(path//'/'//MESH_PLOT)
+      call remove_picture(path//'/'//OVERLAY_SUMMARY)
+      call remove_numbered(path//'/'//CONTACT_PLOT)
+      call remove_numbered(path//'/'//OVERLAY_PLOT)
+      call remove_file(path//'/'//LOG_NAME)
+      call remove_empty_folder(path)
+      if (.not. file_exists(path//'/'//MESH_PLOT//'.png')) return
+      call add_warning('W-PLOT', path//': pictures of an earlier run cannot be removed')
+   end subroutine remove_plots
+
+   !> Removes the pictures of pair 1, 2, ... until there is none.
+   subroutine remove_numbered(path)
+      character(len=*), intent(in) :: path          !< without the number
+      logical :: found
+      integer(ip) :: i
+
+      i = 0
+      found = .true.
+      do while (found)
+         i = i + 1
+         found = has_picture(path//to_text(i))
+         if (found) call remove_picture(path//to_text(i))
+      end do
+   end subroutine remove_numbered
+
+   logical function has_picture(path)
+      character(len=*), intent(in) :: path          !< without ending
+      integer :: i
+      logical :: found
+
+      has_picture = .false.
+      do i = 1, size(ENDINGS)
+         found = file_exists(path//'.'//trim(ENDINGS(i)))
+         has_picture = has_picture .or. found
+      end do
+   end function has_picture
+
+   subroutine remove_picture(path)
+      character(len=*), intent(in) :: path          !< without ending
+      integer :: i
+
+      do i = 1, size(ENDINGS)
+         call remove_file(path//'.'//trim(ENDINGS(i)))
+      end do
+   end subroutine remove_picture
+
+end module atrito_plot_files

@@ -1,0 +1,419 @@
+!> The field file, docs/user/fields.md: <deck name>.h5 with the arrays, and <deck name>.xdmf beside it, by which it is opened.
+module atrito_write_fields
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, join, to_text
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_status, only: status_t, is_ok
+   use atrito_files, only: file_set_t, text_file_t, reserve_file, open_text, put_line, close_text
+   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t, contact_result_t
+   use atrito_table, only: origin_t
+   use atrito_write_tables, only: origin_of, stress_rows, STRESS_NAMES
+   use atrito_hdf5, only: hdf5_file_t, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
+   use atrito_xdmf, only: xdmf_grid_t, begin_grid, add_field, compose_xdmf, cell_nodes, CENTRE_NODE, CENTRE_CELL
+   implicit none (type, external)
+   private
+   public :: write_fields, list_field_files
+
+contains
+
+   !> Names of the files that this module can write: what a new run replaces or removes.
+   pure function list_field_files(model) result(names)
+      type(model_t), intent(in) :: model
+      type(string_t) :: names(2)
+
+      names(1)%s = model%deck_name//'.h5'
+      names(2)%s = model%deck_name//'.xdmf'
+   end function list_field_files
+
+   !> Writes both files into a set, when the deck asks for fields; the HDF5 library is not touched otherwise.
+   !>
+   !> status: STATUS_FILE when one could not be written.
+   subroutine write_fields(model, results, set, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(file_set_t), intent(inout) :: set
+      type(status_t), intent(out) :: status
+      type(xdmf_grid_t), allocatable :: grids(:)
+      type(hdf5_file_t) :: file
+      type(string_t) :: names(2)
+      character(len=:), allocatable :: path
+
+      associate (fields => model%requests%fields)
+         if (.not. (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact)) return
+      end associate
+      names = list_field_files(model)
+      call reserve_file(set, names(1)%s, path)
+      call open_hdf5(path, set%folder//'/'//names(1)%s, file)
+      call put_origin(file, model, results)
+      call put_mesh(file, model%mesh, grids)
+      call put_nodal_fields(file, model, results, grids)
+      if (model%requests%fields%stress) call put_stress_points(file, model, results, grids)
+      if (model%requests%fields%contact) call put_pairs(file, results, grids)
+      call close_hdf5(file, status)
+      if (is_ok(status)) call write_xdmf(names, results, grids, set, status)
+   end subroutine write_fields
+
+   !> The attributes of the whole file.
+   subroutine put_origin(file, model, results)
+      type(hdf5_file_t), intent(inout) :: file
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(origin_t) :: origin
+
+      origin = origin_of(model, results)
+      call put_attribute(file, '/', 'program', PROGRAM_NAME//' '//PROGRAM_VERSION)
+      call put_attribute(file, '/', 'deck', origin%deck)
+      call put_attribute(file, '/', 'heading', join(origin%heading, achar(10)))
+      call put_attribute(file, '/', 'converged', merge(0_ip, 1_ip, origin%not_converged))
+      if (origin%not_converged) call put_attribute(file, '/', 'NOT CONVERGED', warning_of(results))
+   end subroutine put_origin
+
+   !> Why a run did not converge; '' when it did.
+   pure function warning_of(results) result(text)
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (results%converged .and. results%law_holds) return
+      text = 'the last iterate, not a solution'
+      if (allocated(results%verdict)) text = text//': '//results%verdict
+   end function warning_of
+
+   !> Coordinates and numbers of the nodes; the elements of each shape as a grid.
+   subroutine put_mesh(file, mesh, grids)
+      type(hdf5_file_t), intent(inout) :: file
+      type(mesh_t), intent(in) :: mesh
+      type(xdmf_grid_t), allocatable, intent(out) :: grids(:)
+
+      call put_places(file, '/mesh/coordinates', mesh%x)
+      call put_integers(file, '/mesh/node', 'number of the node', mesh%node_id)
+      allocate (grids(0))
+      call put_shape(file, mesh, Q1_NODES, 'Q1', 'Quadrilateral', grids)
+      call put_shape(file, mesh, Q2_NODES, 'Q2', 'Quadrilateral_9', grids)
+   end subroutine put_mesh
+
+   !> The elements of one shape, if there are any.
+   subroutine put_shape(file, mesh, shape, name, topology, grids)
+      type(hdf5_file_t), intent(inout) :: file
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES
+      character(len=*), intent(in) :: name, topology
+      type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
+      type(xdmf_grid_t) :: grid
+      integer(ip) :: n
+
+      n = count(mesh%shape == shape, kind=ip)
+      if (n == 0) return
+      call put_elements(file, '/mesh/'//name, mesh, shape, n)
+      call begin_grid(grid, 'bodies, '//name//' elements', topology, '/mesh/'//name//'/nodes', [n, shape, mesh%n_nodes], &
+                      '/mesh/coordinates')
+      call add_field(grid, '/mesh/node', 1_ip, .false., CENTRE_NODE)
+      call add_field(grid, '/mesh/'//name//'/element', 1_ip, .false., CENTRE_CELL)
+      grids = [grids, grid]
+   end subroutine put_shape
+
+   subroutine put_elements(file, group, mesh, shape, n)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: group
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: shape, n              !< n: how many there are of this shape
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: e
+
+      order = cell_nodes(shape)
+      call begin_dataset(file, group//'/nodes', shape, n, .false., 'rows of the nodes, counted from 0', '-')
+      do e = 1, mesh%n_elements
+         if (mesh%shape(e) == shape) call put_row(file, mesh%nodes(order, e) - 1)
+      end do
+      call begin_dataset(file, group//'/element', 1_ip, n, .false., 'number of the element', '-')
+      do e = 1, mesh%n_elements
+         if (mesh%shape(e) == shape) call put_row(file, mesh%element_id(e:e))
+      end do
+   end subroutine put_elements
+
+   !> Displacements, reactions and stresses at the nodes, each when asked for.
+   subroutine put_nodal_fields(file, model, results, grids)
+      type(hdf5_file_t), intent(inout) :: file
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(xdmf_grid_t), intent(inout) :: grids(:)
+      character(len=:), allocatable :: group
+      logical, allocatable :: mask(:)
+      integer(ip) :: k
+
+      group = step_group(results)//'/nodes/'
+      associate (fields => model%requests%fields)
+         if (fields%nodes) then
+            call put_vectors(file, group//'U', 'displacement', 'L', results%u, fields%node_u)
+            call enter_nodal(grids, group//'U', 3_ip)
+         end if
+         if (fields%reactions) then
+            call put_vectors(file, group//'RF', 'force of the support upon the body', 'F', results%reaction, fields%node_rf)
+            call enter_nodal(grids, group//'RF', 3_ip)
+         end if
+         if (.not. (fields%stress .and. allocated(results%nodal_stress))) return
+         mask = nodes_of(model%mesh, fields%element_s)
+         do k = 1, size(STRESS_NAMES, kind=ip)
+            call put_nodal_stress(file, group//trim(STRESS_NAMES(k)), results%nodal_stress, k, mask)
+            call enter_nodal(grids, group//trim(STRESS_NAMES(k)), 1_ip)
+         end do
+      end associate
+   end subroutine put_nodal_fields
+
+   pure function step_group(results) result(path)
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: path
+
+      path = '/step_'//to_text(results%step)
+   end function step_group
+
+   !> A field of the nodes belongs to the grids of all shapes.
+   pure subroutine enter_nodal(grids, path, n_components)
+      type(xdmf_grid_t), intent(inout) :: grids(:)
+      character(len=*), intent(in) :: path
+      integer(ip), intent(in) :: n_components
+      integer :: i
+
+      do i = 1, size(grids)
+         call add_field(grids(i), path, n_components, .true., CENTRE_NODE)
+      end do
+   end subroutine enter_nodal
+
+   !> Vectors (2, n) in the plane as vectors of space, which is what readers take for vectors; NaN where not asked for.
+   subroutine put_vectors(file, path, name, dimension, vectors, mask)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path, name, dimension
+      real(wp), intent(in) :: vectors(:, :)
+      logical, intent(in), optional :: mask(:)         !< (n)
+      logical :: wanted
+      real(wp) :: nan
+      integer(ip) :: i
+
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
+      call begin_dataset(file, path, 3_ip, size(vectors, 2, kind=ip), .true., name, dimension)
+      do i = 1, size(vectors, 2, kind=ip)
+         wanted = .true.
+         if (present(mask)) wanted = mask(i)
+         if (wanted) then
+            call put_row(file, [vectors(:, i), 0.0_wp])
+         else
+            call put_row(file, [nan, nan, nan])
+         end if
+      end do
+   end subroutine put_vectors
+
+   !> The nodes on these elements.
+   pure function nodes_of(mesh, elements) result(mask)
+      type(mesh_t), intent(in) :: mesh
+      logical, intent(in) :: elements(:)
+      logical :: mask(mesh%n_nodes)
+      integer(ip) :: e
+
+      mask = .false.
+      do e = 1, mesh%n_elements
+         if (elements(e)) mask(mesh%nodes(:mesh%shape(e), e)) = .true.
+      end do
+   end function nodes_of
+
+   !> Component k of the stresses at the nodes; NaN where not asked for.
+   subroutine put_nodal_stress(file, path, stress, k, mask)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      real(wp), intent(in) :: stress(:, :)             !< (5, n) [F/L^2]
+      integer(ip), intent(in) :: k
+      logical, intent(in) :: mask(:)                   !< (n)
+      real(wp) :: nan
+      integer(ip) :: i
+
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
+      call begin_dataset(file, path, 1_ip, size(stress, 2, kind=ip), .true., 'stress recovered at the nodes', 'F/L^2')
+      do i = 1, size(stress, 2, kind=ip)
+         if (mask(i)) then
+            call put_row(file, stress(k:k, i))
+         else
+            call put_row(file, [nan])
+         end if
+      end do
+   end subroutine put_nodal_stress
+
+   !> What stress.tab tells: the stresses at the integration points, as a grid of points.
+   subroutine put_stress_points(file, model, results, grids)
+      type(hdf5_file_t), intent(inout) :: file
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
+      type(xdmf_grid_t) :: grid
+      character(len=:), allocatable :: group
+      integer(ip), allocatable :: row(:)
+      integer(ip) :: n, k, i
+
+      row = stress_rows(results, model%requests%fields%element_s)
+      n = size(row, kind=ip)
+      if (n == 0) return
+      group = step_group(results)//'/stress_points/'
+      call begin_grid(grid, 'stress points', 'Polyvertex', group//'cells', [n, 1_ip, n], group//'coordinates')
+      call put_integers(file, group//'cells', 'rows of the points, counted from 0', [(i, i=0, n - 1)])
+      call begin_dataset(file, group//'coordinates', 2_ip, n, .true., 'x and y, reference place', 'L')
+      do i = 1, n
+         call put_row(file, results%stress_x(:, row(i)))
+      end do
+      call put_integers(file, group//'element', 'number of the element', model%mesh%element_id(results%stress_element(row)), grid)
+      call put_integers(file, group//'point', 'number of the point in its element', results%stress_point(row), grid)
+      do k = 1, size(STRESS_NAMES, kind=ip)
+         call begin_dataset(file, group//trim(STRESS_NAMES(k)), 1_ip, n, .true., 'stress', 'F/L^2')
+         do i = 1, n
+            call put_row(file, results%stress(k:k, row(i)))
+         end do
+         call add_field(grid, group//trim(STRESS_NAMES(k)), 1_ip, .true., CENTRE_NODE)
+      end do
+      grids = [grids, grid]
+   end subroutine put_stress_points
+
+   !> The fields of every pair at its points, each pair as a line along the slave surface.
+   subroutine put_pairs(file, results, grids)
+      type(hdf5_file_t), intent(inout) :: file
+      type(results_t), intent(in) :: results
+      type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
+      type(xdmf_grid_t) :: grid
+      character(len=:), allocatable :: group
+      integer(ip) :: i
+
+      if (.not. allocated(results%contact)) return
+      do i = 1, size(results%contact, kind=ip)
+         if (results%contact(i)%n == 0) cycle
+         group = step_group(results)//'/pair_'//to_text(i)
+         call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), grid)
+         call put_contact(file, group//'/', results%contact(i), grid)
+         call put_vectors(file, group//'/U', 'displacement of the slave', 'L', results%contact(i)%u(:, :results%contact(i)%n))
+         call add_field(grid, group//'/U', 3_ip, .true., CENTRE_NODE)
+         call put_tractions(file, group//'/traction', results%contact(i), grid)
+         if (allocated(results%scene%pairs)) then
+            call put_attribute(file, group, 'slave', results%scene%pairs(i)%slave)
+            call put_attribute(file, group, 'master', results%scene%pairs(i)%master)
+         end if
+         grids = [grids, grid]
+      end do
+   end subroutine put_pairs
+
+   !> The points in the order of s, joined by straight pieces.
+   subroutine put_slave_line(file, group, name, contact, grid)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: group, name
+      type(contact_result_t), intent(in) :: contact
+      type(xdmf_grid_t), intent(out) :: grid
+      integer(ip) :: i
+
+      call put_places(file, group//'coordinates', contact%x(:, :contact%n))
+      if (contact%n == 1) then
+         call begin_grid(grid, name, 'Polyvertex', group//'cells', [1_ip, 1_ip, 1_ip], group//'coordinates')
+         call put_integers(file, group//'cells', 'row of the point, counted from 0', [0_ip])
+      else
+         call begin_grid(grid, name, 'Polyline', group//'cells', [contact%n - 1, 2_ip, contact%n], group//'coordinates')
+         call begin_dataset(file, group//'cells', 2_ip, contact%n - 1, .false., 'rows of the points, counted from 0', '-')
+         do i = 1, contact%n - 1
+            call put_row(file, [i - 1, i])
+         end do
+      end if
+   end subroutine put_slave_line
+
+   !> The columns of contact.tab.
+   subroutine put_contact(file, group, contact, grid)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: group
+      type(contact_result_t), intent(in) :: contact
+      type(xdmf_grid_t), intent(inout) :: grid
+
+      associate (n => contact%n)
+         call put_reals(file, group//'s', 'arc length along the slave surface', 'L', contact%s(:n), grid)
+         call put_reals(file, group//'gap', 'initial distance - u_n', 'L', contact%gap(:n), grid)
+         call put_reals(file, group//'pressure', 'p = -sigma_n', 'F/L^2', contact%pressure(:n), grid)
+         call put_reals(file, group//'weighted_pressure', 'S_rho(p)', 'F/L^2', contact%weighted_pressure(:n), grid)
+         call put_reals(file, group//'shear', 'sigma_T on the slave along T', 'F/L^2', contact%shear(:n), grid)
+         call put_reals(file, group//'slip', 'u_T', 'L', contact%slip(:n), grid)
+         call put_integers(file, group//'status', '0 open, 1 stick, 2 slip', contact%status(:n), grid)
+         call put_reals(file, group//'weight', 'quadrature weight times thickness', 'L^2', contact%weight(:n), grid)
+      end associate
+   end subroutine put_contact
+
+   !> The tractions upon the slave, -p n + sigma_T T with T = n turned by +90 degrees.
+   subroutine put_tractions(file, path, contact, grid)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      type(contact_result_t), intent(in) :: contact
+      type(xdmf_grid_t), intent(inout) :: grid
+      integer(ip) :: i
+
+      call begin_dataset(file, path, 3_ip, contact%n, .true., 'traction upon the slave, -p n + sigma_T T', 'F/L^2')
+      do i = 1, contact%n
+         associate (n => contact%normal(:, i), p => contact%pressure(i), shear => contact%shear(i))
+            call put_row(file, [-p*n(1) - shear*n(2), -p*n(2) + shear*n(1), 0.0_wp])
+         end associate
+      end do
+      call add_field(grid, path, 3_ip, .true., CENTRE_NODE)
+   end subroutine put_tractions
+
+   !> Places (2, n) [L].
+   subroutine put_places(file, path, x)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      real(wp), intent(in) :: x(:, :)
+      integer(ip) :: i
+
+      call begin_dataset(file, path, 2_ip, size(x, 2, kind=ip), .true., 'x and y, reference place', 'L')
+      do i = 1, size(x, 2, kind=ip)
+         call put_row(file, x(:, i))
+      end do
+   end subroutine put_places
+
+   !> A value a point of the grid.
+   subroutine put_reals(file, path, name, dimension, values, grid)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path, name, dimension
+      real(wp), intent(in) :: values(:)
+      type(xdmf_grid_t), intent(inout) :: grid
+      integer(ip) :: i
+
+      call begin_dataset(file, path, 1_ip, size(values, kind=ip), .true., name, dimension)
+      do i = 1, size(values, kind=ip)
+         call put_row(file, values(i:i))
+      end do
+      call add_field(grid, path, 1_ip, .true., CENTRE_NODE)
+   end subroutine put_reals
+
+   !> Numbers; a field of the grid where there is one.
+   subroutine put_integers(file, path, name, values, grid)
+      type(hdf5_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: path, name
+      integer(ip), intent(in) :: values(:)
+      type(xdmf_grid_t), intent(inout), optional :: grid
+      integer(ip) :: i
+
+      call begin_dataset(file, path, 1_ip, size(values, kind=ip), .false., name, '-')
+      do i = 1, size(values, kind=ip)
+         call put_row(file, values(i:i))
+      end do
+      if (present(grid)) call add_field(grid, path, 1_ip, .false., CENTRE_NODE)
+   end subroutine put_integers
+
+   subroutine write_xdmf(names, results, grids, set, status)
+      type(string_t), intent(in) :: names(:)           !< list_field_files
+      type(results_t), intent(in) :: results
+      type(xdmf_grid_t), intent(in) :: grids(:)
+      type(file_set_t), intent(inout) :: set
+      type(status_t), intent(out) :: status
+      type(string_t), allocatable :: lines(:)
+      type(text_file_t) :: file
+      integer :: i
+
+      call compose_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning_of(results), results%step, names(1)%s, grids, lines)
+      call open_text(set, names(2)%s, file)
+      do i = 1, size(lines)
+         call put_line(file, lines(i)%s)
+      end do
+      call close_text(file, status)
+   end subroutine write_xdmf
+
+end module atrito_write_fields

@@ -1,0 +1,85 @@
+!> The pictures of a run, `--plot`: scripts and data into DIR/plots, then gnuplot.
+!>
+!> Comes after the tables, which are complete whatever happens here: every failure is a warning, W-PLOT.
+module atrito_write_plots
+   use atrito_kinds, only: ip
+   use atrito_strings, only: string_t, append_string
+   use atrito_status, only: status_t, is_ok
+   use atrito_files, only: file_set_t, begin_files, commit_files, discard_files
+   use atrito_messages, only: add_warning
+   use atrito_timers, only: start_phase, stop_phase
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t
+   use atrito_table, only: origin_t
+   use atrito_write_tables, only: origin_of
+   use atrito_plot_files, only: plot_folder, MESH_PLOT
+   use atrito_mesh_plot, only: write_mesh_plot
+   use atrito_contact_plot, only: write_contact_plot, contact_plot_name
+   use atrito_gnuplot, only: draw_pictures
+   implicit none (type, external)
+   private
+   public :: write_plots, write_plot_scripts, plot_names
+
+contains
+
+   !> Writes the scripts of all pictures into <folder>/plots and draws them.
+   subroutine write_plots(model, results, folder, drawn)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: folder                !< of the tables
+      type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
+      type(status_t) :: status
+
+      call start_phase('plot')
+      call write_plot_scripts(model, results, plot_folder(folder), status)
+      if (is_ok(status)) then
+         call draw_pictures(plot_folder(folder), plot_names(results), drawn)
+      else
+         allocate (drawn(0))
+         call add_warning('W-PLOT', 'no plots are written: '//status%text)
+      end if
+      call stop_phase('plot')
+   end subroutine write_plots
+
+   !> Pictures of a run: the mesh, and each pair that has points.
+   pure function plot_names(results) result(names)
+      type(results_t), intent(in) :: results
+      type(string_t), allocatable :: names(:)
+      integer(ip) :: i
+
+      call append_string(names, MESH_PLOT)
+      if (.not. allocated(results%contact)) return
+      do i = 1, size(results%contact, kind=ip)
+         if (results%contact(i)%n > 0) call append_string(names, contact_plot_name(i))
+      end do
+   end function plot_names
+
+   !> Writes scripts and data, which appear together or not at all.
+   !>
+   !> status: STATUS_FILE
+   subroutine write_plot_scripts(model, results, folder, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: folder                !< of the plots
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+      type(origin_t) :: origin
+      integer(ip) :: i
+
+      call begin_files(set, folder, status)
+      if (.not. is_ok(status)) return
+      origin = origin_of(model, results)
+      call write_mesh_plot(set, model, results, origin, status)
+      if (allocated(results%contact)) then
+         do i = 1, size(results%contact, kind=ip)
+            if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, origin, i, status)
+         end do
+      end if
+      if (is_ok(status)) then
+         call commit_files(set, [string_t ::], status)
+      else
+         call discard_files(set)
+      end if
+   end subroutine write_plot_scripts
+
+end module atrito_write_plots

@@ -1,0 +1,200 @@
+!> The factored bodies of a scene, kept from one run to the next: a sweep over friction, penalty or loads factors each body once.
+!>
+!> Numbering and rigid motions serve again when mesh, supports and contact nodes are the same numbers; a factored body serves
+!> again when its materials are, too; its reduced load when the load is the same as well. Nothing is guessed from what was varied.
+module atrito_body_store
+   use atrito_assembly, only: fem_t
+   use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
+   use atrito_elasticity, only: elastic_t
+   use atrito_kinds, only: ip, wp
+   use atrito_points, only: contact_points_t
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: body_result_t
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: body_store_t, provide_bodies, take_numbering
+
+   type :: body_store_t
+      logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
+      integer(ip) :: factorisations = 0                !< of the last call of provide_bodies
+      type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
+      logical, private :: holds = .false.              !< the rest is there: what they were made of
+      type(fem_t), private :: fem
+      logical, allocatable, private :: held(:, :)      !< (2, n_nodes)
+      type(contact_points_t), allocatable, private :: points(:)
+      integer, private :: asked = 0                    !< storage asked for
+      real(wp), allocatable, private :: load(:, :)     !< (2, n_nodes) [F] the reduced load
+      type(body_result_t), allocatable, private :: results(:)
+   end type body_store_t
+
+contains
+
+   !> Condensed bodies with their reduced loads; those of the run before serve again where they can.
+   !>
+   !> status: STATUS_SINGULAR of condense_body.
+   subroutine provide_bodies(store, fem, held, points, load, asked, reporter, results, status)
+      type(body_store_t), intent(inout) :: store
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: held(:, :)                !< (2, n_nodes)
+      type(contact_points_t), intent(in) :: points(:)
+      real(wp), intent(in) :: load(:, :)               !< (2, n_nodes) [F], less the forces of prescribed displacements
+      integer, intent(in) :: asked                     !< STORAGE_* or 0
+      type(reporter_t), intent(in) :: reporter
+      type(body_result_t), intent(inout) :: results(:) !< one a body
+      type(status_t), intent(out) :: status
+      type(condensed_body_t), allocatable :: bodies(:)
+      logical :: same_bodies, same_load
+      integer(ip) :: b
+
+      store%factorisations = 0
+      same_bodies = .false.
+      if (store%holds) same_bodies = store%asked == asked .and. has_same_numbering(store, held, points, fem)
+      store%holds = .false.
+      allocate (bodies(fem%bodies%n))
+      do b = 1, fem%bodies%n
+         same_load = .false.
+         if (same_bodies) same_load = has_same_load(store, fem, b, load)
+         if (serves_again(store, fem, b, same_bodies)) then
+            call take_back(store, b, bodies(b), results(b))
+         else
+            same_load = .false.
+            call condense_body(fem, b, asked, bodies(b), results(b), status)
+            if (.not. is_ok(status)) return
+            store%factorisations = store%factorisations + 1
+         end if
+         if (.not. same_load) call set_load(fem, b, load, bodies(b))
+         call report_body(reporter, fem, b, bodies(b), results(b))
+      end do
+      call move_alloc(bodies, store%bodies)
+      if (store%keeps) call remember(store, fem, held, points, load, asked, results, same_bodies)
+   end subroutine provide_bodies
+
+   subroutine remember(store, fem, held, points, load, asked, results, same_bodies)
+      type(body_store_t), intent(inout) :: store
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: held(:, :)
+      type(contact_points_t), intent(in) :: points(:)
+      real(wp), intent(in) :: load(:, :)
+      integer, intent(in) :: asked
+      type(body_result_t), intent(in) :: results(:)
+      logical, intent(in) :: same_bodies               !< mesh, supports and points are those that are there
+
+      store%holds = .true.
+      store%asked = asked
+      store%load = load
+      store%results = results
+      if (same_bodies) then
+         store%fem%sections = fem%sections
+         store%fem%section_of = fem%section_of
+      else
+         store%fem = fem
+         store%held = held
+         store%points = points
+      end if
+   end subroutine remember
+
+   !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same.
+   subroutine take_numbering(store, held, points, fem, taken)
+      type(body_store_t), intent(in) :: store
+      logical, intent(in) :: held(:, :)                !< (2, n_nodes)
+      type(contact_points_t), intent(in) :: points(:)
+      type(fem_t), intent(inout) :: fem                !< with mesh and sections
+      logical, intent(out) :: taken
+
+      taken = .false.
+      if (store%holds) taken = has_same_numbering(store, held, points, fem)
+      if (taken) fem%bodies = store%fem%bodies
+   end subroutine take_numbering
+
+   !> Mesh, supports and contact nodes decide on bodies and numbering.
+   pure logical function has_same_numbering(store, held, points, fem) result(same)
+      type(body_store_t), intent(in) :: store
+      logical, intent(in) :: held(:, :)
+      type(contact_points_t), intent(in) :: points(:)
+      type(fem_t), intent(in) :: fem
+      integer(ip) :: i
+
+      same = .false.
+      if (size(store%points) /= size(points) .or. store%fem%mesh%n_nodes /= fem%mesh%n_nodes &
+          .or. store%fem%mesh%n_elements /= fem%mesh%n_elements) return
+      if (any(store%held .neqv. held) .or. any(store%fem%mesh%x /= fem%mesh%x)) return
+      if (any(store%fem%mesh%shape /= fem%mesh%shape) .or. any(store%fem%mesh%state /= fem%mesh%state)) return
+      if (any(store%fem%mesh%nodes /= fem%mesh%nodes)) return
+      do i = 1, size(points, kind=ip)
+         associate (old => store%points(i), new => points(i))
+            if (old%n /= new%n) return
+            if (any(old%node /= new%node) .or. any(old%n_master /= new%n_master)) return
+            if (any(old%master_node /= new%master_node)) return
+            if (any((old%master_shape /= 0.0_wp) .neqv. (new%master_shape /= 0.0_wp))) return
+         end associate
+      end do
+      same = .true.
+   end function has_same_numbering
+
+   !> Whether a factored body is the same as one of this scene.
+   pure logical function serves_again(store, fem, b, same_bodies) result(again)
+      type(body_store_t), intent(in) :: store
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b
+      logical, intent(in) :: same_bodies
+      integer(ip) :: i, e
+
+      again = .false.
+      if (.not. same_bodies) return
+      if (.not. allocated(store%bodies(b)%storage)) return
+      do i = 1, size(fem%bodies%list(b)%elements, kind=ip)
+         e = fem%bodies%list(b)%elements(i)
+         if (.not. is_same_section(store%fem%sections(store%fem%section_of(e)), fem%sections(fem%section_of(e)))) return
+      end do
+      again = .true.
+   end function serves_again
+
+   !> Same stiffness; the density does not enter it.
+   pure logical function is_same_section(a, b)
+      type(elastic_t), intent(in) :: a, b
+
+      is_same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness
+   end function is_same_section
+
+   pure logical function has_same_load(store, fem, b, load)
+      type(body_store_t), intent(in) :: store
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b
+      real(wp), intent(in) :: load(:, :)
+      integer(ip) :: i, n
+
+      has_same_load = .false.
+      do i = 1, size(fem%bodies%list(b)%nodes, kind=ip)
+         n = fem%bodies%list(b)%nodes(i)
+         if (any(store%load(:, n) /= load(:, n))) return
+      end do
+      has_same_load = .true.
+   end function has_same_load
+
+   !> Hands a kept body over without a copy.
+   subroutine take_back(store, b, body, result)
+      type(body_store_t), intent(inout) :: store
+      integer(ip), intent(in) :: b
+      type(condensed_body_t), intent(inout) :: body
+      type(body_result_t), intent(out) :: result
+
+      call move_alloc(store%bodies(b)%storage, body%storage)
+      call move_alloc(store%bodies(b)%factor, body%factor)
+      call move_alloc(store%bodies(b)%load, body%load)
+      result = store%results(b)
+   end subroutine take_back
+
+   subroutine report_body(reporter, fem, b, body, result)
+      type(reporter_t), intent(in) :: reporter
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b
+      type(condensed_body_t), intent(in) :: body
+      type(body_result_t), intent(in) :: result
+
+      call report_progress(reporter, 'body '//result%name//'  dofs '//to_text(fem%bodies%list(b)%n)//'  contact dofs ' &
+                           //to_text(fem%bodies%list(b)%n_kept)//'  '//body%storage%name())
+   end subroutine report_body
+
+end module atrito_body_store

@@ -1,0 +1,140 @@
+!> Solves a deck and prints the errors of displacements (L2 norm) and stresses (energy norm) against an exact solution, both over
+!> that of the solution itself, integrated with 5 x 5 Gauss points an element over the mesh as it is.
+!>
+!>    error_norms DECK LEVELS FIELD NUMBER...        FIELD and its numbers: exact_fields.f90; LEVELS of refinement
+!>
+!> Prints: elements, dofs, L2, energy, largest deviation of the Jacobian within an element from its mean.
+program error_norms
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_reader, only: read_deck
+   use atrito_build_model, only: build_model
+   use atrito_deck, only: deck_t
+   use atrito_elasticity, only: elastic_t, elasticity_matrix
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: element_coordinates
+   use atrito_messages, only: count_messages, SEVERITY_ERROR
+   use atrito_model, only: model_t
+   use atrito_reporter, only: reporter_t
+   use atrito_results, only: results_t
+   use atrito_shape_functions, only: shape_values, shape_gradients
+   use atrito_solve, only: solve_static, solve_options_t
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: string_t
+   use exact_fields, only: field_t, make_field, exact_solution
+   implicit none (type, external)
+
+   real(wp), parameter :: POINTS(5) = [-0.90617984593866399280_wp, -0.53846931010568309104_wp, 0.0_wp, &
+                                       0.53846931010568309104_wp, 0.90617984593866399280_wp]
+   real(wp), parameter :: WEIGHTS(5) = [0.23692688505618908751_wp, 0.47862867049936646804_wp, 0.56888888888888888889_wp, &
+                                        0.47862867049936646804_wp, 0.23692688505618908751_wp]
+   type(model_t) :: model
+   type(results_t) :: results
+   type(field_t) :: field
+   real(wp) :: sums(4), warp
+   integer(ip) :: e
+
+   call solve_deck(argument(1), nint(number(2), ip), model, results)
+   field = make_field(argument(3), [(number(e), e=4, 8)])
+   sums = 0.0_wp
+   warp = 0.0_wp
+   do e = 1, model%mesh%n_elements
+      call add_element_errors(e, sums, warp)
+   end do
+   write (output_unit, '(i0,1x,i0,3(1x,es22.15))') model%mesh%n_elements, 2*model%mesh%n_nodes, &
+      sqrt(sums(1)/sums(2)), sqrt(sums(3)/sums(4)), warp
+
+contains
+
+   function argument(i) result(text)
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
+      integer :: length
+
+      call get_command_argument(int(i), length=length)
+      allocate (character(len=length) :: text)
+      call get_command_argument(int(i), text)
+   end function argument
+
+   !> A numeric argument; 0 where there is none.
+   real(wp) function number(i)
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
+      integer :: failed
+
+      number = 0.0_wp
+      if (i > command_argument_count()) return
+      text = argument(i)
+      read (text, *, iostat=failed) number
+      if (failed /= 0) error stop 'error_norms: a number is wanted'
+   end function number
+
+   subroutine solve_deck(name, levels, model, results)
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: levels
+      type(model_t), intent(out) :: model
+      type(results_t), intent(out) :: results
+      type(deck_t) :: deck
+      type(status_t) :: status
+      type(reporter_t) :: reporter
+
+      reporter%quiet = .true.
+      call read_deck(name, [string_t ::], deck, status)
+      if (is_ok(status)) call build_model(deck, model, levels)
+      if (.not. is_ok(status) .or. count_messages(SEVERITY_ERROR) > 0) error stop 'error_norms: the deck is wrong'
+      call solve_static(model, solve_options_t(), reporter, results, status)
+      if (.not. (is_ok(status) .and. results%converged .and. results%law_holds)) error stop 'error_norms: not solved'
+   end subroutine solve_deck
+
+   !> Adds to sums: error and size of the displacements squared, of the stresses in the energy norm squared.
+   subroutine add_element_errors(e, sums, warp)
+      integer(ip), intent(in) :: e
+      real(wp), intent(inout) :: sums(4), warp
+      type(elastic_t) :: section
+      real(wp) :: x(2, model%mesh%shape(e)), u(2, model%mesh%shape(e)), n(model%mesh%shape(e))
+      real(wp) :: d(3, 3), place(2), exact_u(2), exact_s(3), s(3), jacobian, weight, jacobians(25)
+      integer(ip) :: i, j
+
+      x = element_coordinates(model%mesh, e)
+      u = results%u(:, model%mesh%nodes(:model%mesh%shape(e), e))
+      associate (values => model%sections(model%section_of(e)), material => &
+                 model%materials(model%sections(model%section_of(e))%material))
+         section = elastic_t(material%young, material%poisson, values%thickness)
+      end associate
+      d = elasticity_matrix(section, model%mesh%state(e))
+      do j = 1, 5
+         do i = 1, 5
+            n = shape_values(model%mesh%shape(e), [POINTS(i), POINTS(j)])
+            place = matmul(x, n)
+            call exact_solution(field, section, model%mesh%state(e), sum(x(:, :4), dim=2)/4, place, exact_u, exact_s)
+            call stress_at(x, u, d, [POINTS(i), POINTS(j)], s, jacobian)
+            weight = WEIGHTS(i)*WEIGHTS(j)*jacobian
+            jacobians(5*(j - 1) + i) = jacobian
+            sums(1) = sums(1) + weight*sum((matmul(u, n) - exact_u)**2)
+            sums(2) = sums(2) + weight*sum(exact_u**2)
+            sums(3) = sums(3) + weight*energy(d, s - exact_s)
+            sums(4) = sums(4) + weight*energy(d, exact_s)
+         end do
+      end do
+      warp = max(warp, (maxval(jacobians) - minval(jacobians))/(2*sum(jacobians)/25))
+   end subroutine add_element_errors
+
+   pure subroutine stress_at(x, u, d, xi, s, jacobian)
+      real(wp), intent(in) :: x(:, :), u(:, :), d(3, 3), xi(2)
+      real(wp), intent(out) :: s(3), jacobian
+      real(wp) :: dn(size(x, 2), 2), j(2, 2), gradient(2, 2)
+
+      dn = shape_gradients(size(x, 2, kind=ip), xi)
+      j = matmul(x, dn)
+      jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+      gradient = matmul(matmul(u, dn), reshape([j(2, 2), -j(2, 1), -j(1, 2), j(1, 1)], [2, 2])/jacobian)
+      s = matmul(d, [gradient(1, 1), gradient(2, 2), gradient(1, 2) + gradient(2, 1)])
+   end subroutine stress_at
+
+   !> s D^-1 s for the elasticity matrix D of an isotropic material.
+   pure real(wp) function energy(d, s)
+      real(wp), intent(in) :: d(3, 3), s(3)
+
+      energy = (d(1, 1)*(s(1)**2 + s(2)**2) - 2*d(1, 2)*s(1)*s(2))/(d(1, 1)**2 - d(1, 2)**2) + s(3)**2/d(3, 3)
+   end function energy
+
+end program error_norms

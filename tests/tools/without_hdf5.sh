@@ -1,0 +1,31 @@
+#!/bin/sh
+# A program built without HDF5 runs decks that ask for no field file, and refuses those that do: exit 2, each request at its place.
+#    without_hdf5.sh ATRITO DECK
+set -u
+atrito=$1
+deck=$2
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+fail() {
+   echo "$1"
+   failures=$((failures + 1))
+}
+
+"$atrito" "$deck" --quiet -o "$work/plain" || fail "a deck without requests: exit $?"
+
+sed '/^\*END STEP/d' "$deck" >"$work/fields.inp"
+line=$(($(wc -l <"$work/fields.inp") + 1))
+printf '*NODE FILE\nU\n*EL FILE\nS\n*CONTACT FILE\n*END STEP\n' >>"$work/fields.inp"
+for task in '' check; do
+   "$atrito" $task "$work/fields.inp" --quiet >"$work/said" 2>&1
+   code=$?
+   [ "$code" -eq 2 ] || fail "requests: exit $code, expected 2"
+   for place in "$line:2" "$((line + 2)):2" "$((line + 4)):2"; do
+      grep -qF "fields.inp:$place: error [E-NOT-BUILT]" "$work/said" || fail "no E-NOT-BUILT at $place"
+   done
+   grep -qF 'no HDF5' "$work/said" || fail 'HDF5 is not named'
+done
+[ "$failures" -eq 0 ] || { cat "$work/said"; exit 1; }
+echo 'all as expected'

@@ -1,0 +1,118 @@
+. "$(dirname "$0")/../lib.sh"
+ex1=$input/ex1-plate-on-support.inp
+
+# picture FILE: FILE.png is a png of some size, FILE.svg an svg that draws something, and both have a script.
+picture() {
+   [ -s "$1.gp" ] || complain "$1.gp is missing"
+   [ "$have_gnuplot" = yes ] || return 0
+   [ "$(head -c 8 "$1.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || complain "$1.png is no png"
+   [ "$(wc -c <"$1.png")" -gt 10000 ] || complain "$1.png is too small to show anything"
+   # bytes 17 to 20 of a png are its width
+   [ "$(od -An -tu1 -j16 -N4 "$1.png" | awk '{ print 256*$3 + $4 }')" -eq 1000 ] || complain "$1.png is not 1000 pixels wide"
+   grep -q '<svg' "$1.svg" && grep -q '</svg>' "$1.svg" || complain "$1.svg is no svg"
+   [ "$(grep -c '<path' "$1.svg")" -gt 5 ] || complain "$1.svg shows nothing"
+}
+
+# pictures FOLDER NAME...: all of them, and nothing that gnuplot complained of.
+pictures() {
+   folder=$1
+   shift
+   for stem; do picture "$folder/plots/$stem"; done
+   [ ! -e "$folder/plots/gnuplot.log" ] || { complain "$folder: gnuplot complains"; cat "$folder/plots/gnuplot.log"; }
+}
+
+have_gnuplot=yes
+command -v gnuplot >/dev/null 2>&1 || have_gnuplot=no
+[ "$have_gnuplot" = yes ] || echo 'gnuplot is not installed: the pictures themselves are not checked'
+
+# every example, with and without friction
+rm -rf './-o d d' sweep grid told without
+for deck in "$input"/*.inp; do
+   name=$(basename "$deck" .inp)
+   run 0 "$deck" "$name" --plot --quiet
+   pictures "$name" mesh contact-1
+   if [ "$have_gnuplot" = yes ] && grep -q W-PLOT "$name.err"; then complain "$name: W-PLOT"; fi
+   run 0 "$deck" "$name-0" --plot --quiet --set nu=0
+   pictures "$name-0" mesh contact-1
+   says 'pressure and gap alone' "$name-0/plots/contact-1.gp" 'panels = 2'
+done
+run 0 "$ex1" none --plot --quiet --set q=0
+pictures none mesh contact-1
+run 0 "$ex1" told --plot
+[ "$have_gnuplot" = no ] || says 'summary' told.out 'plots in     told/plots: mesh contact-1'
+says 'listing' told/ex1-plate-on-support.lst 'mesh, contact-1'
+
+# a script can be run again where it stands
+if [ "$have_gnuplot" = yes ]; then
+   rm told/plots/*.png
+   (cd told/plots && gnuplot contact-1.gp && gnuplot mesh.gp) >again.out 2>&1 || complain 'the scripts do not run again'
+   [ ! -s again.out ] || { complain 'the scripts complain'; cat again.out; }
+   pictures told mesh contact-1
+fi
+
+# a run that did not converge says so in its pictures
+sed 's/^\*STATIC/*STATIC\n*CONTROLS, METHOD=PICARD, MAXIT=2, TOLERANCE=1e-12/' "$ex1" >slow.inp
+run 3 slow.inp slow --plot --quiet
+pictures slow mesh contact-1
+says 'not converged' slow/plots/mesh.gp "heading = 'NOT CONVERGED"
+says 'not converged' slow/plots/contact-1.gp "heading = 'NOT CONVERGED"
+
+# odd names: of deck, heading, sets and folder; nothing of them is executed
+odd='it'\''s 100% "$(touch HIT)" `touch HIT` {a_b^c} @x & <tag> \'
+{ printf '*HEADING\n%s\n' "$odd \\"; sed '1,2d; s/PLATE$/"P{L_A}^T\\"/; s/ELSET=PLATE,/ELSET="P{L_A}^T\\",/' "$ex1"; } >"$odd.inp"
+grep -q 'P{L_A}' "$odd.inp" || complain 'the odd name is not in the deck'
+run_again() { "$atrito" "$@" >again.out 2>again.err; }
+run_again "$odd.inp" -o "-o d d/$odd" --plot --quiet || { complain "the odd deck: exit $?"; cat again.err; }
+pictures "./-o d d/$odd" mesh contact-1
+[ -z "$(find . -name 'HIT*' -print)" ] || complain 'a name was executed'
+if [ "$have_gnuplot" = yes ]; then
+   grep -q '{a_b^c}.*&lt;tag&gt;\|{a_b^c}' "./-o d d/$odd/plots/mesh.svg" || complain 'the heading is not in the picture'
+fi
+printf '*HEADING\nn\351 \377 half \303\n' >latin.inp
+sed 1,2d "$ex1" >>latin.inp
+run 0 latin.inp latin --plot --quiet
+pictures latin mesh contact-1
+
+# pictures of an earlier run go with its tables; what the user put there stays
+cp told/plots/contact-1.gp told/plots/mine.gp
+run_again "$ex1" -o told --quiet --set nosuch=1
+[ -s told/plots/mesh.gp ] || complain 'a run that wrote nothing removed pictures'
+run_again "$ex1" -o told --quiet || complain 'the run without pictures failed'
+[ "$(ls told/plots)" = mine.gp ] || { complain 'files of an earlier run are left'; ls told/plots; }
+run_again "$ex1" -o told --quiet --plot
+pictures told mesh contact-1
+rm told/plots/mine.gp
+run_again "$ex1" -o told --quiet
+absent told/plots
+
+# no gnuplot: a warning, the scripts, exit 0
+mkdir -p empty
+(PATH=$PWD/empty; export PATH; "$atrito" "$ex1" -o without --quiet --plot) >without.out 2>without.err || complain 'no gnuplot: not exit 0'
+says 'no gnuplot' without.err 'warning [W-PLOT] gnuplot was not found'
+[ "$(wc -l <without.err)" -eq 1 ] || complain 'no gnuplot: more than one line'
+[ -s without/plots/mesh.gp ] && [ -s without/plots/mesh.dat ] && [ -s without/plots/contact-1.gp ] || complain 'no gnuplot: no scripts'
+[ ! -e without/plots/mesh.png ] || complain 'no gnuplot, but a picture'
+
+# a gnuplot that fails
+mkdir -p broken
+printf '#!/bin/sh\necho "\\"mesh.gp\\" line 3: out of ink" >&2\nexit 2\n' >broken/gnuplot
+chmod +x broken/gnuplot
+(PATH=$PWD/broken:$PATH; export PATH; "$atrito" "$ex1" -o without --quiet --plot) >without.out 2>without.err || complain 'broken gnuplot: not exit 0'
+says 'broken gnuplot' without.err 'warning [W-PLOT] gnuplot failed: "mesh.gp" line 3: out of ink'
+
+# no folder for the plots
+rm -rf without/plots
+echo mine >without/plots
+(run_again "$ex1" -o without --quiet --plot) || complain 'no folder: not exit 0'
+says 'no folder' again.err 'warning [W-PLOT] no plots are written: without/plots'
+[ "$(cat without/plots)" = mine ] || complain 'a file of the user was replaced'
+
+# sweeps: a legend up to ten runs, then a palette; a picture against one parameter
+"$atrito" sweep "$ex1" --vary nu=0,0.1,0.3 --plot --quiet -o sweep 2>sweep.err || complain 'the sweep failed'
+pictures sweep overlay-1 overlay-summary
+"$atrito" sweep "$ex1" --vary nu=0.1,0.2,0.3,0.4 --vary rho=0.1,0.2,0.3 --plot --quiet -o grid 2>grid.err || complain 'the grid failed'
+pictures grid overlay-1
+absent grid/plots/overlay-summary.gp
+"$atrito" sweep "$ex1" --vary nu=0,0.1 --quiet -o sweep 2>sweep.err || complain 'the second sweep failed'
+absent sweep/plots
+finish
