@@ -5,7 +5,8 @@ module atrito_error_estimate
    use atrito_elasticity, only: compliance_matrix
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: Q1_NODES, Q2_NODES
-   use atrito_point_stress, only: point_rule_t, element_data_t, make_point_rule, fetch_element, point_stress
+   use atrito_point_stress, only: point_rule_t, element_data_t, point_values_t, MOST_POINTS, make_point_rule, fetch_element, &
+                                  point_stresses
    use atrito_shape_functions, only: gauss_count
    use atrito_stress_recovery, only: stress_field_t
    implicit none (type, external)
@@ -49,26 +50,28 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(energies_t), intent(inout) :: energies
       type(element_data_t) :: data
-      real(wp) :: s(3), d(3), c(3, 3), at_nodes(3, Q2_NODES), inverse(2, 2), jacobian, weight, largest
-      integer(ip) :: i, k
+      type(point_values_t) :: at
+      real(wp) :: s(3), d(MOST_POINTS, 3), c(3, 3), at_node(3), weight, largest
+      integer(ip) :: i, k, j
 
       call fetch_element(fem, e, u, data)
       c = compliance_matrix(fem%sections(fem%section_of(e)), fem%mesh%state(e))
+      call point_stresses(data, rule, at)
+      d(:rule%n, :) = -at%s(:rule%n, :)
       largest = 0.0_wp
       do k = 1, data%n
-         at_nodes(:, k) = field%stress(:, field%place(k, e))
+         at_node = field%stress(:, field%place(k, e))
          largest = max(largest, maxval(abs(u(:, fem%mesh%nodes(k, e)))))
+         do j = 1, 3
+            d(:rule%n, j) = d(:rule%n, j) + rule%value(:rule%n, k)*at_node(j)
+         end do
       end do
       do i = 1, rule%n
-         call point_stress(data, rule, i, s, inverse, jacobian)
-         d = -s
-         do k = 1, data%n
-            d = d + rule%value(k, i)*at_nodes(:, k)
-         end do
-         weight = rule%weight(i)*jacobian*fem%sections(fem%section_of(e))%thickness
+         weight = rule%weight(i)*at%jacobian(i)*fem%sections(fem%section_of(e))%thickness
+         s = at%s(i, :)
          energies%solution = energies%solution + weight*density(c, s)
-         energies%error = energies%error + weight*density(c, d)
-         energies%round_off = energies%round_off + weight*data%d(1, 1)*sum(inverse**2)*(EPS_MACH*largest)**2
+         energies%error = energies%error + weight*density(c, d(i, :))
+         energies%round_off = energies%round_off + weight*data%d(1, 1)*at%steepness(i)*(EPS_MACH*largest)**2
       end do
    end subroutine add_element
 

@@ -1,4 +1,5 @@
-!> Stresses at given points of many elements, fast: shape functions are evaluated once for each kind of element.
+!> Stresses at given points of many elements, fast: shape functions are evaluated once for each kind of element, and the
+!> innermost loops run over the points of an element.
 module atrito_point_stress
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: elasticity_matrix
@@ -7,7 +8,7 @@ module atrito_point_stress
    use atrito_shape_functions, only: shape_values, shape_gradients, gauss_rule
    implicit none (type, external)
    private
-   public :: point_rule_t, element_data_t, MOST_POINTS, make_point_rule, fetch_element, point_stress
+   public :: point_rule_t, element_data_t, point_values_t, MOST_POINTS, make_point_rule, fetch_element, point_stresses
 
    integer(ip), parameter :: MOST_POINTS = 9
 
@@ -15,8 +16,8 @@ module atrito_point_stress
    type :: point_rule_t
       integer(ip) :: n = 0
       real(wp) :: weight(MOST_POINTS) = 0.0_wp
-      real(wp) :: value(Q2_NODES, MOST_POINTS) = 0.0_wp       !< shape functions at each point
-      real(wp) :: slope(2, Q2_NODES, MOST_POINTS) = 0.0_wp    !< their derivatives along xi and eta
+      real(wp) :: value(MOST_POINTS, Q2_NODES) = 0.0_wp       !< shape functions at each point
+      real(wp) :: slope(MOST_POINTS, 2, Q2_NODES) = 0.0_wp    !< their derivatives along xi and eta
    end type point_rule_t
 
    !> What the points of an element share. Coordinates and displacements are relative to its first node, so that neither the
@@ -26,6 +27,14 @@ module atrito_point_stress
       real(wp) :: x(2, Q2_NODES), u(2, Q2_NODES) !< [L]
       real(wp) :: d(3, 3)                        !< elasticity matrix [F/L^2]
    end type element_data_t
+
+   !> What the points of a rule have in an element.
+   type :: point_values_t
+      real(wp) :: x(MOST_POINTS, 2)              !< place less the element's first node [L]
+      real(wp) :: s(MOST_POINTS, 3)              !< s11, s22, s12 [F/L^2]
+      real(wp) :: jacobian(MOST_POINTS)          !< [L^2]
+      real(wp) :: steepness(MOST_POINTS)         !< sum of the squares of dxi/dx [1/L^2]
+   end type point_values_t
 
 contains
 
@@ -45,8 +54,8 @@ contains
             rule%n = rule%n + 1
             xi = [points(i), points(j)]
             rule%weight(rule%n) = weights(i)*weights(j)
-            rule%value(:n_nodes, rule%n) = shape_values(n_nodes, xi)
-            rule%slope(:, :n_nodes, rule%n) = transpose(shape_gradients(n_nodes, xi))
+            rule%value(rule%n, :n_nodes) = shape_values(n_nodes, xi)
+            rule%slope(rule%n, :, :n_nodes) = transpose(shape_gradients(n_nodes, xi))
          end do
       end do
    end subroutine make_point_rule
@@ -68,34 +77,45 @@ contains
       data%d = elasticity_matrix(fem%sections(fem%section_of(e)), fem%mesh%state(e))
    end subroutine fetch_element
 
-   !> Stresses s11, s22, s12 [F/L^2] at a point of the rule, and the inverse of the Jacobian's matrix [1/L] with its area factor.
-   pure subroutine point_stress(data, rule, point, s, inverse, jacobian)
+   !> Places, stresses and Jacobians at the points of a rule.
+   pure subroutine point_stresses(data, rule, at)
       type(element_data_t), intent(in) :: data
       type(point_rule_t), intent(in) :: rule
-      integer(ip), intent(in) :: point
-      real(wp), intent(out) :: s(3)
-      real(wp), intent(out) :: inverse(2, 2)
-      real(wp), intent(out) :: jacobian          !< [L^2]
-      real(wp) :: j(2, 2), h(2, 2), g(2, 2), strain(3)
-      integer(ip) :: k
+      type(point_values_t), intent(out) :: at    !< the first rule%n of each
+      real(wp), dimension(MOST_POINTS, 2) :: dx, dy, du, dv  !< derivatives along xi and eta
+      real(wp) :: h11, h12, h21, h22, e11, e22, e12
+      integer(ip) :: k, i, direction
 
-      j = 0.0_wp
-      h = 0.0_wp
-      do k = 2, data%n
-         j(:, 1) = j(:, 1) + data%x(:, k)*rule%slope(1, k, point)
-         j(:, 2) = j(:, 2) + data%x(:, k)*rule%slope(2, k, point)
-         h(:, 1) = h(:, 1) + data%u(:, k)*rule%slope(1, k, point)
-         h(:, 2) = h(:, 2) + data%u(:, k)*rule%slope(2, k, point)
+      at%x(:rule%n, :) = 0.0_wp
+      do direction = 1, 2
+         dx(:rule%n, direction) = 0.0_wp
+         dy(:rule%n, direction) = 0.0_wp
+         du(:rule%n, direction) = 0.0_wp
+         dv(:rule%n, direction) = 0.0_wp
+         do k = 2, data%n                        ! the first node is the origin of all
+            do i = 1, rule%n
+               dx(i, direction) = dx(i, direction) + data%x(1, k)*rule%slope(i, direction, k)
+               dy(i, direction) = dy(i, direction) + data%x(2, k)*rule%slope(i, direction, k)
+               du(i, direction) = du(i, direction) + data%u(1, k)*rule%slope(i, direction, k)
+               dv(i, direction) = dv(i, direction) + data%u(2, k)*rule%slope(i, direction, k)
+               at%x(i, direction) = at%x(i, direction) + data%x(direction, k)*rule%value(i, k)
+            end do
+         end do
       end do
-      jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-      inverse(:, 1) = [j(2, 2), -j(2, 1)]/jacobian
-      inverse(:, 2) = [-j(1, 2), j(1, 1)]/jacobian
-      g(:, 1) = h(:, 1)*inverse(1, 1) + h(:, 2)*inverse(2, 1)
-      g(:, 2) = h(:, 1)*inverse(1, 2) + h(:, 2)*inverse(2, 2)
-      strain = [g(1, 1), g(2, 2), g(1, 2) + g(2, 1)]
-      s(1) = data%d(1, 1)*strain(1) + data%d(1, 2)*strain(2)
-      s(2) = data%d(1, 2)*strain(1) + data%d(2, 2)*strain(2)
-      s(3) = data%d(3, 3)*strain(3)
-   end subroutine point_stress
+      do i = 1, rule%n
+         at%jacobian(i) = dx(i, 1)*dy(i, 2) - dx(i, 2)*dy(i, 1)
+         h11 = dy(i, 2)/at%jacobian(i)           ! h = d(xi, eta)/d(x, y)
+         h12 = -dx(i, 2)/at%jacobian(i)
+         h21 = -dy(i, 1)/at%jacobian(i)
+         h22 = dx(i, 1)/at%jacobian(i)
+         at%steepness(i) = h11**2 + h12**2 + h21**2 + h22**2
+         e11 = du(i, 1)*h11 + du(i, 2)*h21
+         e22 = dv(i, 1)*h12 + dv(i, 2)*h22
+         e12 = du(i, 1)*h12 + du(i, 2)*h22 + dv(i, 1)*h11 + dv(i, 2)*h21
+         at%s(i, 1) = data%d(1, 1)*e11 + data%d(1, 2)*e22
+         at%s(i, 2) = data%d(1, 2)*e11 + data%d(2, 2)*e22
+         at%s(i, 3) = data%d(3, 3)*e12
+      end do
+   end subroutine point_stresses
 
 end module atrito_point_stress

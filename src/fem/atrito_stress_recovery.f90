@@ -11,7 +11,7 @@ module atrito_stress_recovery
    use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_patch_fit, only: patch_fit_t, COMPONENTS, begin_fit, clear_fit, add_sample, solve_fit, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
-   use atrito_point_stress, only: point_rule_t, element_data_t, MOST_POINTS, make_point_rule, fetch_element, point_stress
+   use atrito_point_stress, only: point_rule_t, element_data_t, point_values_t, make_point_rule, fetch_element, point_stresses
    use atrito_shape_functions, only: gauss_count
    implicit none (type, external)
    private
@@ -80,8 +80,8 @@ contains
       real(wp), intent(in) :: u(:, :)
       type(recovery_t), intent(out) :: work
       type(element_data_t) :: data
-      real(wp) :: inverse(2, 2), jacobian
-      integer(ip) :: e, i, k
+      type(point_values_t) :: at
+      integer(ip) :: e, k
 
       call build_patches(fem, work%patches)
       allocate (work%rank(work%patches%n), source=RANK_NONE)
@@ -93,10 +93,9 @@ contains
       do e = 1, fem%mesh%n_elements
          call fetch_element(fem, e, u, data)
          associate (rule => work%sampling(kind_of(data%n))%best)
-            do i = 1, rule%n
-               call point_stress(data, rule, i, work%s(:, i, e), inverse, jacobian)
-               work%x(:, i, e) = place_of_point(data, rule, i)
-            end do
+            call point_stresses(data, rule, at)
+            work%s(:, :rule%n, e) = transpose(at%s(:rule%n, :))
+            work%x(:, :rule%n, e) = transpose(at%x(:rule%n, :))
          end associate
       end do
    end subroutine begin_recovery
@@ -115,20 +114,6 @@ contains
 
       kind_of = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
    end function kind_of
-
-   !> A point of the rule, less the element's first node [L].
-   pure function place_of_point(data, rule, point) result(x)
-      type(element_data_t), intent(in) :: data
-      type(point_rule_t), intent(in) :: rule
-      integer(ip), intent(in) :: point
-      real(wp) :: x(2)
-      integer(ip) :: k
-
-      x = 0.0_wp
-      do k = 2, data%n
-         x = x + data%x(:, k)*rule%value(k, point)
-      end do
-   end function place_of_point
 
    !> The polynomial of a patch. When its samples do not determine it, all Gauss points and lower degrees are tried.
    pure subroutine fit_patch(fem, u, i, work, fit)
@@ -212,15 +197,16 @@ contains
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
       type(element_data_t) :: data
-      real(wp) :: s(COMPONENTS), inverse(2, 2), jacobian, first(2)
+      type(point_values_t) :: at
+      real(wp) :: first(2)
       integer(ip) :: point
 
       call fetch_element(fem, e, u, data)
       first = from_patch(fem, work%patches, i, fem%mesh%nodes(1, e))
       associate (rule => work%sampling(degree)%all)
+         call point_stresses(data, rule, at)
          do point = 1, rule%n
-            call point_stress(data, rule, point, s, inverse, jacobian)
-            call add_sample(first + place_of_point(data, rule, point), s, degree, fit)
+            call add_sample(first + at%x(point, :), at%s(point, :), degree, fit)
          end do
       end associate
    end subroutine add_all_points

@@ -295,13 +295,15 @@ contains
       real(wp), intent(inout), contiguous :: x(:, :)
       integer(ip) :: j, load, first, last
       integer(lp) :: start
+      real(wp) :: known
 
       do j = self%n, 1, -1
          first = self%first(j)
          last = min(j - 1, self%n - self%n_kept)
          start = self%place(j) - int(j - first, lp)
          do load = 1, size(x, 2, kind=ip)
-            x(first:last, load) = x(first:last, load) - x(j, load)*self%values(start:start + int(last - first, lp))
+            known = x(j, load)           ! a copy: to the compiler x(j) might lie within first:last
+            x(first:last, load) = x(first:last, load) - known*self%values(start:start + int(last - first, lp))
          end do
       end do
    end subroutine expand_skyline

@@ -154,6 +154,12 @@ contains
       integer(ip) :: k, order(Q2_NODES)
 
       shape = SHAPE_GOOD
+      node = 0
+      if (has_straight_sides(x)) then
+         call judge_corners(x(:, :FACES), shape, node)
+         if (shape == SHAPE_GOOD) return
+      end if
+      shape = SHAPE_GOOD
       call find_fold(x, node)
       if (node == 0) return
       order = nine_node_order(x)
@@ -171,6 +177,21 @@ contains
       away = x(:, FACES + 1:) - straight_places(x(:, :FACES))
       node = FACES + maxloc(norm2(away/maxval(abs(away)), dim=1), dim=1, kind=ip)
    end subroutine judge_nine_nodes
+
+   !> Whether mid-sides and centre are where those of straight sides are: then the corners say all of the element.
+   pure logical function has_straight_sides(x) result(straight)
+      real(wp), intent(in) :: x(2, Q2_NODES)           !< [L]
+      real(wp), parameter :: SHARE = 1.0e-6_wp         !< of the element
+      real(wp) :: tolerance
+      integer(ip) :: k
+
+      straight = .false.
+      tolerance = SHARE*max(maxval(abs(x(:, 3) - x(:, 1))), maxval(abs(x(:, 4) - x(:, 2))))
+      do k = 1, FACES
+         if (any(abs(x(:, FACES + k) - 0.5_wp*(x(:, k) + x(:, mod(k, FACES) + 1))) > tolerance)) return
+      end do
+      straight = all(abs(x(:, Q2_NODES) - 0.25_wp*(x(:, 1) + x(:, 2) + x(:, 3) + x(:, 4))) <= tolerance)
+   end function has_straight_sides
 
    !> The node at or next to which the Jacobian is least and too small; 0: it is good everywhere.
    pure subroutine find_fold(x, node)

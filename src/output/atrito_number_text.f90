@@ -14,8 +14,8 @@ module atrito_number_text
 
    !> Integers of 128 bits: the product of two of 63.
    integer, parameter :: XP = selected_int_kind(38)
-   !> 10**k = POWER(k) 2**(shift_of_power(k)), 2**62 <= POWER(k) < 2**63, rounded; exact for 0 <= k <= LAST_EXACT.
-   integer, parameter :: MOST_POWER = 44, LAST_EXACT = 27
+   !> 10**k = POWER(k) 2**(shift_of_power(k)), 2**62 <= POWER(k) < 2**63, rounded.
+   integer, parameter :: MOST_POWER = 44
    integer(lp), parameter :: POWER(-MOST_POWER:MOST_POWER) = [ &
            8227522786606030211_lp, 5142201741628768882_lp, 6427752177035961102_lp, 8034690221294951378_lp, 5021681388309344611_lp, &
            6277101735386680764_lp, 7846377169233350955_lp, 4903985730770844347_lp, 6129982163463555433_lp, 7662477704329444292_lp, &
@@ -36,9 +36,10 @@ module atrito_number_text
            6938893903907228378_lp, 8673617379884035472_lp, 5421010862427522170_lp, 6776263578034402713_lp, 8470329472543003391_lp, &
                              5293955920339377119_lp, 6617444900424221399_lp, 8271806125530276749_lp, 5169878828456422968_lp]
    !> Of a double: bits of the fraction with the leading one, that one, exponent of the least normal number.
-   integer, parameter :: POWER_BITS = 62, FRACTION_BITS = 53, BIAS = 1022
+   integer, parameter :: POWER_BITS = 62, LOWER_BITS = 63, FRACTION_BITS = 53, BIAS = 1022
    integer(lp), parameter :: LAST_BIT = 2_lp**(FRACTION_BITS - 1)
    integer, parameter :: ZERO = iachar('0'), EIGHT = 8
+   integer, parameter :: ROOM = 39                 !< for the longest number and some blanks
    integer :: i, j
    integer(lp), parameter :: TEN_TO(0:MOST_DIGITS) = [(10_lp**i, i=0, MOST_DIGITS)]
    character(len=2), parameter :: PAIR(0:99) = [((achar(ZERO + i)//achar(ZERO + j), j=0, 9), i=0, 9)]
@@ -71,20 +72,25 @@ contains
       integer, intent(in) :: digits                !< LEAST_DIGITS..MOST_DIGITS
       character(len=*), intent(out) :: field       !< at least real_width(digits) long
       integer(lp) :: mantissa
-      integer :: exponent_of_ten
+      integer :: exponent_of_ten, first
       logical :: decided
 
-      field = ''
       if (is_nan(x)) then
-         field(len(field) - 2:) = 'nan'
+         field = 'nan'
+         field = adjustr(field)
       else if (abs(x) > HUGE_REAL) then
-         field(len(field) - 3:) = merge('-inf', ' inf', x < 0.0_wp)
+         field = 'inf'
+         if (x < 0.0_wp) field = '-inf'
+         field = adjustr(field)
       else if (x == 0.0_wp) then
+         field = ''
          field(len(field):) = '0'
       else
          call find_digits(abs(x), digits, mantissa, exponent_of_ten, decided)
          if (.not. decided) call find_digits_slowly(abs(x), digits, mantissa, exponent_of_ten)
-         call lay_out(x < 0.0_wp, mantissa, digits, exponent_of_ten, field)
+         first = max(1, len(field) - ROOM + 1)
+         field(:first - 1) = ''
+         call lay_out(x < 0.0_wp, mantissa, digits, exponent_of_ten, field(first:))
       end if
    end subroutine put_real
 
@@ -136,30 +142,29 @@ contains
    end subroutine find_digits
 
    !> The integer nearest to x 10**k: x is an integer of 53 bits times a power of two, and so is 10**k but for the rounding of
-   !> POWER, at most a half. Where that half, or a tie, could change the outcome, nothing is decided.
+   !> POWER. Of their product the upper 63 bits are looked at; where the rest of it, or that rounding, could change the outcome,
+   !> and at a tie, nothing is decided.
    pure subroutine scale_and_round(x, k, rounded, decided)
       real(wp), intent(in) :: x                    !< > 0
       integer, intent(in) :: k
       integer(lp), intent(out) :: rounded
       logical, intent(out) :: decided
-      integer(lp) :: significand
-      integer(XP) :: product, rest, half, doubt
+      integer(lp), parameter :: DOUBT = 2_lp       !< of the upper bits
+      integer(lp) :: significand, upper, rest, half
       integer :: shift
 
       rounded = 0_lp
       decided = abs(k) <= MOST_POWER
       if (.not. decided) return
-      significand = ior(iand(transfer(x, 0_lp), LAST_BIT - 1_lp), LAST_BIT)
-      product = int(significand, XP)*int(POWER(k), XP)
-      shift = FRACTION_BITS - binary_exponent(x) - shift_of_power(k)
-      decided = shift > 1 .and. shift < 120
+      significand = shiftl(ior(iand(transfer(x, 0_lp), LAST_BIT - 1_lp), LAST_BIT), LOWER_BITS - FRACTION_BITS)
+      upper = int(shiftr(int(significand, XP)*int(POWER(k), XP), LOWER_BITS), lp)
+      shift = -binary_exponent(x) - shift_of_power(k)
+      decided = shift > 1 .and. shift < LOWER_BITS
       if (.not. decided) return
-      half = shiftl(1_XP, shift - 1)
-      rest = iand(product, shiftl(half, 1) - 1_XP)
-      doubt = 0_XP
-      if (k < 0 .or. k > LAST_EXACT) doubt = int(significand, XP)
-      decided = abs(rest - half) > doubt
-      rounded = int(shiftr(product, shift), lp)
+      half = shiftl(1_lp, shift - 1)
+      rest = iand(upper, 2_lp*half - 1_lp)
+      decided = abs(rest - half) > DOUBT
+      rounded = shiftr(upper, shift)
       if (rest > half) rounded = rounded + 1_lp
    end subroutine scale_and_round
 
@@ -206,32 +211,33 @@ contains
       is_digit = c >= '0' .and. c <= '9'
    end function is_digit
 
-   !> d.ddde+dd from the right end of the field; the field is blank before.
+   !> d.ddde+dd at the right end of the field. It is laid out in a text of fixed length, where the places of its parts are known to
+   !> the compiler, and then copied.
    pure subroutine lay_out(negative, mantissa, digits, exponent_of_ten, field)
       logical, intent(in) :: negative
       integer(lp), intent(in) :: mantissa
       integer, intent(in) :: digits, exponent_of_ten
-      character(len=*), intent(inout) :: field
-      character(len=3*EIGHT) :: all
-      integer :: place, e
+      character(len=*), intent(out) :: field       !< real_width(digits) to ROOM long
+      integer, parameter :: LENGTH = ROOM + 1, LAST_DIGIT = LENGTH - 5
+      character(len=LENGTH) :: text
+      integer :: e, point
 
-      call put_digits(mantissa, all)
       e = abs(exponent_of_ten)
-      place = len(field)
-      field(place - 1:place) = PAIR(mod(e, 100))
-      place = place - 2
+      call put_digits(mantissa, text(LAST_DIGIT - 3*EIGHT + 1:LAST_DIGIT))
+      point = LAST_DIGIT - digits + 1
+      text(point - 1:point - 1) = text(point:point)
+      text(point:point) = '.'
+      text(:point - 2) = ''
+      if (negative) text(point - 2:point - 2) = '-'
+      text(LAST_DIGIT + 1:LAST_DIGIT + 2) = 'e+'
+      if (exponent_of_ten < 0) text(LAST_DIGIT + 2:LAST_DIGIT + 2) = '-'
       if (e > 99) then
-         field(place:place) = achar(ZERO + e/100)
-         place = place - 1
+         text(LAST_DIGIT + 3:LENGTH) = achar(ZERO + e/100)//PAIR(mod(e, 100))
+         field = text(LENGTH - len(field) + 1:)
+      else
+         text(LAST_DIGIT + 3:LENGTH - 1) = PAIR(e)
+         field = text(LENGTH - len(field):LENGTH - 1)
       end if
-      field(place:place) = '+'
-      if (exponent_of_ten < 0) field(place:place) = '-'
-      field(place - 1:place - 1) = 'e'
-      place = place - 1 - digits
-      field(place + 1:place + digits - 1) = all(len(all) - digits + 2:)
-      field(place:place) = '.'
-      field(place - 1:place - 1) = all(len(all) - digits + 1:len(all) - digits + 1)
-      if (negative) field(place - 2:place - 2) = '-'
    end subroutine lay_out
 
    !> All digits of a number, zeros before it.

@@ -15,7 +15,7 @@ module atrito_recovery
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_model, only: model_t
-   use atrito_point_stress, only: point_rule_t, element_data_t, make_point_rule, fetch_element, point_stress
+   use atrito_point_stress, only: point_rule_t, element_data_t, point_values_t, make_point_rule, fetch_element, point_stresses
    use atrito_points, only: contact_points_t
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_shape_functions, only: gauss_count
@@ -221,20 +221,18 @@ contains
       integer(ip), intent(inout) :: row              !< the last one filled
       type(results_t), intent(inout) :: results
       type(element_data_t) :: data
-      real(wp) :: plane(3), inverse(2, 2), jacobian, place(2)
-      integer(ip) :: k, i
+      type(point_values_t) :: at
+      real(wp) :: plane(3)
+      integer(ip) :: k
 
       call fetch_element(fem, e, results%u, data)
+      call point_stresses(data, rule, at)
       do k = 1, rule%n
          row = row + 1
-         call point_stress(data, rule, k, plane, inverse, jacobian)
-         place = fem%mesh%x(:, fem%mesh%nodes(1, e))
-         do i = 2, data%n
-            place = place + data%x(:, i)*rule%value(i, k)
-         end do
+         plane = at%s(k, :)
          results%stress_element(row) = e
          results%stress_point(row) = k
-         results%stress_x(:, row) = place
+         results%stress_x(:, row) = fem%mesh%x(:, fem%mesh%nodes(1, e)) + at%x(k, :)
          results%stress(1:2, row) = plane(1:2)
          results%stress(3, row) = stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), plane)
          results%stress(4, row) = plane(3)
