@@ -54,6 +54,7 @@ module atrito_solve
    end type scene_data_t
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
+   real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
 
 contains
@@ -406,6 +407,10 @@ contains
                                                                  //' digits: a very slender body, or one that is barely held there')
          end associate
       end do
+      if (solution%inner%condition > MUCH_LOST) call add_warning('W-DIGITS', 'the equations of the contact line lose ' &
+                                                     //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
+                                                                 //' with more points than its soft master has nodes, or points' &
+                                                                 //' that are almost one')
       nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
       if (nu >= LARGE_FRICTION) call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu) &
                                     //': there may be other solutions than the one found (measured contraction of the outer loop ' &

@@ -88,7 +88,7 @@ while read -r _ name scene expected values; do
       ;;
    *)
       wanted=$expected
-      case $expected in law) wanted=10 ;; like:*) wanted=8 ;; esac
+      case $expected in law) wanted=10 ;; like:*) wanted=8 ;; told:*) wanted=${expected#told:} ;; esac
       if [ "$code" -eq 0 ]; then
          "$quad" compare/deck.inp >compare/quad 2>&1 && kept=$(digits compare/out/contact.tab compare/quad)
          # shellcheck disable=SC2086 # two words
@@ -102,6 +102,8 @@ while read -r _ name scene expected values; do
          fi
          case $expected in like:*)
             grep -q "^${expected#like:} $outer $solves$" compare/counts || { verdict=bad; note='other iteration counts'; } ;;
+         told:*)
+            grep -q 'W-DIGITS' compare/said || { verdict=bad; note='no warning'; } ;;
          esac
       elif [ "$code" -eq 3 ] && [ "$expected" = law ]; then
          verdict=ok

@@ -18,6 +18,7 @@ awk '
       if (x == "open") return "no contact"
       if (x == "law") return "a solution of the law, or exit 3"
       if (x ~ /^like:/) return "8 digits, iterations as " substr(x, 6)
+      if (x ~ /^told:/) return "a warning, and " substr(x, 6) " digits"
       if (x == "none:0") return "no pressure"
       if (x ~ /^none:/) return "pressure below " substr(x, 6)
       return x " digits" }
