@@ -1,6 +1,7 @@
 !> Sums over the elements of a body: matrix, profile, nodal forces of a displacement field.
 module atrito_assembly
    use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_range, only: work_of
    use atrito_mesh, only: mesh_t, element_coordinates, Q2_NODES
    use atrito_bodies, only: body_t, bodies_t, element_equations
    use atrito_elasticity, only: elastic_t
@@ -113,7 +114,7 @@ contains
             call cached_stiffness(fem, e, cache)
             fe(:2*n) = matmul(cache%k(:2*n, :2*n), ue(:2*n))
             se(:2*n) = matmul(abs(cache%k(:2*n, :2*n)), abs(ue(:2*n)))
-            energy = energy + 0.5_wp*dot_product(ue(:2*n), fe(:2*n))
+            energy = energy + 0.5_wp*work_of(2*n, fe, ue)
             do k = 1, n
                node = fem%mesh%nodes(k, e)
                force(:, node) = force(:, node) + fe(2*k - 1:2*k)

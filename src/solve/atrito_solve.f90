@@ -8,7 +8,7 @@ module atrito_solve
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
    use atrito_contact_rows, only: contact_rows_t, build_rows
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, stop_level
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, lp, wp
@@ -18,6 +18,7 @@ module atrito_solve
    use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
+   use atrito_range, only: work_of
    use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
                               estimate_error
    use atrito_reporter, only: reporter_t
@@ -134,7 +135,7 @@ contains
       call estimate_error(data%fem, results)
       call stop_phase('estimate')
       call start_phase('check')
-      call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
+      call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results)
       call stop_phase('check')
       call warn(model, data, solution, results)
    end subroutine solve_with_store
@@ -344,7 +345,7 @@ contains
                                                      //to_text(imbalance, 3)
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
-      results%external_work = sum(data%f*results%u) + sum(results%reaction*results%u)
+      results%external_work = work_of(size(results%u, kind=ip), data%f + results%reaction, results%u)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call recover_stress(model, data%fem, results)
       call balance_forces(data, contact, results)
