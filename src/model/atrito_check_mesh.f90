@@ -9,6 +9,7 @@ module atrito_check_mesh
    use atrito_mesh, only: PLANE_STRAIN, Q1_NODES
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -31,7 +32,7 @@ contains
          return
       end if
       call check_shapes(deck, model%mesh, draft)
-      if (draft%refinement%pieces == 1) call check_edges(deck, model, draft)
+      if (.not. is_refined(draft%refinement)) call check_edges(deck, model, draft)
       call check_sections(deck, model, draft)
       call check_materials(deck, model, draft)
       call note_loose_nodes(deck, model, draft)

@@ -12,6 +12,7 @@ module atrito_body_store
    use atrito_results, only: body_result_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
    public :: body_store_t, provide_bodies, take_numbering
@@ -64,7 +65,11 @@ contains
             if (.not. is_ok(status)) return
             store%factorisations = store%factorisations + 1
          end if
-         if (.not. same_load) call set_load(fem, b, load, bodies(b))
+         if (.not. same_load) then
+            call start_phase('factor')
+            call set_load(fem, b, load, bodies(b))
+            call stop_phase('factor')
+         end if
          call report_body(reporter, fem, b, bodies(b), results(b))
       end do
       call move_alloc(bodies, store%bodies)

@@ -14,6 +14,7 @@ module atrito_condensed_body
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_storage, only: storage_t
    use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
    public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, expand_body, motion_text
@@ -82,9 +83,23 @@ contains
       call body_profile(fem, i_body, profile)
       call choose_storage(profile, asked, kind, result)
       call new_storage(kind, body%storage)
+      call start_phase('assemble')
       call body%storage%create(profile, status)
+      if (is_ok(status)) call assemble_body(fem, i_body, body%storage)
+      call stop_phase('assemble')
       if (.not. is_ok(status)) return
-      call assemble_body(fem, i_body, body%storage)
+      call start_phase('factor')
+      call factor_body(fem, i_body, body, result, status)
+      call stop_phase('factor')
+   end subroutine condense_body
+
+   subroutine factor_body(fem, i_body, body, result, status)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(inout) :: body
+      type(body_result_t), intent(inout) :: result
+      type(status_t), intent(out) :: status
+
       call body%storage%factor(status)
       call report_pivots(fem, i_body, body%storage, result)
       if (.not. is_ok(status)) then
@@ -95,7 +110,7 @@ contains
       end if
       call factor_contact(fem, i_body, body, status)
       if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result)
-   end subroutine condense_body
+   end subroutine factor_body
 
    subroutine report_pivots(fem, i_body, storage, result)
       type(fem_t), intent(in) :: fem

@@ -113,11 +113,9 @@ contains
       if (is_ok(status)) call check_scene(model, options, results%scene, status)
       if (is_ok(status)) call check_known_points(data, status)
       if (.not. is_ok(status)) return
-      call start_phase('factor')
       call provide_bodies(store, data%fem, data%held, data%points, free_load(data), options%storage_kind, reporter, &
                           results%scene%bodies, status)
       results%factorisations = store%factorisations
-      call stop_phase('factor')
       if (.not. is_ok(status)) return
       call start_phase('iterate')
       call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
