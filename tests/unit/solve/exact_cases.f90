@@ -160,7 +160,7 @@ contains
             x = matmul(element_coordinates(model%mesh, e), shape_values(n, xi))
             strain = strain_at(model, results%u, e, xi)
             if (model%sections(1)%formulation == FORMULATION_BBAR) strain(1:2) = strain(1:2) &
-                                                      + 0.5_wp*(mean_dilatation(model, results%u, e) - strain(1) - strain(2))
+                                                             + 0.5_wp*(mean_dilatation(model, results%u, e) - strain(1) - strain(2))
             raw = matmul(d, strain)
             exact = exact_stress(x)
             smooth = matmul(nodal, shape_values(n, xi))
