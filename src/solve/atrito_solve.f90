@@ -8,7 +8,7 @@ module atrito_solve
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
    use atrito_contact_rows, only: contact_rows_t, build_rows
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, stop_level
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, lp, wp
@@ -18,6 +18,7 @@ module atrito_solve
    use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
+   use atrito_range, only: work_of
    use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
                               estimate_error
    use atrito_reporter, only: reporter_t
@@ -53,6 +54,7 @@ module atrito_solve
    end type scene_data_t
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
+   real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
 
 contains
@@ -134,7 +136,7 @@ contains
       call estimate_error(data%fem, results)
       call stop_phase('estimate')
       call start_phase('check')
-      call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
+      call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results)
       call stop_phase('check')
       call warn(model, data, solution, results)
    end subroutine solve_with_store
@@ -344,7 +346,7 @@ contains
                                                      //to_text(imbalance, 3)
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
-      results%external_work = sum(data%f*results%u) + sum(results%reaction*results%u)
+      results%external_work = work_of(size(results%u, kind=ip), data%f + results%reaction, results%u)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call recover_stress(model, data%fem, results)
       call balance_forces(data, contact, results)
@@ -405,6 +407,10 @@ contains
                                         //' digits: a very slender or nearly incompressible body, or one that is barely held there')
          end associate
       end do
+      if (solution%inner%condition > MUCH_LOST) call add_warning('W-DIGITS', 'the equations of the contact line lose ' &
+                                                     //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
+                                                                 //' with more points than its soft master has nodes, or points' &
+                                                                 //' that are almost one')
       nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
       if (nu >= LARGE_FRICTION) call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu) &
                                     //': there may be other solutions than the one found (measured contraction of the outer loop ' &
