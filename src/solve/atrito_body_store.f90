@@ -160,7 +160,8 @@ contains
    pure logical function is_same_section(a, b)
       type(elastic_t), intent(in) :: a, b
 
-      is_same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness
+      is_same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
+                        .and. a%formulation == b%formulation
    end function is_same_section
 
    pure logical function has_same_load(store, fem, b, load)

@@ -402,7 +402,7 @@ contains
          associate (body => results%scene%bodies(b))
             if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
                               //to_text(body%worst_node)//' dof '//to_text(body%worst_dof)//' lost '//to_text(body%digits_lost, 3) &
-                                                                 //' digits: a very slender body, or one that is barely held there')
+                                        //' digits: a very slender or nearly incompressible body, or one that is barely held there')
          end associate
       end do
       if (solution%inner%condition > MUCH_LOST) call add_warning('W-DIGITS', 'the equations of the contact line lose ' &
