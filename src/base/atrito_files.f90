@@ -94,7 +94,7 @@ contains
 
       set%folder = folder
       allocate (set%names(0))
-      call make_folder(folder, set%made, status)
+      call make_folder(folder, status, set%made)
       call ignore_size_limit()
    end subroutine begin_files
 

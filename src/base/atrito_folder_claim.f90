@@ -55,7 +55,7 @@ contains
       integer(c_int) :: ignored
 
       do i = 1, MOST_TRIES
-         call make_folder(folder, claim%made, status)
+         call make_folder(folder, status, claim%made)
          if (.not. is_ok(status)) then
             call remove_folders(claim%made)
             return

@@ -66,11 +66,11 @@ contains
    end function may_write
 
    !> Makes a folder and those above it where they are missing. Those that were made are appended to `made`, and noted: an
-   !> interrupted program removes them where they are empty. remove_folders does the same, keep_folders lets them stay.
-   subroutine make_folder(path, made, status)
+   !> interrupted program removes them where they are empty, until remove_folders or forget_folder.
+   subroutine make_folder(path, status, made)
       character(len=*), intent(in) :: path
-      type(string_t), allocatable, intent(inout) :: made(:)
       type(status_t), intent(out) :: status
+      type(string_t), allocatable, intent(inout), optional :: made(:)
       integer :: i
 
       do i = 2, len(path)
@@ -82,10 +82,12 @@ contains
 
    subroutine make_one_folder(path, made)
       character(len=*), intent(in) :: path
-      type(string_t), allocatable, intent(inout) :: made(:)
+      type(string_t), allocatable, intent(inout), optional :: made(:)
+      logical :: is_new
 
       call hold_interrupts()
-      if (c_mkdir(path//c_null_char, FOLDER_MODE) == 0_c_int) then
+      is_new = c_mkdir(path//c_null_char, FOLDER_MODE) == 0_c_int
+      if (is_new .and. present(made)) then
          call note_folder(path)
          call append_string(made, path)
       end if

@@ -98,13 +98,12 @@ strip 20
 "$atrito" strip.inp -o first --quiet || fail 'the deck itself fails'
 
 # --- in the factorisation ---------------------------------------------------------------------------------------------------------
-# interrupt SIGNAL CODE WHERE: runs $deck into $folder, which has older results or is not there
 factor() { # factor SIGNAL CODE FOLDER
    for level in 5 6; do
       : >err
       "$atrito" "$deck" --refine $level -o "$3" 2>err >out &
       run=$!
-      await $run told err '^body '
+      await $run told err '^factor '
       kill -"$1" $run 2>/dev/null
       wait $run
       code=$?
