@@ -196,8 +196,7 @@ contains
       type(status_t), intent(out) :: status
       integer :: i
 
-      call find_obstacle(set%folder, set%names, status)
-      if (is_ok(status)) call find_obstacle(set%folder, stale, status)
+      call find_obstacle(set%folder, set%names, stale, status)
       if (is_ok(status)) then
          call hold_interrupts()
          call rename_all(set%folder, set%names, status)

@@ -8,7 +8,7 @@
 !> The structures are those of the C libraries of Linux.
 module atrito_interrupts
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funloc, c_funptr, c_int, c_intptr_t, c_loc, &
-                                          c_long, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t
+                                                                     c_long, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t
    use atrito_status, only: STATUS_INTERNAL
    implicit none (type, external)
    private

@@ -115,8 +115,8 @@ contains
       integer :: slash
 
       if (is_folder(path)) then
-         if (c_access(path//c_null_char, TO_WRITE_AND_SEARCH) /= 0_c_int) &
-            call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
+         if (c_access(path//c_null_char, TO_WRITE_AND_SEARCH) == 0_c_int) return
+         call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
       else if (file_exists(path)) then
          call set_status(status, STATUS_FILE, path//': is no folder that can be read and written into')
       else

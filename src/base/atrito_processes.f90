@@ -2,7 +2,7 @@
 !> of the shell. All of them end when this process is interrupted.
 module atrito_processes
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_loc, c_ptr, c_size_t, c_null_char, c_null_ptr, c_f_pointer, &
-                                          c_intptr_t
+                                                                             c_intptr_t
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use atrito_interrupts, only: hold_interrupts, release_interrupts, forget_everything, note_worker, note_group, forget_child
    use atrito_kinds, only: ip

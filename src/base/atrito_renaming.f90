@@ -24,24 +24,36 @@ module atrito_renaming
 contains
 
    !> What can be seen before anything is replaced: a folder in the place of a file, or a file that its owner has protected.
-   subroutine find_obstacle(folder, names, status)
+   subroutine find_obstacle(folder, names, stale, status)
       character(len=*), intent(in) :: folder
-      type(string_t), intent(in) :: names(:)        !< without folder
+      type(string_t), intent(in) :: names(:)        !< that will be written, without folder
+      type(string_t), intent(in) :: stale(:)        !< that will be removed, without folder
       type(status_t), intent(out) :: status
-      character(len=:), allocatable :: path
       integer :: i
 
       do i = 1, size(names)
-         path = folder//'/'//names(i)%s
-         if (is_folder(path)) then
-            call set_status(status, STATUS_FILE, path//': cannot be written, it is a folder')
-         else if (file_exists(path)) then
-            if (.not. may_write(path)) &
-               call set_status(status, STATUS_FILE, path//': is write-protected; nothing is replaced')
+         if (is_folder(folder//'/'//names(i)%s)) then
+            call set_status(status, STATUS_FILE, folder//'/'//names(i)%s//': cannot be written, it is a folder')
+            return
          end if
+         call find_protection(folder//'/'//names(i)%s, status)
+         if (.not. is_ok(status)) return
+      end do
+      do i = 1, size(stale)
+         call find_protection(folder//'/'//stale(i)%s, status)
          if (.not. is_ok(status)) return
       end do
    end subroutine find_obstacle
+
+   !> A file that was made read-only shall stay as it is, though a renaming would get past that.
+   subroutine find_protection(path, status)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+
+      if (.not. file_exists(path)) return
+      if (may_write(path)) return
+      call set_status(status, STATUS_FILE, path//': is write-protected; nothing is replaced')
+   end subroutine find_protection
 
    !> Renames all files, or none. The former ones keep a second name until all is done.
    subroutine rename_all(folder, names, status)
