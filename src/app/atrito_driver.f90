@@ -8,6 +8,7 @@ module atrito_driver
                                   TASK_HELP, TASK_SWEEP, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_lines, print_messages, print_status
+   use atrito_files, only: ignore_broken_pipe
    use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
@@ -42,6 +43,7 @@ contains
       logical :: ok
 
       call guard_interrupts()
+      call ignore_broken_pipe()
       call set_blas_threads(1_ip)
       call clear_messages()
       call reset_timers()

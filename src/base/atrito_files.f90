@@ -3,18 +3,18 @@
 !> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_intptr_t, c_null_char, c_null_funptr, &
-                                                                             c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_intptr_t, c_long, c_null_char, &
+                                                                             c_null_funptr, c_null_ptr, c_ptr, c_size_t
    use atrito_interrupts, only: hold_interrupts, release_interrupts, note_file, forget_file, forget_folder
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
    use atrito_renaming, only: find_obstacle, rename_all, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: read_file, file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, &
-             check_folder
+   public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
+             remove_empty_folder, check_folder, ignore_broken_pipe
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text, commit_files, discard_files
 
    !> A set of files that appear together or not at all.
@@ -37,8 +37,31 @@ module atrito_files
 
    integer, parameter :: BUFFER_LENGTH = 65536
    character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
+   !> The places in a text are default integers: one of 2 GB is larger than any deck or table.
+   integer(lp), parameter :: LARGEST_FILE = 2000000000_lp
+   !> A text has no zero byte; of a file with one in its first bytes no more than these is read.
+   integer, parameter :: FIRST_BYTES = 65536
 
    interface
+      type(c_ptr) function c_realpath(path, resolved) bind(C, name='realpath')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: resolved(*)
+      end function c_realpath
+      integer(c_int) function c_open(path, flags) bind(C, name='open')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+      end function c_open
+      integer(c_long) function c_lseek(descriptor, offset, from) bind(C, name='lseek')
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor, from
+         integer(c_long), value :: offset
+      end function c_lseek
+      integer(c_int) function c_close(descriptor) bind(C, name='close')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_close
       type(c_ptr) function c_fopen(path, mode) bind(C, name='fopen')
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*), mode(*)
@@ -62,29 +85,106 @@ module atrito_files
 
 contains
 
-   !> Reads a whole file into one string. status: STATUS_FILE when it cannot be read.
+   !> Reads a whole file into one string; of a file that is no text, its first bytes: they show that it is none.
+   !> status: STATUS_FILE when it cannot be read.
    subroutine read_file(path, text, status)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: text
       type(status_t), intent(out) :: status
       character(len=256) :: reason
-      integer :: unit, ios, length
+      integer :: unit, ios
+      integer(lp) :: length
 
-      if (is_folder(path)) then
-         call set_status(status, STATUS_FILE, path//': is a folder')
-         return
-      end if
+      call judge_file(path, status)
+      if (.not. is_ok(status)) return
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=ios, iomsg=reason)
       if (ios /= 0) then
          call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
          return
       end if
       inquire (unit=unit, size=length)
-      allocate (character(len=max(length, 0)) :: text)
-      if (length > 0) read (unit, iostat=ios, iomsg=reason) text
+      call read_text(unit, int(max(0_lp, min(length, LARGEST_FILE))), text, ios, reason)
       close (unit)
       if (ios /= 0) call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
    end subroutine read_file
+
+   !> A deck must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
+   subroutine judge_file(path, status)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(out) :: status
+      integer(c_int), parameter :: READ_AT_ONCE = 2048_c_int      ! O_RDONLY + O_NONBLOCK of Linux: a pipe does not wait either
+      integer(c_int), parameter :: FROM_END = 2_c_int
+      integer(c_int) :: descriptor, ignored
+      integer(c_long) :: length
+
+      if (is_folder(path)) then
+         call set_status(status, STATUS_FILE, path//': is a folder')
+         return
+      end if
+      descriptor = c_open(path//c_null_char, READ_AT_ONCE)
+      if (descriptor < 0) return                                  ! the reason is told by the opening that follows
+      length = c_lseek(descriptor, 0_c_long, FROM_END)
+      ignored = c_close(descriptor)
+      if (length < 0) then
+         call set_status(status, STATUS_FILE, path//': is a pipe or a terminal; a plain file is expected')
+      else if (int(length, lp) > LARGEST_FILE) then
+         call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
+      end if
+   end subroutine judge_file
+
+   subroutine read_text(unit, length, text, ios, reason)
+      integer, intent(in) :: unit, length
+      character(len=:), allocatable, intent(out) :: text
+      integer, intent(out) :: ios
+      character(len=*), intent(inout) :: reason
+      integer :: first
+
+      first = min(length, FIRST_BYTES)
+      allocate (character(len=first) :: text)
+      ios = 0
+      if (length == 0) return
+      read (unit, iostat=ios, iomsg=reason) text
+      if (ios /= 0 .or. length == first) return
+      if (index(text, achar(0)) > 0) return
+      deallocate (text)
+      allocate (character(len=length) :: text, stat=ios, errmsg=reason)
+      if (ios == 0) read (unit, pos=1, iostat=ios, iomsg=reason) text
+   end subroutine read_text
+
+   !> The first line of a file of the system (which has no length) that begins with a label.
+   subroutine read_system_line(path, label, line, found)
+      character(len=*), intent(in) :: path, label
+      character(len=:), allocatable, intent(out) :: line
+      logical, intent(out) :: found
+      character(len=256) :: buffer
+      integer :: unit, ios
+
+      found = .false.
+      open (newunit=unit, file=path, status='old', action='read', iostat=ios)
+      if (ios /= 0) return
+      do
+         read (unit, '(a)', iostat=ios) buffer
+         if (ios /= 0) exit
+         found = index(buffer, label) == 1
+         if (found) exit
+      end do
+      close (unit)
+      if (found) line = trim(buffer)
+   end subroutine read_system_line
+
+   !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
+   !> such file.
+   function true_path(path) result(true)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: true
+      integer, parameter :: LONGEST = 4096                        ! PATH_MAX of Linux; elsewhere it is 1024
+      character(len=LONGEST) :: buffer
+
+      true = path
+      if (len(path) >= LONGEST) return
+      buffer = ' '
+      if (c_associated(c_realpath(path//c_null_char, buffer))) true = buffer(:index(buffer, c_null_char) - 1)
+   end function true_path
 
    !> Begins a set of files in a folder, which is made where it is missing.
    subroutine begin_files(set, folder, status)
@@ -98,14 +198,27 @@ contains
       call ignore_size_limit()
    end subroutine begin_files
 
+   !> A reader of the output that goes away (`| head -1`) shall not end a run: writing to it fails, and nobody minds.
+   subroutine ignore_broken_pipe()
+      integer(c_int), parameter :: SIGPIPE = 13_c_int             ! Linux and BSD
+
+      call ignore_signal(SIGPIPE)
+   end subroutine ignore_broken_pipe
+
    !> A limit on the size of files (ulimit -f) shall come back from fwrite, as a full disk does, and not end the program.
    subroutine ignore_size_limit()
       integer(c_int), parameter :: SIGXFSZ = 25_c_int             ! Linux and BSD
+
+      call ignore_signal(SIGXFSZ)
+   end subroutine ignore_size_limit
+
+   subroutine ignore_signal(number)
+      integer(c_int), intent(in) :: number
       integer(c_intptr_t), parameter :: SIG_IGN = 1_c_intptr_t
       type(c_funptr) :: previous
 
-      previous = c_signal(SIGXFSZ, transfer(SIG_IGN, c_null_funptr))
-   end subroutine ignore_size_limit
+      previous = c_signal(number, transfer(SIG_IGN, c_null_funptr))
+   end subroutine ignore_signal
 
    !> Takes a file into the set that is written by other means, under the temporary path that is given back.
    subroutine reserve_file(set, name, path)

@@ -15,12 +15,13 @@ module atrito_build_model
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_draft, only: draft_t, prepare_draft, has_errors
    use atrito_faces, only: list_node_elements
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
+   use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
    use atrito_refine_model, only: refine_model
-   use atrito_strings, only: append_string, deck_name
+   use atrito_strings, only: deck_name
    implicit none (type, external)
    private
    public :: build_model
@@ -35,29 +36,38 @@ contains
    !>
    !> With levels > 0 every element is refined into 4**levels. The model is built without it first: what is wrong with a deck is
    !> told of the elements that stand in it.
-   subroutine build_model(deck, model, levels)
+   subroutine build_model(deck, model, levels, memory)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
+      integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
       type(message_mark_t) :: mark
+      integer(lp) :: limit
       logical :: refined
 
+      if (present(memory)) then
+         limit = memory
+      else
+         limit = available_memory()
+      end if
       refined = .false.
       if (present(levels)) refined = levels > 0
       mark = mark_messages()
-      call build_once(deck, 0_ip, model)
+      call build_once(deck, 0_ip, limit, model)
       if (.not. refined .or. has_errors()) return
       call forget_messages(mark)
-      call build_once(deck, levels, model)
+      call build_once(deck, levels, limit, model)
    end subroutine build_model
 
-   subroutine build_once(deck, levels, model)
+   subroutine build_once(deck, levels, memory, model)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: levels
+      integer(lp), intent(in) :: memory
       type(model_t), intent(out) :: model
       type(draft_t) :: draft
 
       call prepare_draft(deck, draft)
+      draft%memory = memory
       call take_titles(deck, model)
       call take_parameters(deck, model)
       call build_nodes(deck, model, draft)
@@ -79,15 +89,21 @@ contains
    subroutine take_titles(deck, model)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
-      integer(ip) :: i, k
+      integer(ip) :: i, k, n
 
       model%deck_path = deck%path
       model%deck_name = deck_name(deck%path)
-      allocate (model%heading(0))
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == 'HEADING') n = n + deck%cards(i)%n_lines
+      end do
+      allocate (model%heading(n))
+      n = 0
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) /= 'HEADING') cycle
          do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
-            call append_string(model%heading, token_text(deck, line_item(deck, deck%lines(k), 1_ip)))
+            n = n + 1
+            model%heading(n)%s = token_text(deck, line_item(deck, deck%lines(k), 1_ip))
          end do
       end do
    end subroutine take_titles

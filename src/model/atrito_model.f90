@@ -91,7 +91,7 @@ module atrito_model
 
    type :: controls_t
       integer(ip) :: method = METHOD_ANDERSON
-      real(wp) :: tolerance = 1.0e-8_wp             !< of the outer loop
+      real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
       integer(ip) :: max_iterations = 100           !< outer iterations
       real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
    end type controls_t

@@ -1,13 +1,14 @@
 !> --refine: the mesh of a deck and its sets, refined. Surfaces, loads and supports are read afterwards and follow them.
 module atrito_refine_model
    use atrito_build_nodes, only: MOST_NODES
-   use atrito_deck, only: deck_t
+   use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t
+   use atrito_model_memory, only: fits_memory
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -25,7 +26,7 @@ contains
       type(mesh_t) :: coarse
       integer(ip) :: i
 
-      if (.not. is_possible(deck, levels, model%mesh)) return
+      if (.not. is_possible(deck, levels, model, draft)) return
       coarse = model%mesh
       call refine_mesh(coarse, draft%around, 2**levels, model%mesh, draft%refinement)
       model%levels = levels
@@ -48,25 +49,28 @@ contains
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
 
-   !> There are not too many nodes, and there are numbers left for them. The numbers of elements are chosen so that they fit.
-   logical function is_possible(deck, levels, mesh)
+   !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
+   logical function is_possible(deck, levels, model, draft)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: levels
-      type(mesh_t), intent(in) :: mesh
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t) :: nowhere
       integer(lp) :: n, greatest
 
-      n = count_fine_nodes(mesh, 2**levels)
-      greatest = maxval(mesh%node_id(:mesh%n_nodes))
+      n = count_fine_nodes(model%mesh, 2**levels)
+      greatest = maxval(model%mesh%node_id(:model%mesh%n_nodes))
       is_possible = n <= int(MOST_NODES, lp)
       if (.not. is_possible) then
          call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
                                 ' nodes', expected='a smaller number: each one more makes four elements of one')
          return
       end if
-      is_possible = greatest + (n - int(mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
+      is_possible = greatest + (n - int(model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
       if (.not. is_possible) call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//': the numbers of the new '// &
                                                     'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
                                                     expected='smaller node numbers')
+      if (is_possible) is_possible = fits_memory(deck, nowhere, model, draft, n, int(model%mesh%n_elements, lp)*4_lp**levels)
    end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.

@@ -5,7 +5,7 @@
 !> that and any rigid motion Z a; the forces on it balance, Z' (f - B' q) = 0, so F is as good as any generalised inverse.
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
-   use atrito_assembly, only: fem_t, body_profile, assemble_body
+   use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
    use atrito_bodies, only: mode_at
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
    use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, skyline_bytes, banded_bytes
@@ -94,6 +94,7 @@ contains
          return
       end if
       call factor_contact(fem, i_body, body, status)
+      if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result)
    end subroutine condense_body
 
    subroutine report_pivots(fem, i_body, storage, result)
@@ -101,21 +102,49 @@ contains
       integer(ip), intent(in) :: i_body
       class(storage_t), intent(in) :: storage
       type(body_result_t), intent(inout) :: result
-      integer(ip) :: i, dof
 
       result%digits_lost = storage%report%digits_lost
       result%sign_changes = storage%report%sign_changes
       if (storage%report%worst_equation == 0) return
+      call name_equation(fem, i_body, storage%report%worst_equation, result)
+   end subroutine report_pivots
+
+   subroutine name_equation(fem, i_body, equation, result)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body, equation
+      type(body_result_t), intent(inout) :: result
+      integer(ip) :: i, dof
+
       associate (body => fem%bodies%list(i_body))
          do i = 1, size(body%nodes, kind=ip)
             do dof = 1, 2
-               if (fem%bodies%equation(dof, body%nodes(i)) /= storage%report%worst_equation) cycle
+               if (fem%bodies%equation(dof, body%nodes(i)) /= equation) cycle
                result%worst_node = fem%mesh%node_id(body%nodes(i))
                result%worst_dof = dof
             end do
          end do
       end associate
-   end subroutine report_pivots
+   end subroutine name_equation
+
+   !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the interior.
+   subroutine report_contact_pivots(fem, i_body, body, result)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(in) :: body
+      type(body_result_t), intent(inout) :: result
+      real(wp) :: original(size(body%factor, 1)), lost
+      integer(ip) :: i, first
+
+      if (size(original) == 0) return
+      first = fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_kept
+      call kept_diagonal(fem, i_body, original)
+      do i = 1, size(original, kind=ip)
+         lost = log10(original(i)/body%factor(i, i)**2)
+         if (lost <= result%digits_lost) cycle
+         result%digits_lost = lost
+         call name_equation(fem, i_body, first + i, result)
+      end do
+   end subroutine report_contact_pivots
 
    !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
    subroutine factor_contact(fem, i_body, body, status)

@@ -206,7 +206,7 @@ contains
          if (abs(t - sign(tau, slip)) > allowed) wrong = 'slip without full friction against it'
       else if (limit > SIGN_TOLERANCE*place_scale) then
          ! the law is steep here: compare the stress within what the slip leaves open
-         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale)/limit) then
+         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale/limit)) then
             wrong = 'shear off the friction law'
          end if
       end if
