@@ -10,6 +10,7 @@ module atrito_driver
    use atrito_console, only: print_lines, print_messages, print_status
    use atrito_files, only: ignore_broken_pipe
    use atrito_help, only: help_overview, help_keyword, help_manual
+   use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_messages, only: message_t, format_message, clear_messages
@@ -42,6 +43,7 @@ contains
       type(body_store_t) :: store
       logical :: ok
 
+      call guard_interrupts()
       call ignore_broken_pipe()
       call set_blas_threads(1_ip)
       call clear_messages()

@@ -7,6 +7,8 @@ module atrito_run
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
+   use atrito_files, only: check_folder
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_hdf5, only: has_hdf5
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: signed_area, PLANE_STRAIN, PLANE_STRESS
@@ -51,6 +53,12 @@ contains
       reporter%quiet = command%quiet
       call load_model(command, reporter, model, told, code)
       if (code /= STATUS_OK) return
+      call check_folder(output_folder(command), status)
+      if (.not. is_ok(status)) then                 ! better now than after an hour
+         call print_status(status, model%deck_path)
+         code = status%code
+         return
+      end if
       call solve_static(model, solve_options(command), reporter, results, status, store)
       call print_messages(command%quiet, told + 1)
       if (is_ok(status) .or. status%code == STATUS_NOT_CONVERGED) call agree_on_outcome(status, results)
@@ -100,6 +108,7 @@ contains
       type(results_t), intent(in) :: results
       integer, intent(inout) :: code
       type(status_t) :: status
+      type(folder_claim_t) :: claim
       type(page_t) :: page
       type(string_t), allocatable :: written(:), pictures(:)
       character(len=:), allocatable :: folder
@@ -109,8 +118,10 @@ contains
       call report_progress(reporter, 'write '//folder)
       told = count_messages()
       if (command%plot) pictures = plot_names(results)       ! not allocated: an optional argument that is not there
-      call write_results(model, results, int(command%digits), folder, written, status, pictures)
+      call claim_folder(folder, claim, status)
+      if (is_ok(status)) call write_results(model, results, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
+         call release_folder(claim)
          call print_status(status, model%deck_path)
          code = status%code
          return
@@ -119,6 +130,7 @@ contains
          call report_progress(reporter, 'plot  '//plot_folder(folder))
          call write_plots(model, results, folder, pictures)
       end if
+      call release_folder(claim)
       call print_messages(command%quiet, told + 1)
       if (command%quiet) return
       call compose_summary(model, results, folder, written, page, pictures)

@@ -74,6 +74,7 @@ contains
       call add_line(page, '  4  singular or indefinite system')
       call add_line(page, '  5  a file cannot be read or written')
       call add_line(page, '  9  internal error')
+      call add_line(page, '  129, 130, 143  ended by SIGHUP, SIGINT, SIGTERM; nothing half-written is left')
    end subroutine add_exit_codes
 
 end module atrito_usage

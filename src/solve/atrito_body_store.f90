@@ -61,6 +61,7 @@ contains
             call take_back(store, b, bodies(b), results(b))
          else
             same_load = .false.
+            call report_progress(reporter, 'factor '//fem%bodies%list(b)%name)
             call condense_body(fem, b, asked, bodies(b), results(b), status)
             if (.not. is_ok(status)) return
             store%factorisations = store%factorisations + 1
