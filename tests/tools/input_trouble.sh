@@ -13,10 +13,16 @@ fail() {
    failures=$((failures + 1))
 }
 
+# row WHAT EXPECTED CAME: a line for tests/extremes/print-stability.sh, which names the file in FAULT_ROWS
+row() {
+   [ -z "${FAULT_ROWS:-}" ] || echo "| $1 | exit $2 | exit $3 |" >>"$FAULT_ROWS"
+}
+
 # expect CODE TEXT WHAT: runs the program on $work/deck.inp; it has ten seconds and 2 GB
 expect() {
    (ulimit -v 2000000 && timeout 10 "$atrito" "$work/deck.inp" -o "$work/none") >"$work/out" 2>"$work/err"
    code=$?
+   row "$3" "$1" "$code"
    [ "$code" -eq "$1" ] || { fail "$3: exit $code, expected $1"; cat "$work/err"; }
    grep -qF -- "$2" "$work/err" || { fail "$3: not said: $2"; cat "$work/err"; }
    grep -q 'untime error\|Backtrace' "$work/err" && fail "$3: the run-time library complains"
