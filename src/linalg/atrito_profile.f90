@@ -16,6 +16,7 @@ module atrito_profile
       integer(ip) :: n = 0                      !< number of equations
       integer(ip) :: n_kept = 0                 !< the last n_kept equations are kept
       integer(ip), allocatable :: first(:)      !< (n) row of the first entry of column j, 1 <= first(j) <= j
+      integer(lp) :: entries = 0                !< of the lower triangles of all element matrices
    end type profile_t
 
    !> Columns that the banded storage eliminates at a time from the kept block; it pads the band by as many rows.
@@ -46,11 +47,16 @@ contains
       type(profile_t), intent(inout) :: profile
       integer(ip), intent(in) :: equations(:)   !< equation numbers of the element in any order; 0 = prescribed, skipped
       integer(ip) :: k, lowest
+      integer(lp) :: free
 
       lowest = huge(lowest)
+      free = 0
       do k = 1, size(equations, kind=ip)
-         if (equations(k) > 0) lowest = min(lowest, equations(k))
+         if (equations(k) == 0) cycle
+         lowest = min(lowest, equations(k))
+         free = free + 1
       end do
+      profile%entries = profile%entries + free*(free + 1)/2
       do k = 1, size(equations, kind=ip)
          if (equations(k) > 0) profile%first(equations(k)) = min(profile%first(equations(k)), lowest)
       end do

@@ -1,14 +1,16 @@
 !> The solvers for the bodies by kind.
 module atrito_solver_choice
    use atrito_banded, only: banded_t
+   use atrito_mumps, only: sparse_t
    use atrito_skyline, only: skyline_t
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: new_storage, STORAGE_SKYLINE, STORAGE_BANDED
+   public :: new_storage, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
 
    integer, parameter :: STORAGE_SKYLINE = 1
    integer, parameter :: STORAGE_BANDED = 2
+   integer, parameter :: STORAGE_SPARSE = 3
 
 contains
 
@@ -22,6 +24,8 @@ contains
          allocate (skyline_t :: storage)
       case (STORAGE_BANDED)
          allocate (banded_t :: storage)
+      case (STORAGE_SPARSE)
+         allocate (sparse_t :: storage)
       end select
    end subroutine new_storage
 
