@@ -134,6 +134,7 @@ contains
          mumps%par = 1
          mumps%sym = 1                            ! positive definite: pivots in the order of the analysis
          call run(self, BEGIN)
+         call set_controls(self)
          ! room for every entry of every element: what is never touched takes no memory
          allocate (mumps%irn(profile%entries), mumps%jcn(profile%entries), mumps%a(profile%entries), stat=no_memory)
       end associate
@@ -222,7 +223,6 @@ contains
          self%report%digits_lost = ALL_DIGITS
          call set_status(status, STATUS_SINGULAR, 'the matrix is singular: equation '//to_text(empty)//' is empty')
       else
-         call set_controls(self)
          call run(self, ANALYSE_AND_FACTOR)
          if (self%instance%mumps%infog(1) == NO_ROOM) then
             self%instance%mumps%icntl(14) = 200
