@@ -20,17 +20,19 @@ module atrito_mumps
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: sparse_t, has_mumps, mumps_name
+   public :: sparse_t, has_mumps, mumps_name, mumps_trouble
 
    include 'dmumps_struc.h'
 
-   !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then.
+   !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then. The matrix is the lower
+   !> triangle; until factor it is a list a column, and column(k) the entry that follows k in its list.
    type :: instance_t
       type(dmumps_struc) :: mumps
+      integer(ip), allocatable :: row(:), column(:)
+      real(wp), allocatable :: values(:)
       real(wp), allocatable :: reduced(:, :)     !< (n_interior, loads) the load whose half-solved part MUMPS holds
    end type instance_t
 
-   !> Until factor the matrix is a list a column: entry k has row irn(k), value a(k), and jcn(k) is the next of its column.
    type, extends(storage_t) :: sparse_t
       private
       procedure(call_mumps), pointer, nopass :: mumps => null()
@@ -99,6 +101,13 @@ contains
       name = 'MUMPS '//ATRITO_MUMPS_VERSION
    end function mumps_name
 
+   !> Why there is no MUMPS, where there is none.
+   pure function mumps_trouble() result(text)
+      character(len=:), allocatable :: text
+
+      text = 'the library '//ATRITO_MUMPS_LIBRARY//' cannot be loaded'
+   end function mumps_trouble
+
    !> Not associated where the library is not installed. Loading it again costs next to nothing.
    subroutine load_mumps(mumps)
       procedure(call_mumps), pointer, intent(out) :: mumps
@@ -125,7 +134,7 @@ contains
       self%entries = 0
       call load_mumps(self%mumps)
       if (.not. associated(self%mumps)) then
-         call set_status(status, STATUS_INTERNAL, 'the library '//ATRITO_MUMPS_LIBRARY//' cannot be loaded')
+         call set_status(status, STATUS_INTERNAL, mumps_trouble())
          return
       end if
       allocate (self%instance)
@@ -135,9 +144,8 @@ contains
          mumps%sym = 1                            ! positive definite: pivots in the order of the analysis
          call run(self, BEGIN)
          call set_controls(self)
-         ! room for every entry of every element: what is never touched takes no memory
-         allocate (mumps%irn(profile%entries), mumps%jcn(profile%entries), mumps%a(profile%entries), stat=no_memory)
       end associate
+      call take_room(self%instance, profile%entries, no_memory)
       if (no_memory == 0) allocate (self%newest(self%n), source=0_ip, stat=no_memory)
       if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the sparse matrix')
    end subroutine create_sparse
@@ -147,11 +155,37 @@ contains
       integer(ip), intent(in) :: equations(:)
       real(wp), intent(in) :: matrix(:, :)
 
-      if (self%entries + size(equations, kind=lp)**2 > size(self%instance%mumps%irn, kind=lp)) call make_room(self, size(equations))
-      associate (mumps => self%instance%mumps)
-         call add_lower(equations, matrix, self%newest, self%entries, mumps%irn, mumps%a, mumps%jcn)
+      integer(lp) :: most
+      integer :: no_memory
+
+      most = self%entries + size(equations, kind=lp)**2
+      associate (instance => self%instance)
+         if (most > size(instance%row, kind=lp)) call take_room(instance, 2*most, no_memory)
+         call add_lower(equations, matrix, self%newest, self%entries, instance%row, instance%values, instance%column)
       end associate
    end subroutine add_to_sparse
+
+   !> Room for entries, those that are there kept. What is never touched takes no memory.
+   subroutine take_room(instance, length, no_memory)
+      type(instance_t), intent(inout) :: instance
+      integer(lp), intent(in) :: length
+      integer, intent(out) :: no_memory            !< 0: there is room
+      integer(ip), allocatable :: row(:), column(:)
+      real(wp), allocatable :: values(:)
+      integer(lp) :: n
+
+      allocate (row(length), column(length), values(length), stat=no_memory)
+      if (no_memory /= 0) return
+      if (allocated(instance%row)) then
+         n = size(instance%row, kind=lp)
+         row(:n) = instance%row
+         column(:n) = instance%column
+         values(:n) = instance%values
+      end if
+      call move_alloc(row, instance%row)
+      call move_alloc(column, instance%column)
+      call move_alloc(values, instance%values)
+   end subroutine take_room
 
    !> Adds the lower triangle of an element to the lists of its columns.
    pure subroutine add_lower(equations, matrix, newest, entries, row, values, next)
@@ -187,27 +221,6 @@ contains
       end do
    end subroutine add_lower
 
-   !> Longer lists, for matrices that the profile did not announce.
-   subroutine make_room(self, order)
-      class(sparse_t), intent(inout) :: self
-      integer, intent(in) :: order                 !< of the matrix to come
-      integer(ip), pointer :: irn(:), jcn(:)
-      real(wp), pointer :: a(:)
-      integer(lp) :: length
-
-      length = 2*size(self%instance%mumps%irn, kind=lp) + int(order, lp)**2
-      allocate (irn(length), jcn(length), a(length))
-      associate (mumps => self%instance%mumps, n => self%entries)
-         irn(:n) = mumps%irn(:n)
-         jcn(:n) = mumps%jcn(:n)
-         a(:n) = mumps%a(:n)
-         deallocate (mumps%irn, mumps%jcn, mumps%a)
-         mumps%irn => irn
-         mumps%jcn => jcn
-         mumps%a => a
-      end associate
-   end subroutine make_room
-
    subroutine factor_sparse(self, status)
       class(sparse_t), intent(inout) :: self
       type(status_t), intent(out) :: status
@@ -230,24 +243,25 @@ contains
          end if
          call judge_pivots(self, status)
       end if
-      if (.not. associated(self%instance)) return
-      associate (mumps => self%instance%mumps)
-         deallocate (mumps%irn, mumps%jcn, mumps%a)    ! MUMPS wants them no more
-      end associate
+      deallocate (self%instance%row, self%instance%column, self%instance%values)    ! MUMPS wants them no more
+      nullify (self%instance%mumps%irn, self%instance%mumps%jcn, self%instance%mumps%a)
    end subroutine factor_sparse
 
    !> Turns the lists into coordinates, in place, and scales them. `empty`: an interior equation without stiffness, else 0.
-   pure subroutine finish_lists(self, empty)
+   subroutine finish_lists(self, empty)
       class(sparse_t), intent(inout) :: self
       integer(ip), intent(out) :: empty
 
       if (allocated(self%scale)) deallocate (self%scale)
       allocate (self%scale(self%n))
-      associate (mumps => self%instance%mumps)
-         call walk_lists(self%newest, self%n - self%n_kept, mumps%irn, mumps%a, mumps%jcn, self%scale, empty)
-         call scale_entries(int(self%entries, lp), self%scale, mumps%irn, mumps%jcn, mumps%a)
+      associate (mumps => self%instance%mumps, instance => self%instance)
+         call walk_lists(self%newest, self%n - self%n_kept, instance%row, instance%values, instance%column, self%scale, empty)
+         call scale_entries(int(self%entries, lp), self%scale, instance%row, instance%column, instance%values)
          mumps%n = self%n
          mumps%nnz = int(self%entries, lp)
+         mumps%irn => self%instance%row
+         mumps%jcn => self%instance%column
+         mumps%a => self%instance%values
       end associate
       deallocate (self%newest)
    end subroutine finish_lists
@@ -556,21 +570,12 @@ contains
 
       if (.not. associated(self%instance)) return
       associate (mumps => self%instance%mumps)
-         call free(mumps%irn)
-         call free(mumps%jcn)
-         if (associated(mumps%a)) deallocate (mumps%a)
-         if (associated(mumps%schur)) deallocate (mumps%schur)
-         call free(mumps%listvar_schur)
+         nullify (mumps%irn, mumps%jcn, mumps%a)       ! of the instance, and go with it
+         if (associated(mumps%schur)) deallocate (mumps%schur, mumps%listvar_schur)
       end associate
       call run(self, FINISH)
       deallocate (self%instance)
       if (allocated(self%newest)) deallocate (self%newest)
    end subroutine free_instance
-
-   subroutine free(array)
-      integer, pointer, intent(inout) :: array(:)
-
-      if (associated(array)) deallocate (array)
-   end subroutine free
 
 end module atrito_mumps

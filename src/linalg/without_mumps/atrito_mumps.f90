@@ -7,7 +7,7 @@ module atrito_mumps
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: sparse_t, has_mumps, mumps_name
+   public :: sparse_t, has_mumps, mumps_name, mumps_trouble
 
    type, extends(storage_t) :: sparse_t
    contains
@@ -30,15 +30,21 @@ contains
    pure function mumps_name() result(name)
       character(len=:), allocatable :: name
 
-      name = 'this build has no MUMPS'
+      name = 'no MUMPS'
    end function mumps_name
+
+   pure function mumps_trouble() result(text)
+      character(len=:), allocatable :: text
+
+      text = 'this build has none'
+   end function mumps_trouble
 
    subroutine create_sparse(self, profile, status)
       class(sparse_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
       type(status_t), intent(out) :: status
 
-      call set_status(status, STATUS_INTERNAL, mumps_name())
+      call set_status(status, STATUS_INTERNAL, 'the sparse solver needs MUMPS, and '//mumps_trouble())
    end subroutine create_sparse
 
    subroutine add_to_sparse(self, equations, matrix)
@@ -51,7 +57,7 @@ contains
       class(sparse_t), intent(inout) :: self
       type(status_t), intent(out) :: status
 
-      call set_status(status, STATUS_INTERNAL, mumps_name())
+      call set_status(status, STATUS_INTERNAL, 'the sparse solver needs MUMPS, and '//mumps_trouble())
    end subroutine factor_sparse
 
    subroutine get_sparse_schur(self, schur)
