@@ -30,6 +30,7 @@ module atrito_mumps
       type(dmumps_struc) :: mumps
       integer(ip), allocatable :: row(:), column(:)
       real(wp), allocatable :: values(:)
+      integer(ip), allocatable :: place(:)       !< (n) of the equations in the elimination; not allocated: MUMPS decides
       real(wp), allocatable :: reduced(:, :)     !< (n_interior, loads) the load whose half-solved part MUMPS holds
    end type instance_t
 
@@ -145,6 +146,7 @@ contains
          call run(self, BEGIN)
          call set_controls(self)
       end associate
+      if (allocated(profile%place)) self%instance%place = profile%place
       call take_room(self%instance, profile%entries, no_memory)
       if (no_memory == 0) allocate (self%newest(self%n), source=0_ip, stat=no_memory)
       if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the sparse matrix')
@@ -244,7 +246,8 @@ contains
          call judge_pivots(self, status)
       end if
       deallocate (self%instance%row, self%instance%column, self%instance%values)    ! MUMPS wants them no more
-      nullify (self%instance%mumps%irn, self%instance%mumps%jcn, self%instance%mumps%a)
+      if (allocated(self%instance%place)) deallocate (self%instance%place)
+      nullify (self%instance%mumps%irn, self%instance%mumps%jcn, self%instance%mumps%a, self%instance%mumps%perm_in)
    end subroutine factor_sparse
 
    !> Turns the lists into coordinates, in place, and scales them. `empty`: an interior equation without stiffness, else 0.
@@ -262,6 +265,10 @@ contains
          mumps%irn => self%instance%row
          mumps%jcn => self%instance%column
          mumps%a => self%instance%values
+         if (allocated(instance%place)) then
+            mumps%perm_in => self%instance%place
+            mumps%icntl(7) = 1                    ! the order that is given
+         end if
       end associate
       deallocate (self%newest)
    end subroutine finish_lists
@@ -357,7 +364,7 @@ contains
       associate (icntl => self%instance%mumps%icntl)
          icntl(1:4) = 0                           ! prints nothing
          icntl(6) = 0                             ! no column permutation
-         icntl(7) = 0                             ! approximate minimum degree, the cheapest analysis (docs/developer)
+         icntl(7) = 0                             ! approximate minimum degree where no order is given
          icntl(8) = 0                             ! scaled already
          icntl(12) = 1                            ! the plain symmetric analysis
       end associate
@@ -570,7 +577,7 @@ contains
 
       if (.not. associated(self%instance)) return
       associate (mumps => self%instance%mumps)
-         nullify (mumps%irn, mumps%jcn, mumps%a)       ! of the instance, and go with it
+         nullify (mumps%irn, mumps%jcn, mumps%a, mumps%perm_in)    ! of the instance, and go with it
          if (associated(mumps%schur)) deallocate (mumps%schur, mumps%listvar_schur)
       end associate
       call run(self, FINISH)

@@ -17,6 +17,8 @@ module atrito_profile
       integer(ip) :: n_kept = 0                 !< the last n_kept equations are kept
       integer(ip), allocatable :: first(:)      !< (n) row of the first entry of column j, 1 <= first(j) <= j
       integer(lp) :: entries = 0                !< of the lower triangles of all element matrices
+      integer(ip), allocatable :: place(:)      !< (n) of each equation in the elimination by the sparse solver, the kept ones
+                                                !< last in their order; not allocated: it looks for an order itself
    end type profile_t
 
    !> Columns that the banded storage eliminates at a time from the kept block; it pads the band by as many rows.

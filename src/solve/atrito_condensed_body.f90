@@ -6,7 +6,7 @@
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body
-   use atrito_bodies, only: mode_at
+   use atrito_bodies, only: mode_at, elimination_places
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
    use atrito_mumps, only: has_mumps
    use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
@@ -112,6 +112,7 @@ contains
       end if
       call body_profile(fem, i_body, profile)
       call choose_storage(profile, asked, kind, result)
+      if (kind == STORAGE_SPARSE) profile%place = elimination_places(fem%mesh, fem%bodies, i_body)
       call new_storage(kind, body%storage)
       call body%storage%create(profile, status)
       if (.not. is_ok(status)) return
