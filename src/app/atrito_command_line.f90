@@ -1,6 +1,7 @@
 !> The command line, docs/user/running.md: what is to be done, with which options.
 module atrito_command_line
    use atrito_kinds, only: ip, wp
+   use atrito_mumps, only: has_mumps, mumps_trouble
    use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
    use atrito_files, only: file_exists
@@ -400,7 +401,7 @@ contains
       case ('--reference')
          text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
       case ('--solver')
-         text = 'auto, skyline or banded'
+         text = 'auto, skyline, banded or sparse'
       case ('--threads')
          text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
       case ('--digits')
@@ -443,16 +444,24 @@ contains
       type(message_t), intent(inout) :: error
 
       ok = .false.
-      if (value == 'sparse') then
-         error = wrong('--solver sparse is not built yet in this version', expected=value_text('--solver'))
-      else if (.not. any(SOLVERS == value)) then
+      if (.not. any(SOLVERS == value)) then
          error = wrong('unknown solver '//value, expected=value_text('--solver'), &
                        nearest=nearest_names(value, string_list(SOLVERS), 2))
+      else if (.not. is_there(value)) then
+         error = wrong('--solver sparse needs MUMPS, and '//mumps_trouble(), expected='auto, skyline or banded')
       else
          command%solver = value
          ok = .true.
       end if
    end subroutine take_solver
+
+   !> The sparse solver is in a library, which is looked for when it is asked for.
+   logical function is_there(solver)
+      character(len=*), intent(in) :: solver
+
+      is_there = .true.
+      if (solver == 'sparse') is_there = has_mumps()
+   end function is_there
 
    subroutine take_integer(text, least, most, value, ok)
       character(len=*), intent(in) :: text

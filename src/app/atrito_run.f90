@@ -20,7 +20,7 @@ module atrito_run
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: results_t
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED
+   use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
    use atrito_timers, only: start_phase, stop_phase
@@ -194,6 +194,7 @@ contains
       options%storage_kind = SOLVER_AUTO
       if (command%solver == 'skyline') options%storage_kind = SOLVER_SKYLINE
       if (command%solver == 'banded') options%storage_kind = SOLVER_BANDED
+      if (command%solver == 'sparse') options%storage_kind = SOLVER_SPARSE
       options%threads = command%threads
    end function solve_options
 
