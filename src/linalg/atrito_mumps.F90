@@ -429,7 +429,8 @@ contains
       end if
       allocate (x(self%n, 1))
       x = 0.0_wp
-      x(:n_interior, 1) = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, n_interior)]   ! no symmetry to be missed
+      ! no symmetry to be missed
+      x(:n_interior, 1) = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, n_interior)]
       do i = 1, 3
          x = x/maxval(abs(x))
          call solve_with(self, INTERIOR_ALONE, x)
