@@ -1,5 +1,5 @@
-!> Which points keep a run from converging: those whose state changes from one outer iteration to the next, and where none does, the
-!> one whose friction bound changes most.
+!> Which points keep a run from converging: those whose state changed in the last outer iteration, or more than once in the last
+!> ones; where there is none, the one whose friction bound is off most.
 module atrito_chatter
    use atrito_contact_line, only: contact_line_t, friction_bound
    use atrito_contact_rows, only: contact_rows_t
@@ -44,14 +44,17 @@ contains
       end if
    end subroutine report_chatter
 
-   !> Normal unknowns whose state changed, by the number of changes.
+   !> Normal unknowns that find no rest, by the number of their changes. One that has changed once and stayed has settled.
    pure function restless_points(states) result(order)
       integer(ip), intent(in) :: states(:, :)       !< (n_normal, outer iterations)
       integer(ip), allocatable :: order(:)
       integer(ip) :: changes(size(states, 1)), i, j
 
       do i = 1, size(states, 1, kind=ip)
-         changes(i) = count(states(i, 2:) /= states(i, :size(states, 2) - 1), kind=ip)
+         associate (own => states(i, :), n => size(states, 2))
+            changes(i) = count(own(2:) /= own(:n - 1), kind=ip)
+            if (changes(i) == 1 .and. own(n) == own(max(n - 1, 1))) changes(i) = 0
+         end associate
       end do
       allocate (order(0))
       do j = size(states, 2, kind=ip) - 1, 1, -1

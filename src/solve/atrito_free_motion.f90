@@ -67,12 +67,12 @@ contains
          moved = matmul(problem%g, a)/scale
          forces%load = dot_product(problem%h, a)/scale
       end associate
-      p = max(pressure_of(line, solution%state%q), 0.0_wp)
+      p = pressure_of(line, solution%state%q)        ! tensions too: N is what equilibrium asks for
       tau = friction_bound(line, p)
       opening = 0.0_wp
       do i = 1, problem%n_normal
          j = line%point(i)
-         if (solution%state%state(i) /= FREE .or. p(j) <= 0.0_wp) cycle
+         if (solution%state%state(i) /= FREE) cycle
          forces%n_closed = forces%n_closed + 1
          opening = max(opening, abs(moved(i)))
          t = line%tangential(j)
@@ -94,7 +94,8 @@ contains
          text = 'the load turns it with '//amount(forces%load, .true.)//' about that point, and no pressure there holds it'
       else if (forces%slides .and. line%has_friction) then
          text = 'it slides, the load drives it with H = '//amount(forces%load, .false.)//' and friction holds nu times N = ' &
-                //amount(forces%friction, .false.)//' at most (N = '//amount(forces%normal, .false.)//')'
+                //amount(forces%friction, .false.)//' at most (N = '//amount(forces%normal, .false.) &
+                //trim(merge(')                              ', ', its pressure averaged by rho)', line%average%is_identity))
       else if (forces%slides) then
          text = 'it slides, the load drives it with H = '//amount(forces%load, .false.)//' and there is no friction'
       else
