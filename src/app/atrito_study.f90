@@ -5,7 +5,7 @@ module atrito_study
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, is_nan
    use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_messages, only: clear_messages
    use atrito_numbers, only: read_real, NUMBER_OK
@@ -163,9 +163,9 @@ contains
          row%values(i) = amount(summary, study%quantities(i)%name)
       end do
       row%estimate = amount(summary, 'error_estimate_percent')
-      row%penetration = amount(summary, 'max_penetration')
-      row%slip = amount(summary, 'max_abs_slip')
-      row%pressure = amount(summary, 'max_pressure')
+      row%penetration = amount_or_0(summary, 'max_penetration')
+      row%slip = amount_or_0(summary, 'max_abs_slip')
+      row%pressure = amount_or_0(summary, 'max_pressure')
    end subroutine make_run
 
    pure integer(ip) function shape_of(element)
@@ -175,6 +175,15 @@ contains
       if (index(element, '4') > 0) shape_of = Q1_NODES
       if (index(element, '9') > 0) shape_of = Q2_NODES
    end function shape_of
+
+   !> 0 in a scene without contact.
+   pure real(wp) function amount_or_0(summary, name) result(x)
+      type(sweep_run_t), intent(in) :: summary
+      character(len=*), intent(in) :: name
+
+      x = amount(summary, name)
+      if (is_nan(x)) x = 0.0_wp
+   end function amount_or_0
 
    !> A quantity of the first pair, or of the step; nan where the summary has none.
    pure real(wp) function amount(summary, name)
