@@ -35,19 +35,32 @@ found_hdf5() {
 # Installs what is missing; nothing to do is nothing said, and no network is needed then.
 install_missing() {
    packages=$(missing_packages)
-   command -v gnuplot >/dev/null 2>&1 || install_gnuplot
+   optional=$(missing_optional)
+   [ -z "$optional" ] || install_optional
    [ -z "$packages" ] || install_packages "$packages"
 }
 
-# gnuplot draws the pictures of --plot and is needed for nothing else: it comes along with the other packages, else it is tried
-# once, and without it the build goes on.
-install_gnuplot() {
+# gnuplot draws the pictures of --plot, MUMPS factors large bodies; neither is needed for anything else.
+missing_optional() {
+   command -v gnuplot >/dev/null 2>&1 || printf ' gnuplot-nox'
+   found_mumps || printf ' libmumps-seq-dev'
+}
+
+found_mumps() {
+   for folder in /usr/include /usr/include/* /usr/local/include; do
+      [ -e "$folder/dmumps_struc.h" ] && return 0
+   done
+   return 1
+}
+
+# They come along with the other packages, else they are tried once, and without them the build goes on.
+install_optional() {
    if [ -n "$packages" ]; then
-      packages="$packages gnuplot-nox"
-   elif [ ! -e "$top/build/gnuplot-tried" ]; then
+      packages="$packages$optional"
+   elif [ "$(cat "$top/build/optional-tried" 2>/dev/null)" != "$optional" ]; then
       mkdir -p "$top/build"
-      : >"$top/build/gnuplot-tried"
-      (install_packages ' gnuplot-nox') || say "without gnuplot --plot writes its scripts, but no pictures"
+      printf '%s\n' "$optional" >"$top/build/optional-tried"
+      (install_packages "$optional") || say "without$optional there are no pictures, or no sparse solver"
    fi
 }
 

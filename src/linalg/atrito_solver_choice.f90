@@ -1,14 +1,17 @@
 !> The solvers for the bodies by kind.
 module atrito_solver_choice
    use atrito_banded, only: banded_t
+   use atrito_mumps, only: sparse_t
    use atrito_skyline, only: skyline_t
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: new_storage, STORAGE_SKYLINE, STORAGE_BANDED
+   public :: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
 
    integer, parameter :: STORAGE_SKYLINE = 1
    integer, parameter :: STORAGE_BANDED = 2
+   integer, parameter :: STORAGE_SPARSE = 3
+   integer, parameter :: N_STORAGES = 3
 
 contains
 
@@ -22,7 +25,18 @@ contains
          allocate (skyline_t :: storage)
       case (STORAGE_BANDED)
          allocate (banded_t :: storage)
+      case (STORAGE_SPARSE)
+         allocate (sparse_t :: storage)
       end select
    end subroutine new_storage
+
+   !> 'skyline', 'banded' or 'sparse'.
+   pure function storage_name(kind) result(name)
+      integer, intent(in) :: kind                                !< one of STORAGE_*
+      character(len=:), allocatable :: name
+      character(len=7), parameter :: NAMES(N_STORAGES) = ['skyline', 'banded ', 'sparse ']
+
+      name = trim(NAMES(kind))
+   end function storage_name
 
 end module atrito_solver_choice

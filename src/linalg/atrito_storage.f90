@@ -13,7 +13,7 @@ module atrito_storage
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: storage_t, pivot_report_t, note_pivot, set_pivot_status
+   public :: storage_t, pivot_report_t, note_pivot, set_pivot_status, SMALLEST_RATIO, ALL_DIGITS
 
    !> What the pivots of a factorisation tell.
    type :: pivot_report_t

@@ -3,10 +3,11 @@ module atrito_bodies
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_dense, only: null_space
+   use atrito_dissection, only: dissect
    use atrito_ordering, only: graph_t, build_graph, connected_components, order_contact_last
    implicit none (type, external)
    private
-   public :: body_t, bodies_t, find_bodies, number_equations, find_rigid_modes, element_equations, mode_at
+   public :: body_t, bodies_t, find_bodies, number_equations, elimination_places, find_rigid_modes, element_equations, mode_at
 
    type :: body_t
       character(len=:), allocatable :: name
@@ -81,20 +82,12 @@ contains
       integer(ip), intent(in) :: i_body
       logical, intent(in) :: held(:, :)             !< (2, n_nodes): prescribed dofs
       integer(ip), intent(in) :: contact_nodes(:)   !< of this body, each once
-      integer(ip), allocatable :: local(:), connectivity(:, :), order(:)
+      integer(ip), allocatable :: local(:), order(:)
       type(graph_t) :: graph
       integer(ip) :: i, dof, node
 
       associate (body => bodies%list(i_body))
-         allocate (local(mesh%n_nodes), source=0_ip)
-         local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
-         allocate (connectivity(size(mesh%nodes, 1), size(body%elements)))
-         do i = 1, size(body%elements, kind=ip)
-            connectivity(:, i) = 0
-            connectivity(:mesh%shape(body%elements(i)), i) = &
-               local(mesh%nodes(:mesh%shape(body%elements(i)), body%elements(i)))
-         end do
-         call build_graph(size(body%nodes, kind=ip), connectivity, graph)
+         call body_graph(mesh, body, local, graph)
          allocate (order(size(body%nodes)))
          call order_contact_last(graph, local(contact_nodes), order)
          body%nodes = body%nodes(order)
@@ -112,6 +105,69 @@ contains
          end do
       end associate
    end subroutine number_equations
+
+   !> The graph of a body's nodes, numbered by their places in body%nodes.
+   pure subroutine body_graph(mesh, body, local, graph)
+      type(mesh_t), intent(in) :: mesh
+      type(body_t), intent(in) :: body
+      integer(ip), allocatable, intent(out) :: local(:)   !< (n_nodes) place of a node in body%nodes
+      type(graph_t), intent(out) :: graph
+      integer(ip), allocatable :: connectivity(:, :)
+      integer(ip) :: i
+
+      allocate (local(mesh%n_nodes), source=0_ip)
+      local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
+      allocate (connectivity(size(mesh%nodes, 1), size(body%elements)))
+      do i = 1, size(body%elements, kind=ip)
+         connectivity(:, i) = 0
+         connectivity(:mesh%shape(body%elements(i)), i) = local(mesh%nodes(:mesh%shape(body%elements(i)), body%elements(i)))
+      end do
+      call build_graph(size(body%nodes, kind=ip), connectivity, graph)
+   end subroutine body_graph
+
+   !> Where in the elimination the sparse solver takes each equation: nested dissection of the nodes, the kept equations last.
+   pure function elimination_places(mesh, bodies, i_body) result(place)
+      type(mesh_t), intent(in) :: mesh
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: i_body
+      integer(ip), allocatable :: place(:)          !< (n)
+      type(graph_t) :: graph
+      integer(ip), allocatable :: local(:), nodes(:)
+      integer(ip) :: i, dof, k, next
+
+      associate (body => bodies%list(i_body))
+         call body_graph(mesh, body, local, graph)
+         deallocate (local)
+         nodes = pack([(i, i=1, size(body%nodes, kind=ip))], is_eliminated(bodies, body))
+         call dissect(graph, mesh%x(:, body%nodes), nodes)
+         allocate (place(body%n))
+         next = 0
+         do i = 1, size(nodes, kind=ip)
+            do dof = 1, 2
+               k = bodies%equation(dof, body%nodes(nodes(i)))
+               if (k == 0) cycle
+               next = next + 1
+               place(k) = next
+            end do
+         end do
+         do k = body%n - body%n_kept + 1, body%n
+            place(k) = k
+         end do
+      end associate
+   end function elimination_places
+
+   !> Which of a body's nodes have equations that are not kept.
+   pure function is_eliminated(bodies, body) result(eliminated)
+      type(bodies_t), intent(in) :: bodies
+      type(body_t), intent(in) :: body
+      logical :: eliminated(size(body%nodes))
+      integer(ip) :: i
+
+      do i = 1, size(body%nodes, kind=ip)
+         eliminated(i) = any(bodies%equation(:, body%nodes(i)) > 0) .and. &
+                         all(bodies%equation(:, body%nodes(i)) <= body%n - body%n_kept)
+      end do
+   end function is_eliminated
 
    !> The rigid motions that the supports of a body leave free: the null space of the prescribed dofs' motions.
    subroutine find_rigid_modes(mesh, body, held)

@@ -34,34 +34,37 @@ contains
    !> Cards are read by subject, not by place: a section may stand before the elements of its set. Only nodes, elements and sets
    !> are made in the order of the deck, since they follow from each other.
    !>
-   !> With levels > 0 every element is refined into 4**levels. The model is built without it first: what is wrong with a deck is
-   !> told of the elements that stand in it.
-   subroutine build_model(deck, model, levels, memory)
+   !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
+   !> built without it first: what is wrong with a deck is told of the elements that stand in it.
+   subroutine build_model(deck, model, levels, memory, shape)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
       integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
+      integer(ip), intent(in), optional :: shape       !< Q1_NODES or Q2_NODES of all elements; default 0: as in the deck
       type(message_mark_t) :: mark
       integer(lp) :: limit
-      logical :: refined
+      integer(ip) :: depth, kind
 
       if (present(memory)) then
          limit = memory
       else
          limit = available_memory()
       end if
-      refined = .false.
-      if (present(levels)) refined = levels > 0
+      depth = 0
+      if (present(levels)) depth = levels
+      kind = 0
+      if (present(shape)) kind = shape
       mark = mark_messages()
-      call build_once(deck, 0_ip, limit, model)
-      if (.not. refined .or. has_errors()) return
+      call build_once(deck, 0_ip, 0_ip, limit, model)
+      if (has_errors() .or. (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)))) return
       call forget_messages(mark)
-      call build_once(deck, levels, limit, model)
+      call build_once(deck, depth, kind, limit, model)
    end subroutine build_model
 
-   subroutine build_once(deck, levels, memory, model)
+   subroutine build_once(deck, levels, shape, memory, model)
       type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: levels
+      integer(ip), intent(in) :: levels, shape
       integer(lp), intent(in) :: memory
       type(model_t), intent(out) :: model
       type(draft_t) :: draft
@@ -74,7 +77,7 @@ contains
       call build_elements(deck, model, draft)
       call trim_mesh(model%mesh)
       draft%around = list_node_elements(model%mesh)
-      if (levels > 0) call refine_model(deck, levels, model, draft)
+      if (levels > 0 .or. shape > 0) call refine_model(deck, levels, shape, model, draft)
       call build_surfaces(deck, model, draft)
       call build_materials(deck, model, draft)
       call build_contact(deck, model, draft)

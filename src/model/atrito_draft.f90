@@ -15,7 +15,7 @@ module atrito_draft
    use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, add_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_refinement, only: refinement_t, fine_elements
+   use atrito_refinement, only: refinement_t, fine_elements, is_refined
    use atrito_sets, only: set_list_t, find_set, set_names
    use atrito_strings, only: string_t, same_name, to_text
    implicit none (type, external)
@@ -49,7 +49,7 @@ module atrito_draft
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
       logical, allocatable :: card_done(:)             !< *NSET cards all of whose members are known
       type(node_elements_t) :: around                  !< elements round each node
-      type(refinement_t) :: refinement                 !< how the mesh came from that of the deck; pieces = 1: it is that
+      type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
       logical, allocatable :: elastic_given(:), elastic_spoiled(:)  !< for each material
@@ -354,7 +354,7 @@ contains
       element = 0
       call get_id(deck, token, 'element number', id, ok, keyword)
       if (.not. ok) return
-      if (draft%refinement%pieces > 1) then
+      if (is_refined(draft%refinement)) then
          element = find_id(draft%deck_elements, id)
       else
          element = find_element(model%mesh, id)
@@ -413,7 +413,7 @@ contains
       if (is_id_token(deck, token)) then
          call find_one_element(deck, model, draft, token, element, ok, keyword)
          if (ok) members = [element]
-         if (ok .and. draft%refinement%pieces > 1) members = fine_elements(draft%refinement, members)
+         if (ok .and. is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
       else
          call find_members(deck, model%element_sets, draft, token, 'element', members, ok, keyword)
       end if

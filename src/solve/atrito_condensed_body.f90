@@ -6,14 +6,17 @@
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
-   use atrito_bodies, only: mode_at
+   use atrito_bodies, only: mode_at, elimination_places
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
-   use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, skyline_bytes, banded_bytes
+   use atrito_mumps, only: has_mumps
+   use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
+                             skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: new_storage, STORAGE_SKYLINE, STORAGE_BANDED
+   use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_storage, only: storage_t
    use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
    public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, expand_body, motion_text
@@ -24,8 +27,14 @@ module atrito_condensed_body
       real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
    end type condensed_body_t
 
-   !> Floating point operations that LAPACK's band routines do in the time of one of the skyline's.
+   !> Floating-point operations that LAPACK's band routines do in the time of one of the skyline's.
    real(wp), parameter :: BAND_SPEED = 3.0_wp
+   !> The same of MUMPS on the dense blocks of a large body.
+   real(wp), parameter :: SPARSE_SPEED = 3.0_wp
+   !> Equations from which on a body is handed to MUMPS unasked. It pays from a tenth of that on: docs/performance.md.
+   integer(ip), parameter :: LEAST_SPARSE = 50000_ip
+   !> What MUMPS's analysis and assembly take for an equation, in operations of the skyline.
+   real(wp), parameter :: SPARSE_OVERHEAD = 4000.0_wp
 
 contains
 
@@ -35,26 +44,54 @@ contains
       integer, intent(in) :: asked                 !< STORAGE_* or 0 for the choice
       integer, intent(out) :: kind
       type(body_result_t), intent(inout) :: result
-      real(wp) :: skyline, banded
+      real(wp) :: cost(N_STORAGES)
+      integer :: second
 
-      skyline = skyline_flops(profile)
-      banded = banded_flops(profile)/BAND_SPEED
+      cost = predict_costs(profile)
       if (asked /= 0) then
          kind = asked
          result%reason = 'asked for'
-      else if (skyline <= banded) then
-         kind = STORAGE_SKYLINE
-         result%reason = 'predicted cost '//ratio_text(banded, skyline)//' of banded'
       else
-         kind = STORAGE_BANDED
-         result%reason = 'predicted cost '//ratio_text(skyline, banded)//' of skyline'
+         kind = minloc(cost, dim=1)
+         if (kind == STORAGE_SPARSE) then
+            if (profile%n < LEAST_SPARSE) kind = minloc(cost(:STORAGE_BANDED), dim=1)
+         end if
+         if (kind == STORAGE_SPARSE) then
+            if (.not. has_mumps()) kind = minloc(cost(:STORAGE_BANDED), dim=1)
+         end if
+         second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
+         result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
       end if
-      result%storage = trim(merge('skyline', 'banded ', kind == STORAGE_SKYLINE))
-      result%profile = profile_length(profile)
+      result%storage = storage_name(kind)
       result%half_bandwidth = half_bandwidth(profile)
-      result%memory = merge(skyline_bytes(profile), banded_bytes(profile), kind == STORAGE_SKYLINE) &
-                      + 8_lp*int(profile%n_kept, lp)**2
+      result%profile = profile_length(profile)
+      if (kind == STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
+      result%memory = predict_memory(profile, kind) + 8_lp*int(profile%n_kept, lp)**2
    end subroutine choose_storage
+
+   !> Predicted cost of every storage, in operations of the skyline: nothing that depends on the machine.
+   pure function predict_costs(profile) result(cost)
+      type(profile_t), intent(in) :: profile
+      real(wp) :: cost(N_STORAGES)
+
+      cost(STORAGE_SKYLINE) = skyline_flops(profile)
+      cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED
+      cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp)
+   end function predict_costs
+
+   pure integer(lp) function predict_memory(profile, kind) result(bytes)
+      type(profile_t), intent(in) :: profile
+      integer, intent(in) :: kind
+
+      select case (kind)
+      case (STORAGE_SKYLINE)
+         bytes = skyline_bytes(profile)
+      case (STORAGE_BANDED)
+         bytes = banded_bytes(profile)
+      case default
+         bytes = sparse_bytes(profile)
+      end select
+   end function predict_memory
 
    function ratio_text(other, own) result(text)
       real(wp), intent(in) :: other, own
@@ -81,10 +118,25 @@ contains
       end if
       call body_profile(fem, i_body, profile)
       call choose_storage(profile, asked, kind, result)
+      if (kind == STORAGE_SPARSE) profile%place = elimination_places(fem%mesh, fem%bodies, i_body)
       call new_storage(kind, body%storage)
+      call start_phase('assemble')
       call body%storage%create(profile, status)
+      if (is_ok(status)) call assemble_body(fem, i_body, body%storage)
+      call stop_phase('assemble')
       if (.not. is_ok(status)) return
-      call assemble_body(fem, i_body, body%storage)
+      call start_phase('factor')
+      call factor_body(fem, i_body, body, result, status)
+      call stop_phase('factor')
+   end subroutine condense_body
+
+   subroutine factor_body(fem, i_body, body, result, status)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(inout) :: body
+      type(body_result_t), intent(inout) :: result
+      type(status_t), intent(out) :: status
+
       call body%storage%factor(status)
       call report_pivots(fem, i_body, body%storage, result)
       if (.not. is_ok(status)) then
@@ -95,7 +147,7 @@ contains
       end if
       call factor_contact(fem, i_body, body, status)
       if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result)
-   end subroutine condense_body
+   end subroutine factor_body
 
    subroutine report_pivots(fem, i_body, storage, result)
       type(fem_t), intent(in) :: fem

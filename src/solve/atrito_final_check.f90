@@ -51,7 +51,8 @@ contains
       end do
       force = force - f + contact
       reaction = merge(force, 0.0_wp, held)
-      equilibrium%residual = maxval(abs(force), mask=.not. held)
+      ! of no free row at all maxval would be -huge
+      equilibrium%residual = max(0.0_wp, maxval(abs(force), mask=.not. held))
       equilibrium%largest_force = max(maxval(abs(f)), maxval(abs(contact)), maxval(abs(reaction)))
       equilibrium%round_off = maxval(size_of_force)
       equilibrium%holds = equilibrium%residual <= FORCE_TOLERANCE*equilibrium%largest_force &

@@ -28,16 +28,18 @@ module atrito_solve
    use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_scene_memory, only: check_memory, check_average_memory
    use atrito_solve_history, only: solve_history_t
-   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED
+   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
    use atrito_strings, only: to_text, append_string
    use atrito_timers, only: start_phase, stop_phase
    use atrito_uniqueness, only: estimate_contraction
    implicit none (type, external)
    private
-   public :: solve_options_t, solve_static, survey_scene, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED
+   public :: solve_options_t, solve_static, survey_scene
+   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
 
-   integer, parameter :: SOLVER_AUTO = 0, SOLVER_SKYLINE = STORAGE_SKYLINE, SOLVER_BANDED = STORAGE_BANDED
+   integer, parameter :: SOLVER_AUTO = 0, SOLVER_SKYLINE = STORAGE_SKYLINE, SOLVER_BANDED = STORAGE_BANDED, &
+                         SOLVER_SPARSE = STORAGE_SPARSE
 
    type :: solve_options_t
       integer :: storage_kind = SOLVER_AUTO
@@ -116,11 +118,9 @@ contains
       if (is_ok(status)) call check_scene(model, options, results%scene, status)
       if (is_ok(status)) call check_known_points(data, status)
       if (.not. is_ok(status)) return
-      call start_phase('factor')
       call provide_bodies(store, data%fem, data%held, data%points, free_load(data), options%storage_kind, reporter, &
                           results%scene%bodies, status)
       results%factorisations = store%factorisations
-      call stop_phase('factor')
       if (.not. is_ok(status)) return
       call start_phase('iterate')
       call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
@@ -394,7 +394,7 @@ contains
          associate (body => results%scene%bodies(b))
             if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
                               //to_text(body%worst_node)//' dof '//to_text(body%worst_dof)//' lost '//to_text(body%digits_lost, 3) &
-                                                                 //' digits: a very slender body, or one that is barely held there')
+                                        //' digits: a very slender or nearly incompressible body, or one that is barely held there')
          end associate
       end do
       if (solution%inner%condition > MUCH_LOST) call add_warning('W-DIGITS', 'the equations of the contact line lose ' &

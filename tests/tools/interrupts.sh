@@ -40,7 +40,13 @@ told() { # told FILE TEXT
    grep -q -- "$2" "$1" 2>/dev/null
 }
 
+# row WHAT EXPECTED CAME: a line for tests/extremes/print-stability.sh, which names the file in FAULT_ROWS
+row() {
+   [ -z "${FAULT_ROWS:-}" ] || echo "| $1 | exit $2 | exit $3 |" >>"$FAULT_ROWS"
+}
+
 expect_code() { # expect_code CODE WHAT: $code is CODE
+   row "$2" "$1" "$code"
    [ "$code" -eq "$1" ] || { fail "$2: exit $code, expected $1"; cat err; }
 }
 
@@ -65,9 +71,9 @@ for mode in at-once fault overflow exit; do
    "$probe" $mode old >out 2>err
    code=$?
    case $mode in
-      at-once) expect_code 143 "$mode" ;;
-      exit) expect_code 1 "$mode" ;;
-      *) expect_code 9 "$mode"; told err 'E-INTERNAL' || fail "$mode: not told" ;;
+      at-once) expect_code 143 "a signal at a moment of its own ($mode)" ;;
+      exit) expect_code 1 "an end by the run-time library ($mode)" ;;
+      *) expect_code 9 "an internal fault ($mode)"; told err 'E-INTERNAL' || fail "$mode: not told" ;;
    esac
    same_files before old "probe $mode"
    "$probe" $mode new/er >out 2>err
@@ -78,7 +84,7 @@ for mode in put-off commit; do
    fresh
    "$probe" $mode old >out 2>err
    code=$?
-   expect_code 143 "$mode"
+   expect_code 143 "a signal while files are renamed ($mode)"
    [ "$(cat old/a old/b)" = 'new
 new' ] || fail "probe $mode: not all files are new"
    no_parts old "probe $mode"
@@ -139,6 +145,24 @@ writing kept
 same_files first kept 'SIGTERM while writing'
 writing some/where/new
 [ ! -e some ] || fail 'SIGTERM while writing: the new folders are left'
+
+# SIGKILL leaves temporary files, which the next run removes, whether or not it writes these tables
+for n in 20000 80000 320000; do
+   strip $n
+   "$atrito" strip.inp -o killed --quiet --digits 17 2>err >out &
+   run=$!
+   await $run test -e killed/stress.tab.part
+   kill -KILL $run 2>/dev/null
+   wait $run 2>/dev/null
+   parts killed && break
+   rm -rf killed
+done
+parts killed || fail 'SIGKILL while writing: no temporary file was seen'
+strip 20
+sed -i.bak '/^\*EL PRINT/,/^S$/d' strip.inp
+"$atrito" strip.inp -o killed --quiet || fail "after SIGKILL: exit $?"
+no_parts killed 'after SIGKILL'
+[ -f killed/nodes.tab ] && [ ! -e killed/stress.tab ] || fail 'after SIGKILL: not the tables of the new run'
 
 # SIGINT: a job in the background of a script ignores it, so the run stands in the foreground and the signal comes from behind
 strip 20000

@@ -1,0 +1,589 @@
+!> The sparse solver: L D L' by MUMPS (multifrontal, sequential), with the kept equations as its Schur complement.
+!>
+!> The library is loaded when the first matrix is created, not with the program: starting would cost a millisecond more for it
+!> and for what it needs, and most scenes do without. CMake says which file that is (ATRITO_MUMPS_LIBRARY, its name with the
+!> version in it, so that the instance has the layout of the header compiled in) and its version (ATRITO_MUMPS_VERSION).
+!>
+!> The interior is scaled to a diagonal between 1/2 and 2 by powers of two, which rounds nothing: MUMPS's smallest pivot then
+!> tells the digits lost, and no unit of the deck matters. It does not tell the equation of that pivot. Where the matrix is
+!> singular, or nearly so, the equation that moves most in the softest motion is looked for by inverse iteration.
+!>
+!> Reference: P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, SIAM J. Matrix Anal. Appl. 23 (2001) 15-41; MUMPS users'
+!> guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
+module atrito_mumps
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_ptr
+   use atrito_halting, only: halting_t, suspend_halting, restore_halting
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_profile, only: profile_t
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
+   use atrito_storage, only: storage_t, pivot_report_t, ALL_DIGITS, SMALLEST_RATIO
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: sparse_t, has_mumps, mumps_name, mumps_trouble
+
+   include 'dmumps_struc.h'
+
+   !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then. The matrix is the lower
+   !> triangle; until factor it is a list a column, and column(k) the entry that follows k in its list.
+   type :: instance_t
+      type(dmumps_struc) :: mumps
+      integer(ip), allocatable :: row(:), column(:)
+      real(wp), allocatable :: values(:)
+      integer(ip), allocatable :: place(:)       !< (n) of the equations in the elimination; not allocated: MUMPS decides
+      real(wp), allocatable :: reduced(:, :)     !< (n_interior, loads) the load whose half-solved part MUMPS holds
+   end type instance_t
+
+   type, extends(storage_t) :: sparse_t
+      private
+      procedure(call_mumps), pointer, nopass :: mumps => null()
+      type(instance_t), pointer :: instance => null()
+      integer(ip), allocatable :: newest(:)      !< (n) first entry of the list of column j; 0: none
+      integer(ip) :: entries = 0                 !< of the lower triangle
+      real(wp), allocatable :: scale(:)          !< (n) of rows and columns; 1 for the kept ones
+   contains
+      procedure :: create => create_sparse
+      procedure :: add => add_to_sparse
+      procedure :: factor => factor_sparse
+      procedure :: get_schur => get_sparse_schur
+      procedure :: reduce => reduce_sparse
+      procedure :: expand => expand_sparse
+      procedure :: memory_bytes => sparse_memory
+      procedure, nopass :: name => sparse_name
+      final :: finish_sparse
+   end type sparse_t
+
+   abstract interface
+      subroutine call_mumps(instance)
+         import :: dmumps_struc
+         type(dmumps_struc), intent(inout) :: instance
+      end subroutine call_mumps
+   end interface
+
+   interface
+      type(c_ptr) function c_dlopen(file, mode) bind(C, name='dlopen')
+         import :: c_char, c_int, c_ptr
+         character(kind=c_char), intent(in) :: file(*)
+         integer(c_int), value :: mode
+      end function c_dlopen
+      type(c_funptr) function c_dlsym(library, symbol) bind(C, name='dlsym')
+         import :: c_char, c_funptr, c_ptr
+         type(c_ptr), value :: library
+         character(kind=c_char), intent(in) :: symbol(*)
+      end function c_dlsym
+   end interface
+
+   integer(c_int), parameter :: RTLD_LAZY = 1_c_int
+   ! JOB
+   integer, parameter :: BEGIN = -1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
+   ! ICNTL(26)
+   integer, parameter :: INTERIOR_ALONE = 0, CONDENSE = 1, EXPAND = 2
+   ! INFOG(1)
+   integer, parameter :: ZERO_PIVOT = -10, NO_ROOM = -9, NO_MEMORY = -13
+   !> Digits lost from which the place is worth two solves.
+   real(wp), parameter :: MANY_DIGITS = 9.0_wp
+   !> Added to the unit diagonal to find the motion that a singular matrix leaves free; far below the softest elastic one.
+   real(wp), parameter :: SHIFT = 1.0e-9_wp
+
+contains
+
+   !> Whether the library can be loaded.
+   logical function has_mumps()
+      procedure(call_mumps), pointer :: mumps
+
+      call load_mumps(mumps)
+      has_mumps = associated(mumps)
+   end function has_mumps
+
+   !> For the listing: 'MUMPS 5.5.1'.
+   pure function mumps_name() result(name)
+      character(len=:), allocatable :: name
+
+      name = 'MUMPS '//ATRITO_MUMPS_VERSION
+   end function mumps_name
+
+   !> Why there is no MUMPS, where there is none.
+   pure function mumps_trouble() result(text)
+      character(len=:), allocatable :: text
+
+      text = 'the library '//ATRITO_MUMPS_LIBRARY//' cannot be loaded'
+   end function mumps_trouble
+
+   !> Not associated where the library is not installed. Loading it again costs next to nothing.
+   subroutine load_mumps(mumps)
+      procedure(call_mumps), pointer, intent(out) :: mumps
+      type(c_ptr) :: library
+      type(c_funptr) :: routine
+
+      mumps => null()
+      library = c_dlopen(ATRITO_MUMPS_LIBRARY//c_null_char, RTLD_LAZY)
+      if (.not. c_associated(library)) return
+      routine = c_dlsym(library, 'dmumps_'//c_null_char)
+      if (c_associated(routine)) call c_f_procpointer(routine, mumps)
+   end subroutine load_mumps
+
+   subroutine create_sparse(self, profile, status)
+      class(sparse_t), intent(inout) :: self
+      type(profile_t), intent(in) :: profile
+      type(status_t), intent(out) :: status
+      integer :: no_memory
+
+      call free_instance(self)
+      self%n = profile%n
+      self%n_kept = profile%n_kept
+      self%report = pivot_report_t()
+      self%entries = 0
+      call load_mumps(self%mumps)
+      if (.not. associated(self%mumps)) then
+         call set_status(status, STATUS_INTERNAL, mumps_trouble())
+         return
+      end if
+      allocate (self%instance)
+      associate (mumps => self%instance%mumps)
+         mumps%comm = 0
+         mumps%par = 1
+         mumps%sym = 1                            ! positive definite: pivots in the order of the analysis
+         call run(self, BEGIN)
+         call set_controls(self)
+      end associate
+      if (allocated(profile%place)) self%instance%place = profile%place
+      call take_room(self%instance, profile%entries, no_memory)
+      if (no_memory == 0) allocate (self%newest(self%n), source=0_ip, stat=no_memory)
+      if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the sparse matrix')
+   end subroutine create_sparse
+
+   subroutine add_to_sparse(self, equations, matrix)
+      class(sparse_t), intent(inout) :: self
+      integer(ip), intent(in) :: equations(:)
+      real(wp), intent(in) :: matrix(:, :)
+
+      integer(lp) :: most
+      integer :: no_memory
+
+      most = self%entries + size(equations, kind=lp)**2
+      associate (instance => self%instance)
+         if (most > size(instance%row, kind=lp)) call take_room(instance, 2*most, no_memory)
+         call add_lower(equations, matrix, self%newest, self%entries, instance%row, instance%values, instance%column)
+      end associate
+   end subroutine add_to_sparse
+
+   !> Room for entries, those that are there kept. What is never touched takes no memory.
+   subroutine take_room(instance, length, no_memory)
+      type(instance_t), intent(inout) :: instance
+      integer(lp), intent(in) :: length
+      integer, intent(out) :: no_memory            !< 0: there is room
+      integer(ip), allocatable :: row(:), column(:)
+      real(wp), allocatable :: values(:)
+      integer(lp) :: n
+
+      allocate (row(length), column(length), values(length), stat=no_memory)
+      if (no_memory /= 0) return
+      if (allocated(instance%row)) then
+         n = size(instance%row, kind=lp)
+         row(:n) = instance%row
+         column(:n) = instance%column
+         values(:n) = instance%values
+      end if
+      call move_alloc(row, instance%row)
+      call move_alloc(column, instance%column)
+      call move_alloc(values, instance%values)
+   end subroutine take_room
+
+   !> Adds the lower triangle of an element to the lists of its columns.
+   pure subroutine add_lower(equations, matrix, newest, entries, row, values, next)
+      integer(ip), intent(in) :: equations(:)
+      real(wp), intent(in) :: matrix(:, :)
+      integer(ip), intent(inout) :: newest(:)
+      integer(ip), intent(inout) :: entries
+      integer(ip), intent(inout), contiguous :: row(:), next(:)
+      real(wp), intent(inout), contiguous :: values(:)
+      integer(ip) :: a, b, i, j, k
+
+      do b = 1, size(equations, kind=ip)
+         j = equations(b)
+         if (j == 0) cycle
+         do a = 1, size(equations, kind=ip)
+            i = equations(a)
+            if (i < j) cycle
+            k = newest(j)
+            do while (k /= 0)
+               if (row(k) == i) exit
+               k = next(k)
+            end do
+            if (k == 0) then
+               entries = entries + 1
+               k = entries
+               row(k) = i
+               values(k) = 0.0_wp
+               next(k) = newest(j)
+               newest(j) = k
+            end if
+            values(k) = values(k) + matrix(a, b)
+         end do
+      end do
+   end subroutine add_lower
+
+   subroutine factor_sparse(self, status)
+      class(sparse_t), intent(inout) :: self
+      type(status_t), intent(out) :: status
+      integer(ip) :: empty
+
+      self%report = pivot_report_t()
+      call finish_lists(self, empty)
+      call prepare_schur(self)
+      if (self%n == self%n_kept) then
+         call add_kept(self)
+      else if (empty > 0) then
+         self%report%worst_equation = empty
+         self%report%digits_lost = ALL_DIGITS
+         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: equation '//to_text(empty)//' is empty')
+      else
+         call run(self, ANALYSE_AND_FACTOR)
+         if (self%instance%mumps%infog(1) == NO_ROOM) then
+            self%instance%mumps%icntl(14) = 200
+            call run(self, FACTOR_AGAIN)
+         end if
+         call judge_pivots(self, status)
+      end if
+      deallocate (self%instance%row, self%instance%column, self%instance%values)    ! MUMPS wants them no more
+      if (allocated(self%instance%place)) deallocate (self%instance%place)
+      nullify (self%instance%mumps%irn, self%instance%mumps%jcn, self%instance%mumps%a, self%instance%mumps%perm_in)
+   end subroutine factor_sparse
+
+   !> Turns the lists into coordinates, in place, and scales them. `empty`: an interior equation without stiffness, else 0.
+   subroutine finish_lists(self, empty)
+      class(sparse_t), intent(inout) :: self
+      integer(ip), intent(out) :: empty
+
+      if (allocated(self%scale)) deallocate (self%scale)
+      allocate (self%scale(self%n))
+      associate (mumps => self%instance%mumps, instance => self%instance)
+         call walk_lists(self%newest, self%n - self%n_kept, instance%row, instance%values, instance%column, self%scale, empty)
+         call scale_entries(int(self%entries, lp), self%scale, instance%row, instance%column, instance%values)
+         mumps%n = self%n
+         mumps%nnz = int(self%entries, lp)
+         mumps%irn => self%instance%row
+         mumps%jcn => self%instance%column
+         mumps%a => self%instance%values
+         if (allocated(instance%place)) then
+            mumps%perm_in => self%instance%place
+            mumps%icntl(7) = 1                    ! the order that is given
+         end if
+      end associate
+      deallocate (self%newest)
+   end subroutine finish_lists
+
+   !> Writes the column over the place of the next entry, and finds the scale from the diagonal.
+   pure subroutine walk_lists(newest, n_interior, row, values, next, factor, empty)
+      integer(ip), intent(in) :: newest(:), n_interior
+      integer(ip), intent(in), contiguous :: row(:)
+      real(wp), intent(in), contiguous :: values(:)
+      integer(ip), intent(inout), contiguous :: next(:)
+      real(wp), intent(out) :: factor(:)
+      integer(ip), intent(out) :: empty
+      integer(ip) :: j, k, following
+      real(wp) :: diagonal
+
+      empty = 0
+      do j = 1, size(newest, kind=ip)
+         diagonal = 0.0_wp
+         k = newest(j)
+         do while (k /= 0)
+            if (row(k) == j) diagonal = values(k)
+            following = next(k)
+            next(k) = j
+            k = following
+         end do
+         factor(j) = 1.0_wp
+         if (j > n_interior) cycle
+         if (abs(diagonal) > 0.0_wp) then
+            factor(j) = root_scale(diagonal)
+         else if (empty == 0) then
+            empty = j
+         end if
+      end do
+   end subroutine walk_lists
+
+   !> A power of two that brings a diagonal to 1/2 .. 2 when it multiplies row and column.
+   elemental real(wp) function root_scale(diagonal)
+      real(wp), intent(in) :: diagonal             !< not 0
+      integer, parameter :: EVEN = 4096            !< beyond all exponents: the quotient rounds down
+
+      root_scale = set_exponent(1.0_wp, EVEN/2 + 1 - (exponent(diagonal) + EVEN)/2)
+   end function root_scale
+
+   pure subroutine scale_entries(entries, scale, row, column, values)
+      integer(lp), intent(in) :: entries
+      real(wp), intent(in) :: scale(:)
+      integer(ip), intent(in), contiguous :: row(:), column(:)
+      real(wp), intent(inout), contiguous :: values(:)
+      integer(lp) :: k
+
+      do k = 1, entries
+         values(k) = values(k)*scale(row(k))*scale(column(k))
+      end do
+   end subroutine scale_entries
+
+   subroutine prepare_schur(self)
+      class(sparse_t), intent(inout) :: self
+      integer(ip) :: i
+
+      if (self%n_kept == 0) return
+      associate (mumps => self%instance%mumps, n_kept => self%n_kept)
+         if (associated(mumps%schur)) deallocate (mumps%schur, mumps%listvar_schur)
+         allocate (mumps%listvar_schur(n_kept), mumps%schur(int(n_kept, lp)**2))
+         mumps%listvar_schur = [(i, i=self%n - n_kept + 1, self%n)]
+         mumps%size_schur = n_kept
+         mumps%icntl(19) = 2                      ! lower triangle by columns
+         mumps%nprow = 1
+         mumps%npcol = 1
+         mumps%mblock = 100
+         mumps%nblock = 100
+         mumps%schur_lld = n_kept
+      end associate
+   end subroutine prepare_schur
+
+   !> The kept block alone: nothing to eliminate.
+   pure subroutine add_kept(self)
+      class(sparse_t), intent(inout) :: self
+      integer(ip) :: k
+
+      associate (mumps => self%instance%mumps)
+         if (self%n_kept > 0) mumps%schur = 0.0_wp
+         do k = 1, self%entries
+            associate (s => mumps%schur(int(mumps%jcn(k) - 1, lp)*int(self%n_kept, lp) + int(mumps%irn(k), lp)))
+               s = s + mumps%a(k)
+            end associate
+         end do
+      end associate
+   end subroutine add_kept
+
+   pure subroutine set_controls(self)
+      class(sparse_t), intent(inout) :: self
+
+      associate (icntl => self%instance%mumps%icntl)
+         icntl(1:4) = 0                           ! prints nothing
+         icntl(6) = 0                             ! no column permutation
+         icntl(7) = 0                             ! approximate minimum degree where no order is given
+         icntl(8) = 0                             ! scaled already
+         icntl(12) = 1                            ! the plain symmetric analysis
+      end associate
+   end subroutine set_controls
+
+   !> Fills the report and the status from what MUMPS says.
+   subroutine judge_pivots(self, status)
+      class(sparse_t), intent(inout) :: self
+      type(status_t), intent(out) :: status
+      logical :: singular
+
+      associate (mumps => self%instance%mumps, report => self%report)
+         if (mumps%infog(1) < 0 .and. mumps%infog(1) /= ZERO_PIVOT) then
+            call set_status(status, STATUS_INTERNAL, 'the sparse solver failed: '//failure_text(mumps%infog(1), mumps%infog(2)))
+            return
+         end if
+         singular = mumps%infog(1) == ZERO_PIVOT
+         if (.not. singular) then
+            report%sign_changes = mumps%infog(12)
+            report%smallest_pivot = mumps%rinfog(19)
+            report%largest_pivot = mumps%rinfog(21)
+            singular = report%smallest_pivot <= max(real(self%n, wp)*EPS_MACH, SMALLEST_RATIO)
+         end if
+         report%digits_lost = ALL_DIGITS
+         if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)
+         if (singular .or. report%sign_changes > 0) then
+            call find_weakest(self, SHIFT)
+            call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: '//to_text(report%sign_changes) &
+                            //' negative pivots, the softest motion is largest at equation '//to_text(report%worst_equation))
+         else if (report%digits_lost > MANY_DIGITS) then
+            call find_weakest(self, 0.0_wp)
+         end if
+      end associate
+   end subroutine judge_pivots
+
+   pure function failure_text(code, detail) result(text)
+      integer, intent(in) :: code, detail
+      character(len=:), allocatable :: text
+
+      text = 'INFOG(1:2) = '//to_text(int(code, ip))//', '//to_text(int(detail, ip))
+      if (code == NO_MEMORY) text = 'not enough memory ('//text//')'
+   end function failure_text
+
+   !> Puts the equation that moves most in the softest motion of the interior into the report, by inverse iteration. With a
+   !> shift the matrix is factored again and lost.
+   subroutine find_weakest(self, shift)
+      class(sparse_t), intent(inout) :: self
+      real(wp), intent(in) :: shift                !< added to the diagonal; 0: the factor is good enough
+      integer(ip) :: n_interior, i
+      integer(lp) :: k
+      real(wp), allocatable :: x(:, :)
+
+      n_interior = self%n - self%n_kept
+      if (shift > 0.0_wp) then
+         associate (mumps => self%instance%mumps)
+            do k = 1, mumps%nnz
+               if (mumps%irn(k) == mumps%jcn(k)) mumps%a(k) = mumps%a(k) + shift
+            end do
+         end associate
+         call run(self, FACTOR_AGAIN)
+         if (self%instance%mumps%infog(1) < 0) return
+      end if
+      allocate (x(self%n, 1))
+      x = 0.0_wp
+      ! no symmetry to be missed
+      x(:n_interior, 1) = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, n_interior)]
+      do i = 1, 3
+         x = x/maxval(abs(x))
+         call solve_with(self, INTERIOR_ALONE, x)
+      end do
+      x = x/maxval(abs(x))
+      x(:, 1) = x(:, 1)*self%scale
+      self%report%worst_equation = maxloc(abs(x(:n_interior, 1)), dim=1, kind=ip)
+   end subroutine find_weakest
+
+   subroutine get_sparse_schur(self, schur)
+      class(sparse_t), intent(in) :: self
+      real(wp), intent(out) :: schur(:, :)
+      integer(ip) :: j
+      integer(lp) :: first
+
+      associate (mumps => self%instance%mumps, n => self%n_kept)
+         do j = 1, n
+            first = int(j - 1, lp)*int(n, lp)
+            schur(j:, j) = mumps%schur(first + j:first + n)
+            schur(j, j + 1:) = schur(j + 1:, j)
+         end do
+      end associate
+   end subroutine get_sparse_schur
+
+   !> f_i stays; MUMPS keeps the half-solved part.
+   subroutine reduce_sparse(self, f)
+      class(sparse_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: f(:, :)
+      integer(ip) :: n_interior
+
+      n_interior = self%n - self%n_kept
+      if (n_interior == 0 .or. self%n_kept == 0 .or. size(f, 2) == 0) return
+      self%instance%reduced = f(:n_interior, :)
+      call solve_with(self, CONDENSE, f)
+   end subroutine reduce_sparse
+
+   !> Where MUMPS holds the half-solved part of another load, or has used it up, that is made again.
+   subroutine expand_sparse(self, x)
+      class(sparse_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: x(:, :)
+      integer(ip) :: n_interior
+      real(wp), allocatable :: copy(:, :)
+
+      n_interior = self%n - self%n_kept
+      if (n_interior == 0 .or. size(x, 2) == 0) return
+      if (self%n_kept == 0) then
+         call solve_with(self, INTERIOR_ALONE, x)
+         return
+      end if
+      if (.not. is_reduced(self%instance, x(:n_interior, :))) then
+         copy = x
+         call solve_with(self, CONDENSE, copy)
+         deallocate (copy)
+      end if
+      if (allocated(self%instance%reduced)) deallocate (self%instance%reduced)
+      call solve_with(self, EXPAND, x)
+   end subroutine expand_sparse
+
+   pure logical function is_reduced(instance, f)
+      type(instance_t), intent(in) :: instance
+      real(wp), intent(in) :: f(:, :)
+
+      is_reduced = .false.
+      if (.not. allocated(instance%reduced)) return
+      if (size(instance%reduced, 2) /= size(f, 2)) return
+      is_reduced = all(instance%reduced == f)     ! bitwise the same load
+   end function is_reduced
+
+   !> One of MUMPS's solves in the unknowns of the deck. CONDENSE changes x_c alone, EXPAND reads x_c and sets x_i.
+   subroutine solve_with(self, mode, x)
+      class(sparse_t), intent(in) :: self
+      integer, intent(in) :: mode
+      real(wp), intent(inout), contiguous :: x(:, :)   !< (n, loads)
+      integer(ip) :: j, n_interior, loads
+      integer(lp) :: first
+
+      n_interior = self%n - self%n_kept
+      loads = size(x, 2, kind=ip)
+      associate (mumps => self%instance%mumps, n => self%n, n_kept => self%n_kept)
+         allocate (mumps%rhs(int(n, lp)*int(loads, lp)), mumps%redrhs(int(n_kept, lp)*int(loads, lp)))
+         mumps%nrhs = loads
+         mumps%lrhs = n
+         mumps%lredrhs = n_kept
+         mumps%icntl(26) = mode
+         do j = 1, loads
+            first = int(j - 1, lp)*int(n, lp)
+            mumps%rhs(first + 1:first + n) = x(:, j)*self%scale
+            if (mode == EXPAND) mumps%redrhs(int(j - 1, lp)*int(n_kept, lp) + 1:int(j, lp)*int(n_kept, lp)) = x(n_interior + 1:, j)
+         end do
+         call run(self, SOLVE)
+         do j = 1, loads
+            first = int(j - 1, lp)*int(n, lp)
+            if (mode == CONDENSE) then
+               x(n_interior + 1:, j) = mumps%redrhs(int(j - 1, lp)*int(n_kept, lp) + 1:int(j, lp)*int(n_kept, lp))
+            else
+               x(:n_interior, j) = mumps%rhs(first + 1:first + n_interior)*self%scale(:n_interior)
+            end if
+         end do
+         deallocate (mumps%rhs, mumps%redrhs)
+      end associate
+   end subroutine solve_with
+
+   !> One call of MUMPS, which raises harmless floating-point exceptions.
+   subroutine run(self, job)
+      class(sparse_t), intent(in) :: self
+      integer, intent(in) :: job
+      type(halting_t) :: halting
+
+      call suspend_halting(halting)
+      self%instance%mumps%job = job
+      call self%mumps(self%instance%mumps)
+      call restore_halting(halting)
+   end subroutine run
+
+   !> The factor as MUMPS counts it, and the rest.
+   pure integer(lp) function sparse_memory(self)
+      class(sparse_t), intent(in) :: self
+      integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
+
+      sparse_memory = 0
+      if (.not. associated(self%instance)) return
+      sparse_memory = REAL_BYTES*(int(self%n, lp) + int(self%n_kept, lp)**2)
+      associate (factor => self%instance%mumps%infog(29))
+         ! a negative number counts millions
+         if (self%n > self%n_kept) sparse_memory = sparse_memory &
+                                                   + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
+      end associate
+   end function sparse_memory
+
+   pure function sparse_name() result(name)
+      character(len=:), allocatable :: name
+
+      name = 'sparse'
+   end function sparse_name
+
+   subroutine finish_sparse(self)
+      type(sparse_t), intent(inout) :: self
+
+      call free_instance(self)
+   end subroutine finish_sparse
+
+   !> Ends the instance and frees what MUMPS does not own.
+   subroutine free_instance(self)
+      class(sparse_t), intent(inout) :: self
+
+      if (.not. associated(self%instance)) return
+      associate (mumps => self%instance%mumps)
+         nullify (mumps%irn, mumps%jcn, mumps%a, mumps%perm_in)    ! of the instance, and go with it
+         if (associated(mumps%schur)) deallocate (mumps%schur, mumps%listvar_schur)
+      end associate
+      call run(self, FINISH)
+      deallocate (self%instance)
+      if (allocated(self%newest)) deallocate (self%newest)
+   end subroutine free_instance
+
+end module atrito_mumps
