@@ -5,6 +5,8 @@ module atrito_study
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
+   use atrito_files, only: check_folder
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_messages, only: clear_messages
@@ -33,18 +35,32 @@ contains
       integer, intent(out) :: code                  !< one of STATUS_*
       type(study_t) :: study
       type(status_t) :: status
+      type(folder_claim_t) :: claim
+
+      call choose_quantities(command, study, status)
+      if (is_ok(status)) call check_folder(output_folder(command), status)
+      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
+      code = status%code
+      if (is_ok(status)) then
+         call make_runs(command, study, code)
+         call release_folder(claim)
+      else
+         call print_status(status, command%names(1)%s)
+      end if
+   end subroutine run_study
+
+   !> The runs and what is made of them. The folder is claimed all the time.
+   subroutine make_runs(command, study, code)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(inout) :: study
+      integer, intent(out) :: code
+      type(status_t) :: status
       type(string_t), allocatable :: elements(:)
       type(reporter_t) :: reporter
       integer(ip) :: level
       integer :: i, k
 
       reporter%quiet = command%quiet
-      call choose_quantities(command, study, status)
-      code = status%code
-      if (.not. is_ok(status)) then
-         call print_status(status, command%names(1)%s)
-         return
-      end if
       elements = command%elements
       if (size(elements) == 0) call append_string(elements, 'deck')
       allocate (study%rows(size(elements)*command%levels))
@@ -71,7 +87,7 @@ contains
       call finish(command, study, status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
       code = max(code, status%code)
-   end subroutine run_study
+   end subroutine make_runs
 
    pure logical function has_failed(row)
       type(study_row_t), intent(in) :: row
