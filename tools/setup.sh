@@ -32,22 +32,30 @@ found_hdf5() {
    return 1
 }
 
+found_mumps() {
+   for folder in /usr/include /usr/include/mumps_seq /usr/local/include; do
+      [ -e "$folder/dmumps_struc.h" ] && return 0
+   done
+   return 1
+}
+
 # Installs what is missing; nothing to do is nothing said, and no network is needed then.
 install_missing() {
    packages=$(missing_packages)
-   command -v gnuplot >/dev/null 2>&1 || install_gnuplot
+   command -v gnuplot >/dev/null 2>&1 || want gnuplot-nox "without gnuplot --plot writes its scripts, but no pictures"
+   found_mumps || want libmumps-seq-dev "without MUMPS there is no sparse solver, and large bodies take long"
    [ -z "$packages" ] || install_packages "$packages"
 }
 
-# gnuplot draws the pictures of --plot and is needed for nothing else: it comes along with the other packages, else it is tried
-# once, and without it the build goes on.
-install_gnuplot() {
+# want PACKAGE LOSS: what atrito can do without comes along with the other packages, else it is tried once, and without it the
+# build goes on.
+want() {
    if [ -n "$packages" ]; then
-      packages="$packages gnuplot-nox"
-   elif [ ! -e "$top/build/gnuplot-tried" ]; then
+      packages="$packages $1"
+   elif [ ! -e "$top/build/$1-tried" ]; then
       mkdir -p "$top/build"
-      : >"$top/build/gnuplot-tried"
-      (install_packages ' gnuplot-nox') || say "without gnuplot --plot writes its scripts, but no pictures"
+      : >"$top/build/$1-tried"
+      (install_packages " $1") || say "$2"
    fi
 }
 

@@ -8,6 +8,17 @@ grep -q '  banded  ' skyline/ex1-plate-on-support.lst && complain "the skyline r
 for table in contact nodes reactions stress; do
    same_tables "skyline and banded, $table" skyline/$table.tab banded/$table.tab 1e-12
 done
+# the sparse one, where the program has it
+if "$atrito" check "$input/ex1-plate-on-support.inp" --solver sparse --quiet >sparse.out 2>&1; then
+   run 0 "$input/ex1-plate-on-support.inp" sparse --solver sparse --digits 17 --quiet
+   says "listing of sparse" sparse/ex1-plate-on-support.lst "  sparse  "
+   says "listing names the library" sparse/ex1-plate-on-support.lst "MUMPS"
+   for table in contact nodes reactions stress; do
+      same_tables "skyline and sparse, $table" skyline/$table.tab sparse/$table.tab 1e-12
+   done
+else
+   says "no sparse solver and no word" sparse.out "needs MUMPS"
+fi
 # methods and laws
 cp "$here/drag.inp" .
 try_law() { # NAME, the lines of the law
