@@ -20,6 +20,12 @@ if(ATRITO_CHECKS)
    target_compile_options(atrito_options INTERFACE $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:
       -fcheck=all,no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived -fbacktrace>)
 endif()
+if(ATRITO_SANITIZE)
+   # add_compile_options and not atrito_options: everything that is linked must agree on it, the tests as well
+   add_compile_options($<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-fsanitize=address,undefined>
+      $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-fcheck=all,no-array-temps> -g -fno-omit-frame-pointer)
+   add_link_options(-fsanitize=address,undefined)
+endif()
 
 function(atrito_add_room room)
    cmake_parse_arguments(ARG "" "" "SOURCES;USES;HIDES;LIBRARIES" ${ARGN})

@@ -2,7 +2,7 @@
 module atrito_command_line
    use atrito_kinds, only: ip, wp
    use atrito_mumps, only: has_mumps, mumps_trouble
-   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name
+   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
    use atrito_files, only: file_exists
    use atrito_messages, only: message_t, SEVERITY_ERROR
@@ -11,13 +11,13 @@ module atrito_command_line
    implicit none (type, external)
    private
    public :: command_t, parse_command, fetch_arguments, output_folder
-   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_OPTIONS, TASK_VERSION
+   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_OPTIONS, TASK_VERSION
    public :: SOLVERS
 
    integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
-   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4, TASK_SWEEP = 5
-   integer, parameter :: TASK_OPTIONS = 6           !< --help
-   integer, parameter :: TASK_VERSION = 7           !< --version
+   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4, TASK_SWEEP = 5, TASK_STUDY = 6
+   integer, parameter :: TASK_OPTIONS = 7           !< --help
+   integer, parameter :: TASK_VERSION = 8           !< --version
 
    character(len=7), parameter :: COMMANDS(5) = ['check  ', 'compare', 'study  ', 'sweep  ', 'help   ']
    character(len=7), parameter :: SOLVERS(4) = ['auto   ', 'skyline', 'banded ', 'sparse ']
@@ -34,6 +34,11 @@ module atrito_command_line
       type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order
       integer(ip) :: threads = 1
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
+      integer(ip) :: shape = 0                      !< nodes of all elements, set by a study; 0: as in the deck
+      character(len=4) :: element = ''              !< their name, set by a study
+      integer(ip) :: levels = 0                     !< of a study
+      type(string_t), allocatable :: elements(:)    !< of a study: cpe4, ...
+      type(string_t), allocatable :: references(:)  !< of a study: QUANTITY or QUANTITY=VALUE
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: quiet = .false.
       logical :: plot = .false.                     !< pictures by gnuplot
@@ -42,30 +47,36 @@ module atrito_command_line
 
    !> An option: which tasks know it and whether it is built.
    type :: option_t
-      character(len=9) :: name
+      character(len=11) :: name
       logical :: has_value
-      logical :: for_task(TASK_SWEEP)               !< run, check, compare, help, sweep
+      logical :: for_task(TASK_STUDY)               !< run, check, compare, help, sweep, study
       logical :: is_built
    end type option_t
 
    character(len=*), parameter :: SWEEP_FORM = 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]'
 
+   character(len=*), parameter :: STUDY_FORM = 'atrito study DECK.inp --levels N [--elements cpe4,cpe9] '// &
+                                  '[--reference QUANTITY=VALUE]'
+   character(len=4), parameter :: ELEMENT_NAMES(4) = ['cpe4', 'cps4', 'cpe9', 'cps9']
+
    logical, parameter :: Y = .true., N = .false.
-   type(option_t), parameter :: OPTIONS(14) = [ &
-                                option_t('-o       ', Y, [Y, N, N, N, Y], Y), &
-                                option_t('--set    ', Y, [Y, Y, N, N, Y], Y), &
-                                option_t('--solver ', Y, [Y, Y, N, N, Y], Y), &
-                                option_t('--threads', Y, [Y, Y, N, N, Y], Y), &
-                                option_t('--digits ', Y, [Y, N, N, N, Y], Y), &
-                                option_t('--quiet  ', N, [Y, Y, Y, N, Y], Y), &
-                                option_t('--rtol   ', Y, [N, N, Y, N, N], Y), &
-                                option_t('--atol   ', Y, [N, N, Y, N, N], Y), &
-                                option_t('--refine ', Y, [Y, Y, N, N, Y], Y), &
-                                option_t('--plot   ', N, [Y, N, N, N, Y], Y), &
-                                option_t('--levels ', Y, [N, N, N, N, N], N), &
-                                option_t('--vary   ', Y, [N, N, N, N, Y], Y), &
-                                option_t('--help   ', N, [Y, Y, Y, Y, Y], Y), &
-                                option_t('--version', N, [Y, Y, Y, Y, Y], Y)]
+   type(option_t), parameter :: OPTIONS(16) = [ &
+                                option_t('-o         ', Y, [Y, N, N, N, Y, Y], Y), &
+                                option_t('--set      ', Y, [Y, Y, N, N, Y, Y], Y), &
+                                option_t('--solver   ', Y, [Y, Y, N, N, Y, Y], Y), &
+                                option_t('--threads  ', Y, [Y, Y, N, N, Y, Y], Y), &
+                                option_t('--digits   ', Y, [Y, N, N, N, Y, Y], Y), &
+                                option_t('--quiet    ', N, [Y, Y, Y, N, Y, Y], Y), &
+                                option_t('--rtol     ', Y, [N, N, Y, N, N, N], Y), &
+                                option_t('--atol     ', Y, [N, N, Y, N, N, N], Y), &
+                                option_t('--refine   ', Y, [Y, Y, N, N, Y, Y], Y), &
+                                option_t('--plot     ', N, [Y, N, N, N, Y, Y], Y), &
+                                option_t('--levels   ', Y, [N, N, N, N, N, Y], Y), &
+                                option_t('--vary     ', Y, [N, N, N, N, Y, N], Y), &
+                                option_t('--elements ', Y, [N, N, N, N, N, Y], Y), &
+                                option_t('--reference', Y, [N, N, N, N, N, Y], Y), &
+                                option_t('--help     ', N, [Y, Y, Y, Y, Y, Y], Y), &
+                                option_t('--version  ', N, [Y, Y, Y, Y, Y, Y], Y)]
 
    !> An option as it was given.
    type :: given_t
@@ -98,7 +109,7 @@ contains
       type(string_t), allocatable :: names(:)
       integer :: i
 
-      allocate (command%settings(0), command%vary(0), command%names(0))
+      allocate (command%settings(0), command%vary(0), command%names(0), command%elements(0), command%references(0))
       call sort_arguments(arguments, names, given, ok, error)
       if (.not. ok) return
       if (any(OPTIONS(given%option)%name == '--help')) command%task = TASK_OPTIONS
@@ -108,9 +119,15 @@ contains
       do i = 1, size(given)
          if (ok) call take_option(given(i), command, ok, error)
       end do
-      if (.not. ok .or. command%task /= TASK_SWEEP .or. size(command%vary) > 0) return
+      if (.not. ok) return
       ok = .false.
-      error = wrong('a sweep needs the parameter that it varies', expected=SWEEP_FORM)
+      if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
+         error = wrong('a sweep needs the parameter that it varies', expected=SWEEP_FORM)
+      else if (command%task == TASK_STUDY .and. command%levels == 0) then
+         error = wrong('a study needs the number of its levels', expected=STUDY_FORM)
+      else
+         ok = .true.
+      end if
    end subroutine parse_command
 
    !> Sorts arguments into names and options with their values.
@@ -236,10 +253,6 @@ contains
          return
       end if
       task = task_of(names(1)%s)
-      if (task == 0) then
-         error = wrong(names(1)%s//' is not built yet in this version')
-         return
-      end if
       command%task = task
       command%names = names(merge(1, 2, task == TASK_RUN):)
       select case (task)
@@ -249,6 +262,8 @@ contains
          call check_deck(command%names, 'atrito check DECK.inp', ok, error)
       case (TASK_SWEEP)
          call check_deck(command%names, SWEEP_FORM, ok, error)
+      case (TASK_STUDY)
+         call check_deck(command%names, STUDY_FORM, ok, error)
       case (TASK_COMPARE)
          ok = size(command%names) == 2
          if (.not. ok) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
@@ -258,7 +273,6 @@ contains
       end select
    end subroutine find_task
 
-   !> 0: a command that is not built.
    pure integer function task_of(name) result(task)
       character(len=*), intent(in) :: name
 
@@ -272,7 +286,7 @@ contains
       case ('sweep')
          task = TASK_SWEEP
       case ('study')
-         task = 0
+         task = TASK_STUDY
       case default
          task = TASK_RUN
       end select
@@ -331,6 +345,13 @@ contains
          ok = index(given%value, '=') > 1
       case ('--refine')
          call take_integer(given%value, 0, MOST_LEVELS, command%refine, ok)
+      case ('--levels')
+         call take_integer(given%value, 1, MOST_LEVELS, command%levels, ok)
+      case ('--elements')
+         call take_elements(given%value, command%elements, ok)
+      case ('--reference')
+         call append_string(command%references, given%value)
+         ok = len_trim(given%value) > 0 .and. index(given%value, '=') /= 1
       case ('--solver')
          call take_solver(given%value, command, ok, error)
          return
@@ -353,8 +374,8 @@ contains
    pure function task_text(task) result(text)
       integer, intent(in) :: task
       character(len=:), allocatable :: text
-      character(len=14), parameter :: NAMES(TASK_SWEEP) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ', &
-                                                           'atrito sweep  ']
+      character(len=14), parameter :: NAMES(TASK_STUDY) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ', &
+                                                           'atrito sweep  ', 'atrito study  ']
 
       text = trim(NAMES(task))
    end function task_text
@@ -373,6 +394,12 @@ contains
          text = 'NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'
       case ('--refine')
          text = 'a whole number, 0 to '//to_text(int(MOST_LEVELS, ip))//': each element into 4, so many times'
+      case ('--levels')
+         text = 'a whole number, 1 to '//to_text(int(MOST_LEVELS, ip))//': so many meshes, each with four elements for one'
+      case ('--elements')
+         text = 'cpe4, cps4, cpe9, cps9, several with commas between them'
+      case ('--reference')
+         text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
       case ('--solver')
          text = 'auto, skyline, banded or sparse'
       case ('--threads')
@@ -387,6 +414,28 @@ contains
          text = 'a value'
       end select
    end function value_text
+
+   !> Names of elements between commas, each once.
+   subroutine take_elements(value, elements, ok)
+      character(len=*), intent(in) :: value
+      type(string_t), allocatable, intent(inout) :: elements(:)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: name
+      integer :: first, last, i
+
+      ok = .true.
+      first = 1
+      do while (first <= len(value) + 1 .and. ok)
+         last = first + index(value(first:)//',', ',') - 2
+         name = lower_case(trim(adjustl(value(first:last))))
+         ok = any(ELEMENT_NAMES == name) .and. len(name) == len(ELEMENT_NAMES)
+         do i = 1, size(elements)
+            ok = ok .and. elements(i)%s /= name
+         end do
+         call append_string(elements, name)
+         first = last + 2
+      end do
+   end subroutine take_elements
 
    subroutine take_solver(value, command, ok, error)
       character(len=*), intent(in) :: value

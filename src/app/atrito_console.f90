@@ -82,6 +82,7 @@ contains
          write (unit, '(a)', iostat=ios) lines(i)%s
          if (ios /= 0) return
       end do
+      flush (unit, iostat=ios)                       ! a run that is interrupted later has told it
    end subroutine print_lines
 
 end module atrito_console

@@ -5,10 +5,12 @@ module atrito_driver
    use atrito_body_store, only: body_store_t
    use atrito_check_report, only: compose_check
    use atrito_command_line, only: command_t, parse_command, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, &
-                                  TASK_HELP, TASK_SWEEP, TASK_OPTIONS, TASK_VERSION
+                                  TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_lines, print_messages, print_status
+   use atrito_files, only: ignore_broken_pipe
    use atrito_help, only: help_overview, help_keyword, help_manual
+   use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_messages, only: message_t, format_message, clear_messages
@@ -20,6 +22,7 @@ module atrito_driver
    use atrito_solve, only: survey_scene
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE
    use atrito_strings, only: string_t, join, upper_case, nearest_names
+   use atrito_study, only: run_study
    use atrito_sweep, only: run_sweep
    use atrito_timers, only: reset_timers
    use atrito_usage, only: compose_usage, compose_options
@@ -40,6 +43,8 @@ contains
       type(body_store_t) :: store
       logical :: ok
 
+      call guard_interrupts()
+      call ignore_broken_pipe()
       call set_blas_threads(1_ip)
       call clear_messages()
       call reset_timers()
@@ -56,6 +61,8 @@ contains
          call run_deck(command, store, code)
       case (TASK_SWEEP)
          call run_sweep(command, code)
+      case (TASK_STUDY)
+         call run_study(command, code)
       case (TASK_CHECK)
          call check_deck(command, code)
       case (TASK_COMPARE)

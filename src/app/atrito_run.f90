@@ -7,8 +7,11 @@ module atrito_run
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
+   use atrito_files, only: check_folder
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_hdf5, only: has_hdf5
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: signed_area, PLANE_STRAIN, PLANE_STRESS
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_page, only: page_t, print_page
@@ -18,22 +21,29 @@ module atrito_run
    use atrito_results, only: results_t
    use atrito_screen, only: compose_summary
    use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_DECK, STATUS_NOT_CONVERGED
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
    use atrito_write_results, only: write_results
    implicit none (type, external)
    private
-   public :: run_deck, load_model, solve_options
+   public :: run_deck, load_model, solve_options, run_facts_t
+
+   !> What a study wants to know of a run besides its tables.
+   type :: run_facts_t
+      integer(ip) :: n_dofs = 0, n_points = 0
+      real(wp) :: h = 0.0_wp                        !< [L] side of a square of the mean area of the elements
+   end type run_facts_t
 
 contains
 
    !> Solves a deck and writes its tables.
-   subroutine run_deck(command, store, code)
+   subroutine run_deck(command, store, code, facts)
       type(command_t), intent(in) :: command
       type(body_store_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
       integer, intent(out) :: code                  !< one of STATUS_*
+      type(run_facts_t), intent(out), optional :: facts
       type(model_t) :: model
       type(results_t) :: results
       type(reporter_t) :: reporter
@@ -43,6 +53,12 @@ contains
       reporter%quiet = command%quiet
       call load_model(command, reporter, model, told, code)
       if (code /= STATUS_OK) return
+      call check_folder(output_folder(command), status)
+      if (.not. is_ok(status)) then                 ! better now than after an hour
+         call print_status(status, model%deck_path)
+         code = status%code
+         return
+      end if
       call solve_static(model, solve_options(command), reporter, results, status, store)
       call print_messages(command%quiet, told + 1)
       if (is_ok(status) .or. status%code == STATUS_NOT_CONVERGED) call agree_on_outcome(status, results)
@@ -50,7 +66,23 @@ contains
       code = status%code
       if (code /= STATUS_OK .and. code /= STATUS_NOT_CONVERGED) return
       call write_run(command, reporter, model, results, code)
+      if (present(facts)) facts = facts_of(model, results)
    end subroutine run_deck
+
+   pure type(run_facts_t) function facts_of(model, results) result(facts)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      real(wp) :: area
+      integer(ip) :: e
+
+      facts%n_dofs = results%scene%n_dofs
+      facts%n_points = sum(results%scene%pairs%n_points)
+      area = 0.0_wp
+      do e = 1, model%mesh%n_elements
+         area = area + signed_area(model%mesh, e)
+      end do
+      facts%h = sqrt(area/real(model%mesh%n_elements, wp))
+   end function facts_of
 
    !> The status and the results say the same of a run: solved, or not converged and why.
    subroutine agree_on_outcome(status, results)
@@ -76,6 +108,7 @@ contains
       type(results_t), intent(in) :: results
       integer, intent(inout) :: code
       type(status_t) :: status
+      type(folder_claim_t) :: claim
       type(page_t) :: page
       type(string_t), allocatable :: written(:), pictures(:)
       character(len=:), allocatable :: folder
@@ -85,8 +118,10 @@ contains
       call report_progress(reporter, 'write '//folder)
       told = count_messages()
       if (command%plot) pictures = plot_names(results)       ! not allocated: an optional argument that is not there
-      call write_results(model, results, int(command%digits), folder, written, status, pictures)
+      call claim_folder(folder, claim, status)
+      if (is_ok(status)) call write_results(model, results, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
+         call release_folder(claim)
          call print_status(status, model%deck_path)
          code = status%code
          return
@@ -95,6 +130,7 @@ contains
          call report_progress(reporter, 'plot  '//plot_folder(folder))
          call write_plots(model, results, folder, pictures)
       end if
+      call release_folder(claim)
       call print_messages(command%quiet, told + 1)
       if (command%quiet) return
       call compose_summary(model, results, folder, written, page, pictures)
@@ -117,10 +153,10 @@ contains
       call stop_phase('read')
       told = 0
       if (is_ok(status) .or. status%code == STATUS_DECK) then
-         call start_phase('model')
-         call build_model(deck, model, command%refine)
+         call start_phase('mesh')
+         call build_model(deck, model, command%refine, shape=command%shape)
          if (.not. has_hdf5()) call refuse_field_files(deck)
-         call stop_phase('model')
+         call stop_phase('mesh')
       end if
       code = status%code
       if (.not. is_ok(status) .and. code /= STATUS_DECK) then
@@ -132,10 +168,24 @@ contains
       told = count_messages()
       if (count_messages(SEVERITY_ERROR) > 0) then
          code = STATUS_DECK
+      else if (is_ok(status) .and. .not. has_state(model, command%element)) then
+         call set_status(status, STATUS_USAGE, '--elements '//command%element//': the deck has elements of the other plane state')
+         call print_status(status, command%names(1)%s)
+         code = status%code
       else if (.not. is_ok(status)) then
          call print_status(status, command%names(1)%s)
       end if
    end subroutine load_model
+
+   !> cpe is plane strain, cps plane stress; nothing asked is always there.
+   pure logical function has_state(model, element)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: element       !< cpe4, cps4, cpe9, cps9 or empty
+
+      has_state = .true.
+      if (index(element, 'cpe') == 1) has_state = all(model%mesh%state == PLANE_STRAIN)
+      if (index(element, 'cps') == 1) has_state = all(model%mesh%state == PLANE_STRESS)
+   end function has_state
 
    pure function solve_options(command) result(options)
       type(command_t), intent(in) :: command

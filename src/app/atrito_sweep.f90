@@ -8,6 +8,8 @@ module atrito_sweep
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
+   use atrito_files, only: check_folder
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: clear_messages
    use atrito_overlay_plots, only: write_overlay_plots
@@ -35,34 +37,47 @@ contains
       type(command_t), intent(in) :: command
       integer, intent(out) :: code                  !< one of STATUS_*
       type(sweep_plan_t) :: plan
-      type(sweep_run_t), allocatable :: runs(:)
       type(status_t) :: status
+      type(folder_claim_t) :: claim
       integer(c_int), pointer :: shared(:)
-      integer(lp) :: began, ended, rate
 
-      call system_clock(began, rate)
       call plan_sweep(command%vary, command%settings, plan, status)
       if (is_ok(status)) then
          call share_integers(2*plan%n_runs, shared)
          if (.not. associated(shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
       end if
+      if (is_ok(status)) call check_folder(output_folder(command), status)
+      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
       code = status%code
-      if (.not. is_ok(status)) then
+      if (is_ok(status)) then
+         call make_and_collect(command, plan, shared, code)
+         call release_folder(claim)
+      else
          call print_status(status, command%names(1)%s)
-         return
       end if
+   end subroutine run_sweep
+
+   !> The folder is claimed all the time: two sweeps at once would leave runs of both.
+   subroutine make_and_collect(command, plan, shared, code)
+      type(command_t), intent(in) :: command
+      type(sweep_plan_t), intent(in) :: plan
+      integer(c_int), pointer, intent(in) :: shared(:) !< (2 n_runs) exit codes, then factorisations
+      integer, intent(out) :: code
+      type(sweep_run_t), allocatable :: runs(:)
+      type(status_t) :: status
+      integer(lp) :: began, ended, rate
+
+      call system_clock(began, rate)
       shared(:plan%n_runs) = NOT_DONE
       call make_runs(command, plan, shared)
-      if (shared(1) == STATUS_USAGE) then           ! the deck has no such parameter: told by the first run
-         code = STATUS_USAGE
-         return
-      end if
+      code = STATUS_USAGE
+      if (shared(1) == STATUS_USAGE) return         ! the deck has no such parameter: told by the first run
       call collect(command, plan, shared, runs, status)
       call system_clock(ended)
       if (is_ok(status)) call finish(command, plan, runs, real(ended - began, wp)/real(rate, wp), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
       code = max(maxval(runs%code), status%code)
-   end subroutine run_sweep
+   end subroutine make_and_collect
 
    !> The first run here, the others here or by workers.
    subroutine make_runs(command, plan, shared)

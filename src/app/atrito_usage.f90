@@ -15,6 +15,7 @@ contains
       call begin_page(page, 80)
       call add_line(page, 'usage: atrito DECK.inp [options]')
       call add_line(page, '       atrito check DECK.inp | sweep DECK.inp --vary NAME=v1,v2,...')
+      call add_line(page, '       atrito study DECK.inp --levels N')
       call add_line(page, '       atrito compare A B | help [KEYWORD]')
       call add_line(page, '       atrito --help | --version')
    end subroutine compose_usage
@@ -39,6 +40,7 @@ contains
       call add_line(page, 'atrito DECK.inp [options]   solve the deck and write tables')
       call add_line(page, 'atrito check DECK.inp       read and check everything, tell what the scene needs, solve nothing')
       call add_line(page, 'atrito sweep DECK.inp       one run a value of a parameter: --vary NAME=v1,v2,... [--vary ...]')
+      call add_line(page, 'atrito study DECK.inp       error against run time: --levels N [--elements cpe4,cpe9] [--reference Q=V]')
       call add_line(page, 'atrito compare A B          compare two tables, or two folders of them')
       call add_line(page, 'atrito help [KEYWORD]       reference of the deck language; `atrito help all`: the whole of it')
       call add_line(page, 'atrito --help | --version')
@@ -72,6 +74,7 @@ contains
       call add_line(page, '  4  singular or indefinite system')
       call add_line(page, '  5  a file cannot be read or written')
       call add_line(page, '  9  internal error')
+      call add_line(page, '  129, 130, 143  ended by SIGHUP, SIGINT, SIGTERM; nothing half-written is left')
    end subroutine add_exit_codes
 
 end module atrito_usage

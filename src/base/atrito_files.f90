@@ -3,21 +3,25 @@
 !> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_intptr_t, c_null_char, c_null_funptr, &
-                                                                             c_null_ptr, c_ptr, c_size_t
-   use atrito_kinds, only: ip
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_intptr_t, c_long, c_null_char, &
+                                                                             c_null_funptr, c_null_ptr, c_ptr, c_size_t
+   use atrito_interrupts, only: hold_interrupts, release_interrupts, note_file, forget_file, forget_folder
+   use atrito_kinds, only: ip, lp
+   use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
+   use atrito_renaming, only: find_obstacle, rename_all, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: read_file, file_exists, is_folder, make_folder, remove_file, remove_empty_folder
+   public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
+             remove_empty_folder, check_folder, ignore_broken_pipe
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text, commit_files, discard_files
 
    !> A set of files that appear together or not at all.
    type :: file_set_t
       character(len=:), allocatable :: folder
       type(string_t), allocatable :: names(:)          !< final names, without folder
-      logical :: is_new = .false.                      !< the folder was not there before
+      type(string_t), allocatable :: made(:)           !< folders that were made for it
    end type file_set_t
 
    !> A text file being written through a buffer. The run-time library of gfortran does not tell when a full disk keeps a file
@@ -32,36 +36,32 @@ module atrito_files
    end type text_file_t
 
    integer, parameter :: BUFFER_LENGTH = 65536
-   character(len=*), parameter :: TEMPORARY = '.part'
    character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
-   integer(c_int), parameter :: FOLDER_MODE = int(o'777', c_int)
+   !> The places in a text are default integers: one of 2 GB is larger than any deck or table.
+   integer(lp), parameter :: LARGEST_FILE = 2000000000_lp
+   !> A text has no zero byte; of a file with one in its first bytes no more than these is read.
+   integer, parameter :: FIRST_BYTES = 65536
 
    interface
-      integer(c_int) function c_mkdir(path, mode) bind(C, name='mkdir')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_mkdir
-      integer(c_int) function c_rename(old, new) bind(C, name='rename')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: old(*), new(*)
-      end function c_rename
-      integer(c_int) function c_unlink(path) bind(C, name='unlink')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_unlink
-      type(c_ptr) function c_opendir(path) bind(C, name='opendir')
+      type(c_ptr) function c_realpath(path, resolved) bind(C, name='realpath')
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
-      end function c_opendir
-      integer(c_int) function c_closedir(folder) bind(C, name='closedir')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: folder
-      end function c_closedir
-      integer(c_int) function c_rmdir(path) bind(C, name='rmdir')
+         character(kind=c_char), intent(out) :: resolved(*)
+      end function c_realpath
+      integer(c_int) function c_open(path, flags) bind(C, name='open')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
-      end function c_rmdir
+         integer(c_int), value :: flags
+      end function c_open
+      integer(c_long) function c_lseek(descriptor, offset, from) bind(C, name='lseek')
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor, from
+         integer(c_long), value :: offset
+      end function c_lseek
+      integer(c_int) function c_close(descriptor) bind(C, name='close')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_close
       type(c_ptr) function c_fopen(path, mode) bind(C, name='fopen')
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*), mode(*)
@@ -85,75 +85,106 @@ module atrito_files
 
 contains
 
-   !> Reads a whole file into one string. status: STATUS_FILE when it cannot be read.
+   !> Reads a whole file into one string; of a file that is no text, its first bytes: they show that it is none.
+   !> status: STATUS_FILE when it cannot be read.
    subroutine read_file(path, text, status)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: text
       type(status_t), intent(out) :: status
       character(len=256) :: reason
-      integer :: unit, ios, length
+      integer :: unit, ios
+      integer(lp) :: length
 
-      if (is_folder(path)) then
-         call set_status(status, STATUS_FILE, path//': is a folder')
-         return
-      end if
+      call judge_file(path, status)
+      if (.not. is_ok(status)) return
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=ios, iomsg=reason)
       if (ios /= 0) then
          call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
          return
       end if
       inquire (unit=unit, size=length)
-      allocate (character(len=max(length, 0)) :: text)
-      if (length > 0) read (unit, iostat=ios, iomsg=reason) text
+      call read_text(unit, int(max(0_lp, min(length, LARGEST_FILE))), text, ios, reason)
       close (unit)
       if (ios /= 0) call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
    end subroutine read_file
 
-   logical function file_exists(path)
-      character(len=*), intent(in) :: path
-
-      inquire (file=path, exist=file_exists)
-   end function file_exists
-
-   logical function is_folder(path)
-      character(len=*), intent(in) :: path
-      type(c_ptr) :: folder
-      integer(c_int) :: ignored
-
-      folder = c_opendir(path//c_null_char)
-      is_folder = c_associated(folder)
-      if (is_folder) ignored = c_closedir(folder)
-   end function is_folder
-
-   !> Makes a folder and those above it where they are missing.
-   subroutine make_folder(path, status)
+   !> A deck must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
+   subroutine judge_file(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
-      integer :: i
-      integer(c_int) :: ignored
+      integer(c_int), parameter :: READ_AT_ONCE = 2048_c_int      ! O_RDONLY + O_NONBLOCK of Linux: a pipe does not wait either
+      integer(c_int), parameter :: FROM_END = 2_c_int
+      integer(c_int) :: descriptor, ignored
+      integer(c_long) :: length
 
-      do i = 2, len(path)
-         if (path(i:i) == '/') ignored = c_mkdir(path(:i - 1)//c_null_char, FOLDER_MODE)
+      if (is_folder(path)) then
+         call set_status(status, STATUS_FILE, path//': is a folder')
+         return
+      end if
+      descriptor = c_open(path//c_null_char, READ_AT_ONCE)
+      if (descriptor < 0) return                                  ! the reason is told by the opening that follows
+      length = c_lseek(descriptor, 0_c_long, FROM_END)
+      ignored = c_close(descriptor)
+      if (length < 0) then
+         call set_status(status, STATUS_FILE, path//': is a pipe or a terminal; a plain file is expected')
+      else if (int(length, lp) > LARGEST_FILE) then
+         call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
+      end if
+   end subroutine judge_file
+
+   subroutine read_text(unit, length, text, ios, reason)
+      integer, intent(in) :: unit, length
+      character(len=:), allocatable, intent(out) :: text
+      integer, intent(out) :: ios
+      character(len=*), intent(inout) :: reason
+      integer :: first
+
+      first = min(length, FIRST_BYTES)
+      allocate (character(len=first) :: text)
+      ios = 0
+      if (length == 0) return
+      read (unit, iostat=ios, iomsg=reason) text
+      if (ios /= 0 .or. length == first) return
+      if (index(text, achar(0)) > 0) return
+      deallocate (text)
+      allocate (character(len=length) :: text, stat=ios, errmsg=reason)
+      if (ios == 0) read (unit, pos=1, iostat=ios, iomsg=reason) text
+   end subroutine read_text
+
+   !> The first line of a file of the system (which has no length) that begins with a label.
+   subroutine read_system_line(path, label, line, found)
+      character(len=*), intent(in) :: path, label
+      character(len=:), allocatable, intent(out) :: line
+      logical, intent(out) :: found
+      character(len=256) :: buffer
+      integer :: unit, ios
+
+      found = .false.
+      open (newunit=unit, file=path, status='old', action='read', iostat=ios)
+      if (ios /= 0) return
+      do
+         read (unit, '(a)', iostat=ios) buffer
+         if (ios /= 0) exit
+         found = index(buffer, label) == 1
+         if (found) exit
       end do
-      ignored = c_mkdir(path//c_null_char, FOLDER_MODE)
-      if (.not. is_folder(path)) call set_status(status, STATUS_FILE, path//': the folder cannot be made')
-   end subroutine make_folder
+      close (unit)
+      if (found) line = trim(buffer)
+   end subroutine read_system_line
 
-   !> Removes a file; one that is not there is no failure.
-   subroutine remove_file(path)
+   !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
+   !> such file.
+   function true_path(path) result(true)
       character(len=*), intent(in) :: path
-      integer(c_int) :: ignored
+      character(len=:), allocatable :: true
+      integer, parameter :: LONGEST = 4096                        ! PATH_MAX of Linux; elsewhere it is 1024
+      character(len=LONGEST) :: buffer
 
-      ignored = c_unlink(path//c_null_char)
-   end subroutine remove_file
-
-   !> Removes a folder; one that is not empty stays.
-   subroutine remove_empty_folder(path)
-      character(len=*), intent(in) :: path
-      integer(c_int) :: ignored
-
-      ignored = c_rmdir(path//c_null_char)
-   end subroutine remove_empty_folder
+      true = path
+      if (len(path) >= LONGEST) return
+      buffer = ' '
+      if (c_associated(c_realpath(path//c_null_char, buffer))) true = buffer(:index(buffer, c_null_char) - 1)
+   end function true_path
 
    !> Begins a set of files in a folder, which is made where it is missing.
    subroutine begin_files(set, folder, status)
@@ -163,19 +194,31 @@ contains
 
       set%folder = folder
       allocate (set%names(0))
-      set%is_new = .not. is_folder(folder)
-      call make_folder(folder, status)
+      call make_folder(folder, status, set%made)
       call ignore_size_limit()
    end subroutine begin_files
+
+   !> A reader of the output that goes away (`| head -1`) shall not end a run: writing to it fails, and nobody minds.
+   subroutine ignore_broken_pipe()
+      integer(c_int), parameter :: SIGPIPE = 13_c_int             ! Linux and BSD
+
+      call ignore_signal(SIGPIPE)
+   end subroutine ignore_broken_pipe
 
    !> A limit on the size of files (ulimit -f) shall come back from fwrite, as a full disk does, and not end the program.
    subroutine ignore_size_limit()
       integer(c_int), parameter :: SIGXFSZ = 25_c_int             ! Linux and BSD
+
+      call ignore_signal(SIGXFSZ)
+   end subroutine ignore_size_limit
+
+   subroutine ignore_signal(number)
+      integer(c_int), intent(in) :: number
       integer(c_intptr_t), parameter :: SIG_IGN = 1_c_intptr_t
       type(c_funptr) :: previous
 
-      previous = c_signal(SIGXFSZ, transfer(SIG_IGN, c_null_funptr))
-   end subroutine ignore_size_limit
+      previous = c_signal(number, transfer(SIG_IGN, c_null_funptr))
+   end subroutine ignore_signal
 
    !> Takes a file into the set that is written by other means, under the temporary path that is given back.
    subroutine reserve_file(set, name, path)
@@ -186,6 +229,7 @@ contains
       call append_string(set%names, name)
       path = set%folder//'/'//name//TEMPORARY
       call remove_file(path)
+      call note_file(path)
    end subroutine reserve_file
 
    !> Opens a file of the set under its temporary name. A failure is kept in the file until close_text.
@@ -256,33 +300,43 @@ contains
    end subroutine close_text
 
    !> Gives all files of the set their final names and removes the stale ones, files of an earlier run that this one does not
-   !> write.
+   !> write. A signal that would end the program waits until it is done.
+   !>
+   !> status: STATUS_FILE, and then the folder is as it was.
    subroutine commit_files(set, stale, status)
       type(file_set_t), intent(in) :: set
       type(string_t), intent(in) :: stale(:)        !< names without folder
       type(status_t), intent(out) :: status
       integer :: i
 
-      ! the one obstacle to a renaming that can be seen before: nothing is replaced unless all can be
-      do i = 1, size(set%names)
-         if (is_folder(set%folder//'/'//set%names(i)%s)) then
-            call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written, it is a folder')
-            call discard_files(set)
-            return
+      call find_obstacle(set%folder, set%names, stale, status)
+      if (is_ok(status)) then
+         call hold_interrupts()
+         call rename_all(set%folder, set%names, status)
+         if (is_ok(status)) then
+            do i = 1, size(stale)
+               if (.not. is_in(set, stale(i)%s)) call remove_file(set%folder//'/'//stale(i)%s)
+            end do
+            call keep_files(set)
          end if
-      end do
-      do i = 1, size(set%names)
-         if (c_rename(set%folder//'/'//set%names(i)%s//TEMPORARY//c_null_char, &
-                      set%folder//'/'//set%names(i)%s//c_null_char) /= 0_c_int) then
-            call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written')
-            call discard_files(set)
-            return
-         end if
-      end do
-      do i = 1, size(stale)
-         if (.not. is_in(set, stale(i)%s)) call remove_file(set%folder//'/'//stale(i)%s)
-      end do
+         call release_interrupts()
+      end if
+      if (.not. is_ok(status)) call discard_files(set)
    end subroutine commit_files
+
+   !> The files have their names: they, and their folders, stay.
+   subroutine keep_files(set)
+      type(file_set_t), intent(in) :: set
+      integer :: i
+
+      do i = 1, size(set%names)
+         call forget_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
+      end do
+      if (.not. allocated(set%made)) return
+      do i = 1, size(set%made)
+         call forget_folder(set%made(i)%s)
+      end do
+   end subroutine keep_files
 
    pure logical function is_in(set, name)
       type(file_set_t), intent(in) :: set
@@ -295,7 +349,7 @@ contains
       end do
    end function is_in
 
-   !> Removes what was written under temporary names, and the folder where it was made for them.
+   !> Removes what was written under temporary names, and the folders that were made for it.
    subroutine discard_files(set)
       type(file_set_t), intent(in) :: set
       integer :: i
@@ -303,8 +357,9 @@ contains
       if (.not. allocated(set%names)) return
       do i = 1, size(set%names)
          call remove_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
+         call forget_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
       end do
-      if (set%is_new) call remove_empty_folder(set%folder)
+      call remove_folders(set%made)
    end subroutine discard_files
 
 end module atrito_files

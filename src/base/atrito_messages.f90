@@ -10,12 +10,12 @@ module atrito_messages
    public :: message_t, add_message, add_warning, add_note, has_room, count_messages, get_message, clear_messages, sort_messages
    public :: message_mark_t, mark_messages, forget_messages
    public :: format_message
-   public :: SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE, MOST_ERRORS
+   public :: SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE, MOST_ERRORS, WIDEST_SOURCE
 
    integer, parameter :: SEVERITY_ERROR = 1, SEVERITY_WARNING = 2, SEVERITY_NOTE = 3
    integer, parameter :: MOST_ERRORS = 50       !< errors printed; the rest is counted
    integer(ip), parameter :: MOST_KEPT = 1000   !< messages of a severity kept; the rest is counted
-   integer, parameter :: WIDEST_SOURCE = 100    !< characters shown of a longer line of the deck
+   integer(ip), parameter :: WIDEST_SOURCE = 100 !< characters shown of a longer line of the deck
 
    type :: message_t
       integer :: severity = SEVERITY_ERROR
@@ -24,7 +24,8 @@ module atrito_messages
       character(len=:), allocatable :: file     !< as the user wrote it; not allocated: no place at all
       integer(ip) :: line = 0, column = 0       !< 0: no place within the file
       integer(ip) :: length = 1                 !< characters under the marker
-      character(len=:), allocatable :: source   !< the deck's line
+      character(len=:), allocatable :: source   !< the deck's line, or the part of it round the place
+      integer(ip) :: skipped = 0                !< characters of the line before that part
       character(len=:), allocatable :: expected !< what was expected, with its dimension
       type(string_t), allocatable :: nearest(:) !< nearest valid names
       type(string_t), allocatable :: known(:)   !< all valid names, when they are few
@@ -164,6 +165,7 @@ contains
    function format_message(message) result(lines)
       type(message_t), intent(in) :: message
       type(string_t), allocatable :: lines(:)
+      integer :: i
 
       allocate (lines(0))
       call append_string(lines, first_line(message))
@@ -178,6 +180,9 @@ contains
          if (size(message%known) > 0) call append_string(lines, '    known:    '//join(message%known, ', '))
       end if
       if (allocated(message%keyword)) call append_string(lines, '    see:      atrito help '//message%keyword)
+      do i = 1, size(lines)
+         lines(i)%s = visible(lines(i)%s)             ! names and paths are the user's
+      end do
    end function format_message
 
    function first_line(message) result(text)
@@ -191,7 +196,7 @@ contains
          if (message%line > 0) text = text//to_text(message%line)//':'//to_text(max(message%column, 1_ip))//':'
          text = text//' '
       end if
-      text = text//trim(WORD(message%severity))//' ['//message%id//'] '//visible(message%text)
+      text = text//trim(WORD(message%severity))//' ['//message%id//'] '//message%text
    end function first_line
 
    !> The deck's line and the marker below it; of a long line the part round the marker.
@@ -199,19 +204,20 @@ contains
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(message_t), intent(in) :: message
       character(len=:), allocatable :: before, after
-      integer :: first, last, length
+      integer :: first, last, length, column
 
+      column = message%column - message%skipped
       first = 1
       last = len(message%source)
       if (last > WIDEST_SOURCE) then
-         first = max(1, min(message%column - WIDEST_SOURCE/2, last - WIDEST_SOURCE + 1))
+         first = max(1, min(column - WIDEST_SOURCE/2, last - WIDEST_SOURCE + 1))
          last = min(last, first + WIDEST_SOURCE - 1)
       end if
       before = repeat('.', merge(3, 0, first > 1))
       after = repeat('.', merge(3, 0, last < len(message%source)))
-      length = max(1, min(message%length, last - message%column + 1))
-      call append_string(lines, '    '//before//visible(message%source(first:last))//after)
-      call append_string(lines, '    '//before//marker(message%source(first:last), message%column - first + 1, length))
+      length = max(1, min(message%length, last - column + 1))
+      call append_string(lines, '    '//before//message%source(first:last)//after)
+      call append_string(lines, '    '//before//marker(message%source(first:last), column - first + 1, length))
    end subroutine append_source
 
    !> Blanks for tabs, so that the marker stands below its place; no other character may disturb the terminal.

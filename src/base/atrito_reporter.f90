@@ -17,7 +17,9 @@ contains
       character(len=*), intent(in) :: text
       integer :: ignored
 
-      if (.not. reporter%quiet) write (error_unit, '(a)', iostat=ignored) text
+      if (reporter%quiet) return
+      write (error_unit, '(a)', iostat=ignored) text
+      flush (error_unit, iostat=ignored)             ! a file is watched, too
    end subroutine report_progress
 
 end module atrito_reporter

@@ -47,8 +47,16 @@ contains
    pure logical function same_name(a, b)
       character(len=*), intent(in) :: a, b
 
-      same_name = len_trim(a) == len_trim(b)
-      if (same_name) same_name = lower_case(trim(a)) == lower_case(trim(b))
+      integer :: i, n
+
+      n = len_trim(a)
+      same_name = n == len_trim(b)
+      if (.not. same_name) return
+      do i = 1, n
+         if (a(i:i) == b(i:i)) cycle                  ! most names differ early: no copies of them are made
+         same_name = lower_case(a(i:i)) == lower_case(b(i:i))
+         if (.not. same_name) return
+      end do
    end function same_name
 
    pure function integer_to_text(i) result(text)

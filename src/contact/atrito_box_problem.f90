@@ -140,32 +140,23 @@ contains
       real(wp), intent(out) :: q(:)              !< scaled
       real(wp), intent(inout) :: a(:)
       type(equality_solution_t), intent(inout) :: solution
-      real(wp), allocatable :: y(:, :), values(:), vectors(:, :), column_scale(:), x(:), force(:), correction(:), da(:)
-      real(wp) :: size_of_load
-      integer(ip) :: j
+      real(wp), allocatable :: y(:, :), values(:), vectors(:, :), column_scale(:), x(:), correction(:), da(:)
 
       y = gs
       call solve_cholesky(factor, y)
       call complement_modes(gs, y, vectors, values, column_scale)
       x = rhs
       call solve_cholesky(factor, x)
-      force = load - matmul(transpose(gs), x)
-      size_of_load = maxval([(sum(abs(problem%g(:, j)*held)) + sum(abs(gs(:, j)*x)) + abs(problem%h(j)), j=1, problem%k), &
-                             0.0_wp])
-      call solve_motions(vectors, values, column_scale, force, size_of_load, a, solution)
+      call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), x), a)
       q = x + matmul(y, a)
       ! one refinement: the residual of both equations with the same factors
       correction = rhs + matmul(gs, a) - scaled_product(problem%c, d, free_set, scale, q)
       call solve_cholesky(factor, correction)
-      force = load - matmul(transpose(gs), q) - matmul(transpose(gs), correction)
-      if (solution%moves) then
-         q = q + correction
-         return
-      end if
       allocate (da, mold=a)
-      call solve_motions(vectors, values, column_scale, force, huge(1.0_wp), da, solution)
+      call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
       q = q + correction + matmul(y, da)
       a = a + da
+      call judge_motions(problem, vectors, values, column_scale, gs, load, held, q, solution)
    end subroutine solve_saddle
 
    !> (C + D) q of the free set in scaled form.
@@ -204,32 +195,47 @@ contains
       call eigen_symmetric(vectors, values, info)
    end subroutine complement_modes
 
-   !> a from G' M^-1 G a = force; a motion that is not held takes no part unless the force works on it: then solution%moves.
-   subroutine solve_motions(vectors, values, column_scale, force, size_of_load, a, solution)
+   !> a from G' M^-1 G a = force; a motion that the free set does not hold takes no part.
+   subroutine solve_motions(vectors, values, column_scale, force, a)
       real(wp), intent(in) :: vectors(:, :), values(:), column_scale(:), force(:)
-      real(wp), intent(in) :: size_of_load       !< huge: no question of motion
       real(wp), intent(out) :: a(:)
-      type(equality_solution_t), intent(inout) :: solution
-      real(wp) :: part, motion(size(a))
       integer(ip) :: j
 
       a = 0.0_wp
-      motion = 0.0_wp
       do j = 1, size(values, kind=ip)
-         part = dot_product(vectors(:, j), force*column_scale)
-         if (values(j) > NULL_MOTION) then
-            a = a + vectors(:, j)*(part/values(j))
-         else if (abs(part)/maxval(abs(vectors(:, j)*column_scale)) > NO_LOAD*size_of_load) then
+         if (values(j) <= NULL_MOTION) cycle
+         a = a + vectors(:, j)*(dot_product(vectors(:, j), force*column_scale)/values(j))
+      end do
+      a = a*column_scale
+   end subroutine solve_motions
+
+   !> Whether the load works on a motion that the free set does not hold: then solution%moves. The load is measured by the forces of
+   !> the solution; those before the bodies have moved to where they touch may be larger by any factor, and say nothing.
+   subroutine judge_motions(problem, vectors, values, column_scale, gs, load, held, q, solution)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: vectors(:, :), values(:), column_scale(:), gs(:, :), load(:), held(:)
+      real(wp), intent(in) :: q(:)               !< scaled, of the free set
+      type(equality_solution_t), intent(inout) :: solution
+      real(wp) :: force(problem%k), size_of_load, part, motion(problem%k)
+      integer(ip) :: j
+
+      if (all(values > NULL_MOTION)) return
+      force = (load - matmul(transpose(gs), q))*column_scale
+      size_of_load = maxval([(sum(abs(problem%g(:, j)*held)) + sum(abs(gs(:, j)*q)) + abs(problem%h(j)), j=1, problem%k)])
+      motion = 0.0_wp
+      do j = 1, problem%k
+         if (values(j) > NULL_MOTION) cycle
+         part = dot_product(vectors(:, j), force)
+         if (abs(part)/maxval(abs(vectors(:, j)*column_scale)) > NO_LOAD*size_of_load) then
             motion = motion + vectors(:, j)*part
          else
             solution%idle = vectors(:, j)*column_scale
          end if
       end do
-      a = a*column_scale
       if (all(motion == 0.0_wp)) return
       solution%moves = .true.
       solution%motion = motion*column_scale
-   end subroutine solve_motions
+   end subroutine judge_motions
 
    !> r = g0 - (C + D) q + G a.
    function residual(problem, d, state) result(r)

@@ -99,15 +99,17 @@ contains
    end subroutine master_of_segments
 
    !> The nearest piece of the master on the line through x along the normal; a piece seen from behind is not seen, nor one that
-   !> lies deeper inside than the longer of the slave's face and the piece.
+   !> lies deeper inside than the longer of the slave's face and the piece. A piece that the line misses by END_TOLERANCE or less is
+   !> taken only where no other is as near. The distance is that to the piece or its continuation.
    pure function look_along(x, normal, reach, master) result(best)
       real(wp), intent(in) :: x(2), normal(2)
       real(wp), intent(in) :: reach                 !< length of the slave's face [L]
       type(master_t), intent(in) :: master
       type(sight_t) :: best
-      real(wp) :: t(2), distance
+      real(wp) :: t(2), distance, nearness, nearest
       integer(ip) :: i, k, n_roots
 
+      nearest = huge(nearest)
       do i = 1, master%n
          if (is_arc(master, i)) then
             call cross_arc(master, i, x, normal, t, n_roots)
@@ -116,11 +118,14 @@ contains
          end if
          do k = 1, n_roots
             if (t(k) < -END_TOLERANCE .or. t(k) > 1 + END_TOLERANCE) cycle
+            distance = dot_product(place_at(master, i, t(k)) - x, normal)
+            nearness = abs(distance)
+            if (t(k) < -NODE_TOLERANCE .or. t(k) > 1 + NODE_TOLERANCE) nearness = nearness + 2*END_TOLERANCE*norm2(master%d(:, i))
             t(k) = at_node(min(max(t(k), 0.0_wp), 1.0_wp))
             if (dot_product(normal, normal_at(master, i, t(k))) > FACING) cycle
-            distance = dot_product(place_at(master, i, t(k)) - x, normal)
-            if (distance < -max(reach, norm2(master%d(:, i)))) cycle
-            if (best%piece == 0 .or. abs(distance) < abs(best%distance)) best = sight_t(i, t(k), distance)
+            if (distance < -max(reach, norm2(master%d(:, i))) .or. nearness >= nearest) cycle
+            nearest = nearness
+            best = sight_t(i, t(k), distance)
          end do
       end do
    end function look_along

@@ -43,6 +43,8 @@ module atrito_points
 
    !> From this sine on two faces meet at a corner, and do not stand for a curve.
    real(wp), parameter :: CORNER = 0.8_wp
+   !> Errors of rounding that a distance may have.
+   real(wp), parameter :: ROUND_OFFS = 8.0_wp
    !> Sides match when their nodes are this close, in parts of an edge.
    real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
 
@@ -240,7 +242,8 @@ contains
       points%master_shape = points%master_shape(:, :n)
    end subroutine trim_points
 
-   !> Initial distances, and the master's shape functions where each point faces it.
+   !> Initial distances, and the master's shape functions where each point faces it. A distance that is round-off of the
+   !> coordinates is none: displacements may be smaller than that.
    pure subroutine look_for_master(mesh, master, faces, points)
       type(mesh_t), intent(in) :: mesh
       type(master_t), intent(in) :: master
@@ -255,6 +258,7 @@ contains
          ! where two faces meet at an angle, the mean normal may miss the end of the master
          if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master)
          points%gap(i) = sight%distance
+         if (abs(sight%distance) <= ROUND_OFFS*EPS_MACH*maxval(abs(points%x))) points%gap(i) = 0.0_wp
          if (master%rigid) cycle
          nodes = face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))
          n = size(nodes, kind=ip)

@@ -10,7 +10,7 @@ module atrito_deck
    public :: source_t, token_t, option_t, card_t, data_line_t, parameter_t, deck_t
    public :: KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
    public :: token_text, is_empty_token, is_quoted, is_id_token, same_token, keyword_name, line_item, last_item, reading_order, &
-             source_line
+             take_source_line
    public :: allocate_deck, append_source, append_token, append_line, append_card, append_parameter
 
    !> A card whose keyword is not in the table, is not built or has no effect here; already reported.
@@ -181,27 +181,30 @@ contains
       end do
    end function reading_order
 
-   !> The whole line of the deck in which an item stands.
-   pure function source_line(deck, token) result(line)
+   !> The line of the deck in which an item stands; of a long line the part that reaches so many characters to both sides of the
+   !> item's beginning (a line may have as many characters as the deck, and a thousand messages keep theirs).
+   pure subroutine take_source_line(deck, token, reach, line, skipped)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
-      character(len=:), allocatable :: line
-      integer(ip) :: first, length
+      integer(ip), intent(in) :: reach
+      character(len=:), allocatable, intent(out) :: line
+      integer(ip), intent(out) :: skipped          !< characters of the line before this part of it
+      integer(ip) :: first, last, length
 
-      first = token%first - token%column + 1
+      skipped = max(0, token%column - 1 - reach)
+      first = token%first - token%column + 1 + skipped
       associate (text => deck%sources(token%source)%text)
-         if (first > len(text)) then
-            line = ''
-            return
-         end if
-         length = scan(text(first:), LINE_FEED) - 1
-         if (length < 0) length = len(text) - first + 1
+         last = min(len(text), token%first + reach)
+         line = ''
+         if (first > last) return
+         length = scan(text(first:last), LINE_FEED) - 1
+         if (length < 0) length = last - first + 1
          if (length > 0) then
             if (text(first + length - 1:first + length - 1) == CARRIAGE_RETURN) length = length - 1
          end if
          line = text(first:first + length - 1)
       end associate
-   end function source_line
+   end subroutine take_source_line
 
    !> An empty deck, with room to grow.
    subroutine allocate_deck(deck)

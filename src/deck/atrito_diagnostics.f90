@@ -1,8 +1,8 @@
 !> Messages about a place in the deck, docs/user/messages.md.
 module atrito_diagnostics
    use atrito_kinds, only: ip
-   use atrito_deck, only: deck_t, token_t, token_text, reading_order, source_line
-   use atrito_messages, only: message_t, add_message, has_room, SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
+   use atrito_deck, only: deck_t, token_t, token_text, reading_order, take_source_line
+   use atrito_messages, only: message_t, add_message, has_room, WIDEST_SOURCE, SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_strings, only: string_t, nearest_names
    implicit none (type, external)
    private
@@ -91,7 +91,7 @@ contains
          message%line = token%line
          message%column = token%column
          message%length = max(1, token%last - token%first + 1)
-         message%source = source_line(deck, token)
+         call take_source_line(deck, token, WIDEST_SOURCE, message%source, message%skipped)
          message%order = reading_order(deck, token%source, token%line)
       else
          message%file = deck%path

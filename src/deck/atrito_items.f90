@@ -4,7 +4,7 @@ module atrito_items
    use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, is_empty_token, keyword_name, reading_order
    use atrito_diagnostics, only: report_error
    use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
-   use atrito_strings, only: string_t, same_name, append_string, to_text, upper_case
+   use atrito_strings, only: string_t, same_name, to_text, upper_case
    implicit none (type, external)
    private
    public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer
@@ -225,9 +225,9 @@ contains
       type(string_t), allocatable :: names(:)
       integer(ip) :: i
 
-      allocate (names(0))
+      allocate (names(deck%n_parameters))
       do i = 1, deck%n_parameters
-         call append_string(names, deck%parameters(i)%name)
+         names(i)%s = deck%parameters(i)%name
       end do
    end function parameter_names
 

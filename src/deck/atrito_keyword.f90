@@ -252,20 +252,23 @@ contains
    pure function choices_of(list) result(choices)
       character(len=*), intent(in) :: list
       type(choice_t), allocatable :: choices(:)
-      integer :: first, blank
+      integer :: first, blank, i, n
 
-      allocate (choices(0))
+      n = 0
+      if (len(list) > 0) n = 1 + count([(list(i:i) == ' ', i=1, len(list))])
+      allocate (choices(n))
       first = 1
-      do while (first <= len(list))
+      do i = 1, n
          blank = index(list(first:)//' ', ' ')
-         choices = [choices, choice_of(list(first:first + blank - 2))]
+         call read_choice(list(first:first + blank - 2), choices(i))
          first = first + blank
       end do
    end function choices_of
 
-   pure function choice_of(word) result(choice)
+   !> A subroutine: what a function result holds in an array constructor is never given back (gfortran 12).
+   pure subroutine read_choice(word, choice)
       character(len=*), intent(in) :: word
-      type(choice_t) :: choice
+      type(choice_t), intent(out) :: choice
       integer :: first, last
 
       choice%built = word(1:1) /= '-'
@@ -273,7 +276,7 @@ contains
       first = merge(1, 2, choice%built)
       last = len(word) - merge(1, 0, choice%own)
       choice%name = word(first:last)
-   end function choice_of
+   end subroutine read_choice
 
    pure function text_or(text) result(given)
       character(len=*), intent(in), optional :: text

@@ -8,7 +8,7 @@ module atrito_parameters
    use atrito_items, only: index_of_parameter, parameter_names, report_later, LONGEST_NAME
    use atrito_lexer, only: find_equals, trim_place
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
-   use atrito_strings, only: string_t, append_string, same_name, nearest_names, join, to_text
+   use atrito_strings, only: string_t, append_string, lower_case, same_name, nearest_names, join, to_text
    implicit none (type, external)
    private
    public :: settings_t, read_settings, define_parameter, check_settings, evaluate_function
@@ -143,7 +143,7 @@ contains
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)
 
-      call collect_known(deck, expression, names, values)
+      call collect_known(deck, expression, .true., names, values)
       call evaluate_expression(token_text(deck, expression), names, values, value, fault)
       known = .not. allocated(fault%text)
       if (.not. known) call report_fault(deck, expression, fault, [string_t ::], 'PARAMETER')
@@ -157,6 +157,7 @@ contains
       type(string_t), intent(in) :: also(:)            !< names that the expression knows besides
       character(len=*), intent(in) :: keyword
       type(token_t) :: place
+      type(string_t), allocatable :: names(:)
       character(len=:), allocatable :: others
       integer(ip) :: i
 
@@ -172,13 +173,32 @@ contains
          call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
                            expected='numbers, '//others//'earlier parameters, + - * / ** ( ), functions')
       else if (i == 0) then
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
-                           known=[also, parameter_names(deck), reserved_names()], &
+         names = reserved_names()
+         call put_before(parameter_names(deck), names)
+         call put_before(also, names)
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=names, &
                            expected=others//'an earlier parameter, a function or pi')
       else if (deck%parameters(i)%known) then
          call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
       end if
    end subroutine report_fault
+
+   !> Not an array constructor: what function results hold in one is never given back (gfortran 12).
+   pure subroutine put_before(first, names)
+      type(string_t), intent(in) :: first(:)
+      type(string_t), allocatable, intent(inout) :: names(:)
+      type(string_t), allocatable :: both(:)
+      integer :: i
+
+      allocate (both(size(first) + size(names)))
+      do i = 1, size(first)
+         both(i)%s = first(i)%s
+      end do
+      do i = 1, size(names)
+         call move_alloc(names(i)%s, both(size(first) + i)%s)
+      end do
+      call move_alloc(both, names)
+   end subroutine put_before
 
    !> An expression in x, y and earlier parameters at some places.
    subroutine evaluate_function(deck, expression, x, values, ok, keyword)
@@ -194,8 +214,9 @@ contains
       type(string_t) :: coordinates(2)
       integer(ip) :: i
 
-      coordinates = [string_t('x'), string_t('y')]
-      call collect_known(deck, expression, names, known)
+      coordinates(1)%s = 'x'
+      coordinates(2)%s = 'y'
+      call collect_known(deck, expression, .false., names, known)
       values = 0.0_wp
       do i = 1, size(names, kind=ip)
          ok = .not. (same_name(names(i)%s, 'x') .or. same_name(names(i)%s, 'y'))
@@ -204,7 +225,7 @@ contains
                            expected='another name of the parameter', keyword=keyword)
          return
       end do
-      names = [coordinates, names]
+      call put_before(coordinates, names)
       ok = .true.
       if (size(values) == 0) call check_text(deck, expression, names, known, ok, keyword)
       do i = 1, size(values, kind=ip)
@@ -233,20 +254,31 @@ contains
       if (.not. ok) call report_fault(deck, expression, fault, names(:2), keyword)
    end subroutine check_text
 
-   !> The parameters that have values and are defined before a place.
-   subroutine collect_known(deck, place, names, values)
+   !> The parameters that have values and are defined before the place of an expression.
+   subroutine collect_known(deck, place, named, names, values)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: place
+      logical, intent(in) :: named                     !< only those that the expression may name: a deck can have thousands
       type(string_t), allocatable, intent(out) :: names(:)
       real(wp), allocatable, intent(out) :: values(:)
-      integer(ip) :: i, order
+      character(len=:), allocatable :: text
+      integer(ip), allocatable :: used(:)
+      integer(ip) :: i, n, here
 
-      allocate (names(0), values(0))
-      order = reading_order(deck, place%source, place%line)
+      text = lower_case(token_text(deck, place))
+      here = reading_order(deck, place%source, place%line)
+      allocate (used(deck%n_parameters))
+      n = 0
       do i = 1, deck%n_parameters
-         if (.not. deck%parameters(i)%known .or. deck%parameters(i)%order >= order) cycle
-         call append_string(names, deck%parameters(i)%name)
-         values = [values, deck%parameters(i)%value]
+         if (.not. deck%parameters(i)%known .or. deck%parameters(i)%order >= here) cycle
+         if (named .and. index(text, lower_case(deck%parameters(i)%name)) == 0) cycle
+         n = n + 1
+         used(n) = i
+      end do
+      allocate (names(n), values(n))
+      do i = 1, n
+         names(i)%s = deck%parameters(used(i))%name
+         values(i) = deck%parameters(used(i))%value
       end do
    end subroutine collect_known
 

@@ -1,13 +1,14 @@
 !> Reads a deck: sources, cards and parameters, checked against the keyword table.
 module atrito_reader
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    use atrito_card_data, only: check_data
    use atrito_card_order, only: order_t, check_order, check_end
    use atrito_cards, only: make_card, check_options
    use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, append_source, &
                           append_token, append_line, append_card, reading_order
+   use atrito_deck_memory, only: fits_memory
    use atrito_diagnostics, only: report_error, report_note, report_deck_error
-   use atrito_files, only: read_file
+   use atrito_files, only: read_file, true_path
    use atrito_items, only: option_text
    use atrito_keyword, only: keyword_t, KIND_TEXT
    use atrito_keyword_table, only: keyword_table
@@ -27,6 +28,9 @@ module atrito_reader
    integer, parameter :: MODE_PARAMETER = 4        !< `name = expression`
 
    integer, parameter :: DEEPEST_INCLUDE = 20
+   !> Includes that each include two others would fill any memory at a depth of 20.
+   integer(ip), parameter :: MOST_SOURCES = 10000
+   integer(lp), parameter :: MOST_CHARACTERS = 2000000000_lp   !< of all files
 
    !> The reader between two lines.
    type :: reading_t
@@ -88,9 +92,12 @@ contains
       type(cursor_t) :: cursor
       type(line_t) :: line
       integer(ip) :: i
+      logical :: sound
 
       cursor%source = source
-      if (is_binary(deck, source)) then
+      sound = .not. is_binary(deck, source)
+      if (sound) sound = fits_memory(deck, source)
+      if (.not. sound) then
          reading%order%incomplete = .true.
          return
       end if
@@ -185,20 +192,26 @@ contains
       type(token_t), allocatable, intent(out) :: items(:)
       type(line_t) :: next
       type(cursor_t) :: ahead
+      integer(ip) :: n
       logical :: goes_on
 
-      allocate (items(0))
+      allocate (items(16))
+      n = 0
       next = line
       do
          call split_line(deck, reading, cursor, next)
-         items = [items, tokens_of(reading%items, cursor, next)]
+         call add_tokens(reading%items, cursor, next, items, n)
          goes_on = deck%sources(cursor%source)%text(next%last:next%last) == ','
-         if (.not. goes_on) return
+         if (.not. goes_on) then
+            items = items(:n)
+            return
+         end if
          ahead = cursor
          call look_ahead(deck, ahead, next, goes_on)
          if (.not. goes_on) exit
          cursor = ahead
       end do
+      items = items(:n)
       call report_error(deck, items(size(items)), 'E-CONTINUATION', 'a comma at the end of the keyword line, but no line goes on', &
                         expected='no comma, or further options')
    end subroutine gather_items
@@ -235,17 +248,26 @@ contains
       end if
    end subroutine split_line
 
-   pure function tokens_of(items, cursor, line) result(tokens)
+   !> Appends the items of a line to a list of n so far, which doubles where it is too short.
+   pure subroutine add_tokens(items, cursor, line, tokens, n)
       type(items_t), intent(in) :: items
       type(cursor_t), intent(in) :: cursor
       type(line_t), intent(in) :: line
-      type(token_t) :: tokens(items%n)
+      type(token_t), allocatable, intent(inout) :: tokens(:)
+      integer(ip), intent(inout) :: n
+      type(token_t), allocatable :: longer(:)
       integer(ip) :: i
 
+      if (n + items%n > size(tokens)) then
+         allocate (longer(2*(n + items%n)))
+         longer(:n) = tokens(:n)
+         call move_alloc(longer, tokens)
+      end if
       do i = 1, items%n
-         tokens(i) = token_at(cursor, line, items%first(i), items%last(i))
+         tokens(n + i) = token_at(cursor, line, items%first(i), items%last(i))
       end do
-   end function tokens_of
+      n = n + items%n
+   end subroutine add_tokens
 
    subroutine begin_card(deck, reading, card)
       type(deck_t), intent(inout) :: deck
@@ -370,12 +392,14 @@ contains
       integer(ip), intent(in) :: from
       character(len=*), intent(in) :: name
       type(token_t), intent(in) :: place
+      character(len=:), allocatable :: path
       integer(ip) :: above
 
       may_include = .false.
+      path = true_path(name)                       ! a/../a/deck.inp is deck.inp again
       above = from
       do while (above > 0)
-         if (deck%sources(above)%name == name) exit
+         if (true_path(deck%sources(above)%name) == path) exit
          above = deck%sources(above)%parent
       end do
       if (above > 0) then
@@ -383,11 +407,25 @@ contains
                            expected='another file', keyword='INCLUDE')
       else if (reading%depth >= DEEPEST_INCLUDE) then
          call report_error(deck, place, 'E-INCLUDE', 'includes more than '//to_text(DEEPEST_INCLUDE)//' deep', keyword='INCLUDE')
+      else if (deck%n_sources >= MOST_SOURCES .or. characters(deck) > MOST_CHARACTERS) then
+         call report_error(deck, place, 'E-INCLUDE', 'includes of more than '//to_text(MOST_SOURCES)//' files, or 2 GB in all', &
+                           keyword='INCLUDE')
       else
          may_include = .true.
       end if
       if (.not. may_include) reading%order%incomplete = .true.
    end function may_include
+
+   !> Characters of all files so far.
+   pure integer(lp) function characters(deck) result(n)
+      type(deck_t), intent(in) :: deck
+      integer(ip) :: i
+
+      n = 0_lp
+      do i = 1, deck%n_sources
+         n = n + len(deck%sources(i)%text, kind=lp)
+      end do
+   end function characters
 
    !> The path of a file relative to the folder of another one, without `./`.
    pure function relative_path(from, name) result(path)
@@ -397,6 +435,9 @@ contains
       path = name
       do while (index(path, './') == 1 .and. len(path) > 2)
          path = path(3:)
+         do while (path(1:1) == '/' .and. len(path) > 1)
+            path = path(2:)                        ! .//a is no absolute path
+         end do
       end do
       if (path(1:1) /= '/') path = from(:index(from, '/', back=.true.))//path
    end function relative_path

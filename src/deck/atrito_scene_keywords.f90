@@ -56,11 +56,12 @@ contains
       type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'SOLID SECTION', LEVEL_MODEL, 'gives elements a material and a thickness', &
-                          doc='Every element has exactly one section.')
+                          doc='Every element has exactly one section. BBAR gives CPE4 elements one dilatation, the mean of '// &
+                          'each: they do not lock near mu = 0.5. Other elements do not need it; they are left as they are.')
       call add_option(k, 'ELSET', KIND_NAME, 'the elements', required=.true.)
       call add_option(k, 'MATERIAL', KIND_NAME, 'their material', required=.true.)
       call add_option(k, 'FORMULATION', KIND_WORD, 'how the stiffness is integrated', own=.true., default='STANDARD', &
-                      choices='STANDARD -BBAR')
+                      choices='STANDARD BBAR')
       call add_form(k, 'the thickness', 0, 1)
       call add_item(k, 'thickness', KIND_REAL, '> 0', dimension='L', default='1')
       call add_example(k, '*SOLID SECTION, ELSET=plate, MATERIAL=concrete|0.2')

@@ -1,6 +1,7 @@
 !> Sums over the elements of a body: matrix, profile, nodal forces of a displacement field.
 module atrito_assembly
    use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_range, only: work_of
    use atrito_mesh, only: mesh_t, element_coordinates, Q2_NODES
    use atrito_bodies, only: body_t, bodies_t, element_equations
    use atrito_elasticity, only: elastic_t
@@ -9,7 +10,7 @@ module atrito_assembly
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: fem_t, stiffness_cache_t, body_profile, assemble_body, internal_forces, cached_stiffness
+   public :: fem_t, stiffness_cache_t, body_profile, assemble_body, kept_diagonal, internal_forces, cached_stiffness
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -62,6 +63,30 @@ contains
       end associate
    end subroutine assemble_body
 
+   !> Diagonal of a body's matrix at its kept equations, before any elimination.
+   subroutine kept_diagonal(fem, i_body, diagonal)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      real(wp), intent(out) :: diagonal(:)         !< (n_kept) [F/L]
+      type(stiffness_cache_t) :: cache
+      integer(ip) :: equations(2*Q2_NODES), i, k, e, n, first
+
+      diagonal = 0.0_wp
+      associate (body => fem%bodies%list(i_body))
+         first = body%n - body%n_kept
+         do i = 1, size(body%elements, kind=ip)
+            e = body%elements(i)
+            n = 2*fem%mesh%shape(e)
+            equations(:n) = element_equations(fem%mesh, fem%bodies, e)
+            if (all(equations(:n) <= first)) cycle
+            call cached_stiffness(fem, e, cache)
+            do k = 1, n
+               if (equations(k) > first) diagonal(equations(k) - first) = diagonal(equations(k) - first) + cache%k(k, k)
+            end do
+         end do
+      end associate
+   end subroutine kept_diagonal
+
    !> Puts the stiffness of an element into cache%k, computing it only when the element differs from the one before.
    pure subroutine cached_stiffness(fem, element, cache)
       type(fem_t), intent(in) :: fem
@@ -113,7 +138,7 @@ contains
             call cached_stiffness(fem, e, cache)
             fe(:2*n) = matmul(cache%k(:2*n, :2*n), ue(:2*n))
             se(:2*n) = matmul(abs(cache%k(:2*n, :2*n)), abs(ue(:2*n)))
-            energy = energy + 0.5_wp*dot_product(ue(:2*n), fe(:2*n))
+            energy = energy + 0.5_wp*work_of(2*n, fe, ue)
             do k = 1, n
                node = fem%mesh%nodes(k, e)
                force(:, node) = force(:, node) + fe(2*k - 1:2*k)

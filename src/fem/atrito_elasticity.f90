@@ -1,10 +1,14 @@
 !> Linear isotropic elasticity in the plane. Strains are e11, e22, 2 e12.
 module atrito_elasticity
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: PLANE_STRESS
+   use atrito_mesh, only: PLANE_STRAIN, PLANE_STRESS, Q1_NODES
    implicit none (type, external)
    private
-   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises
+   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, has_mean_dilatation
+   public :: FORMULATION_STANDARD, FORMULATION_BBAR
+
+   integer(ip), parameter :: FORMULATION_STANDARD = 1   !< the strains of the displacements
+   integer(ip), parameter :: FORMULATION_BBAR = 2       !< with the element's mean dilatation, where has_mean_dilatation
 
    !> What an element needs to know of its section.
    type :: elastic_t
@@ -12,6 +16,7 @@ module atrito_elasticity
       real(wp) :: poisson = 0.0_wp         !< mu
       real(wp) :: thickness = 1.0_wp       !< [L]
       real(wp) :: density = 0.0_wp
+      integer(ip) :: formulation = FORMULATION_STANDARD
    end type elastic_t
 
 contains
@@ -58,6 +63,16 @@ contains
       c(2, 2) = c(1, 1)
       c(2, 1) = c(1, 2)
    end function compliance_matrix
+
+   !> Whether the strains of an element have one dilatation, the mean of the element (B-bar): four nodes in plane strain. In
+   !> plane stress the thickness gives way and nothing locks; elements with nine nodes hardly lock.
+   pure logical function has_mean_dilatation(section, state, n_nodes)
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state     !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: n_nodes   !< Q1_NODES or Q2_NODES
+
+      has_mean_dilatation = section%formulation == FORMULATION_BBAR .and. state == PLANE_STRAIN .and. n_nodes == Q1_NODES
+   end function has_mean_dilatation
 
    !> The stress across the plane.
    pure real(wp) function stress_33(section, state, s)

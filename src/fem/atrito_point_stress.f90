@@ -2,9 +2,10 @@
 !> innermost loops run over the points of an element.
 module atrito_point_stress
    use atrito_assembly, only: fem_t
-   use atrito_elasticity, only: elasticity_matrix
+   use atrito_elasticity, only: elasticity_matrix, has_mean_dilatation
+   use atrito_element, only: mean_gradients
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: Q2_NODES
+   use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_shape_functions, only: shape_values, shape_gradients, gauss_rule
    implicit none (type, external)
    private
@@ -26,6 +27,8 @@ module atrito_point_stress
       integer(ip) :: n                           !< nodes
       real(wp) :: x(2, Q2_NODES), u(2, Q2_NODES) !< [L]
       real(wp) :: d(3, 3)                        !< elasticity matrix [F/L^2]
+      logical :: averages                        !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
+      real(wp) :: dilatation                     !< which
    end type element_data_t
 
    !> What the points of a rule have in an element.
@@ -74,7 +77,12 @@ contains
          data%x(:, k) = fem%mesh%x(:, node) - fem%mesh%x(:, first)
          data%u(:, k) = u(:, node) - u(:, first)
       end do
-      data%d = elasticity_matrix(fem%sections(fem%section_of(e)), fem%mesh%state(e))
+      associate (section => fem%sections(fem%section_of(e)), state => fem%mesh%state(e))
+         data%d = elasticity_matrix(section, state)
+         data%averages = has_mean_dilatation(section, state, data%n)
+      end associate
+      data%dilatation = 0.0_wp
+      if (data%averages) data%dilatation = sum(mean_gradients(data%x(:, :Q1_NODES))*data%u(:, :Q1_NODES))
    end subroutine fetch_element
 
    !> Places, stresses and Jacobians at the points of a rule.
@@ -83,7 +91,7 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(point_values_t), intent(out) :: at    !< the first rule%n of each
       real(wp), dimension(MOST_POINTS, 2) :: dx, dy, du, dv  !< derivatives along xi and eta
-      real(wp) :: h11, h12, h21, h22, e11, e22, e12
+      real(wp) :: h11, h12, h21, h22, e11, e22, e12, shift
       integer(ip) :: k, i, direction
 
       at%x(:rule%n, :) = 0.0_wp
@@ -112,6 +120,11 @@ contains
          e11 = du(i, 1)*h11 + du(i, 2)*h21
          e22 = dv(i, 1)*h12 + dv(i, 2)*h22
          e12 = du(i, 1)*h12 + du(i, 2)*h22 + dv(i, 1)*h11 + dv(i, 2)*h21
+         if (data%averages) then
+            shift = 0.5_wp*(data%dilatation - (e11 + e22))
+            e11 = e11 + shift
+            e22 = e22 + shift
+         end if
          at%s(i, 1) = data%d(1, 1)*e11 + data%d(1, 2)*e22
          at%s(i, 2) = data%d(1, 2)*e11 + data%d(2, 2)*e22
          at%s(i, 3) = data%d(3, 3)*e12

@@ -2,8 +2,10 @@
 !>
 !> All of it works at order 0. Tolerances are relative to the largest singular value, so that nothing depends on units. `info`
 !> is LAPACK's: 0 is success; a factorisation that meets an exactly zero pivot, or an iteration for eigen- or singular values
-!> that does not converge (which takes NaN or infinity in the matrix), returns something else.
+!> that does not converge, returns something else; so does an infinity or NaN in the data of a decomposition, which LAPACK would
+!> answer with a line on standard output, or even with the end of the program (xerbla).
 module atrito_dense
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_lapack, only: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpocon, dpotrf, dpotrs, dsyev
@@ -11,6 +13,8 @@ module atrito_dense
    private
    public :: factor_cholesky, solve_cholesky, estimate_condition, norm_one, solve_lu, eigen_symmetric
    public :: orthonormalise, multiply, multiply_vector, singular_values, null_space, least_squares
+
+   integer(ip), parameter :: NOT_FINITE = -99             !< info: none of LAPACK's
 
    !> b <- A^-1 b with the factor of factor_cholesky; b of rank 1 or 2.
    interface solve_cholesky
@@ -189,6 +193,11 @@ contains
       m = size(a, 1, kind=ip)
       n = size(a, 2, kind=ip)
       if (min(m, n) == 0) return
+      if (.not. all(ieee_is_finite(a))) then
+         values = 0.0_wp
+         info = NOT_FINITE
+         return
+      end if
       call suspend_halting(halting)
       call dgesvd(jobu, jobvt, m, n, a, m, values, no_vectors, 1_ip, vectors, leading(vectors), wanted, -1_ip, info)
       allocate (work(max(int(wanted(1)), 1)))
@@ -219,7 +228,8 @@ contains
       both(:m) = b
       rank = 0
       info = 0
-      if (min(m, n) > 0) then
+      if (min(m, n) > 0 .and. .not. (all(ieee_is_finite(a)) .and. all(ieee_is_finite(b)))) info = NOT_FINITE
+      if (min(m, n) > 0 .and. info == 0) then
          call suspend_halting(halting)
          call dgelsd(m, n, 1_ip, copy, m, both, size(both, kind=ip), values, tol, rank, wanted, -1_ip, wanted_integers, info)
          allocate (work(max(int(wanted(1)), 1)), iwork(max(wanted_integers(1), 1_ip)))

@@ -1,4 +1,4 @@
-!> The inner loops of the skyline: dot products of one or two columns with one or four.
+!> The inner loops of the skyline: dot products of one or two columns with one or four, and multiples taken off a column.
 !>
 !> Each number that is loaded is used two or four times, and the `simd` directives (honoured with -fopenmp-simd, comments
 !> otherwise) let the compiler add up in vector lanes, which it may not do on its own.
@@ -6,7 +6,7 @@ module atrito_dot_products
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: dot, dot_1x4, dot_2x4, PANEL_WIDTH
+   public :: dot, dot_1x4, dot_2x4, take_off, PANEL_WIDTH
 
    integer(ip), parameter :: PANEL_WIDTH = 4_ip   !< columns that are eliminated together
 
@@ -24,6 +24,21 @@ contains
          dot = dot + a(k)*b(k)
       end do
    end function dot
+
+   !> y <- y - factor a, from the last to the first: the skyline is gone through backward by this, and memory is fetched ahead only
+   !> while the addresses go one way.
+   pure subroutine take_off(n, factor, a, y)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: factor
+      real(wp), intent(in) :: a(n)
+      real(wp), intent(inout) :: y(n)
+      integer(ip) :: k
+
+      !$omp simd
+      do k = n, 1, -1
+         y(k) = y(k) - factor*a(k)
+      end do
+   end subroutine take_off
 
    !> products(c) = a . panel(:, c)
    pure subroutine dot_1x4(n, a, rows, panel, products)

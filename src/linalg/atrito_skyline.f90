@@ -7,7 +7,7 @@
 !> The limit on k leaves the kept block unfactored: it becomes the Schur complement. Four neighbouring columns are eliminated
 !> at a time in a panel, filled up with zeros to the tallest of them.
 module atrito_skyline
-   use atrito_dot_products, only: dot, dot_1x4, dot_2x4, PANEL_WIDTH
+   use atrito_dot_products, only: dot, dot_1x4, dot_2x4, take_off, PANEL_WIDTH
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t, profile_length, largest_height
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
@@ -295,15 +295,14 @@ contains
       real(wp), intent(inout), contiguous :: x(:, :)
       integer(ip) :: j, load, first, last
       integer(lp) :: start
-      real(wp) :: known
 
       do j = self%n, 1, -1
          first = self%first(j)
          last = min(j - 1, self%n - self%n_kept)
          start = self%place(j) - int(j - first, lp)
+         if (last < first) cycle
          do load = 1, size(x, 2, kind=ip)
-            known = x(j, load)           ! a copy: to the compiler x(j) might lie within first:last
-            x(first:last, load) = x(first:last, load) - known*self%values(start:start + int(last - first, lp))
+            call take_off(last - first + 1, (x(j, load)), self%values(start), x(first:last, load))
          end do
       end do
    end subroutine expand_skyline

@@ -33,18 +33,25 @@ contains
       real(wp), intent(in) :: corners(2, 4)          !< [L], counter-clockwise
       real(wp), intent(in) :: tx(0:), ty(0:)         !< lines 0..1 along and across
       real(wp) :: x(2, size(tx)*size(ty))
-      real(wp) :: s, t
       integer(ip) :: i, j, k
 
       k = 0
       do j = 0, size(ty, kind=ip) - 1
          do i = 0, size(tx, kind=ip) - 1
             k = k + 1
-            s = tx(i)
-            t = ty(j)
-            x(:, k) = (1 - t)*((1 - s)*corners(:, 1) + s*corners(:, 2)) + t*((1 - s)*corners(:, 4) + s*corners(:, 3))
+            x(:, k) = between(between(corners(:, 1), corners(:, 2), tx(i)), between(corners(:, 4), corners(:, 3), tx(i)), ty(j))
          end do
       end do
    end function block_nodes
+
+   !> a at t = 0, b at t = 1, and a all the way where a = b: sides that lie on each other must not be apart by round-off, which is
+   !> no less a gap than any other.
+   pure elemental real(wp) function between(a, b, t)
+      real(wp), intent(in) :: a, b                   !< [L]
+      real(wp), intent(in) :: t                      !< 0..1
+
+      between = a + t*(b - a)
+      if (t > 0.5_wp) between = b - (1 - t)*(b - a)
+   end function between
 
 end module atrito_block

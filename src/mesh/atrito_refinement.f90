@@ -1,5 +1,6 @@
-!> Uniform refinement: every quadrilateral into pieces x pieces of the same shape, on the isoparametric map of its parent, so that
-!> curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then those inside elements.
+!> Uniform refinement: every quadrilateral into pieces x pieces of the same shape or all of one shape, on the isoparametric map of
+!> its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then
+!> those inside elements.
 module atrito_refinement
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: add_id
@@ -7,11 +8,12 @@ module atrito_refinement
    use atrito_mesh, only: mesh_t, face_end, nodes_of_square, FACES, Q1_NODES, Q2_NODES
    implicit none (type, external)
    private
-   public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, edge_place
+   public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, is_refined, edge_place
 
    !> How a fine mesh came from a coarse one.
    type :: refinement_t
       integer(ip) :: pieces = 1                     !< along an edge of a coarse element; 1: not refined
+      integer(ip) :: shape = 0                      !< of all fine elements; 0: that of their parents
       integer(ip) :: n_nodes = 0, n_elements = 0    !< of the coarse mesh
       integer(ip) :: n_edges = 0                    !< of the coarse mesh
       integer(ip), allocatable :: edge_node(:, :)   !< (3, n_edges): first, last, middle (0 for Q1), coarse places
@@ -24,27 +26,30 @@ module atrito_refinement
 contains
 
    !> Nodes of the refined mesh, before it is made.
-   pure integer(lp) function count_fine_nodes(mesh, pieces) result(n)
+   pure integer(lp) function count_fine_nodes(mesh, pieces, shape) result(n)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: pieces             !< along an edge, >= 1
+      integer(ip), intent(in) :: shape              !< Q1_NODES or Q2_NODES of all fine elements; 0: that of their parents
       integer(lp) :: intervals
       integer(ip) :: e
 
       n = mesh%n_nodes
       do e = 1, mesh%n_elements
-         intervals = int(order_of(mesh, e), lp)*int(pieces, lp)
+         intervals = int(order_of(fine_shape(mesh, shape, e)), lp)*int(pieces, lp)
          n = n + intervals**2 + 2*intervals         ! edges between two elements are counted twice, which is no matter here
       end do
    end function count_fine_nodes
 
    !> Refines a mesh.
-   pure subroutine refine_mesh(mesh, around, pieces, fine, refinement)
+   pure subroutine refine_mesh(mesh, around, pieces, shape, fine, refinement)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around   !< elements round each node of mesh
-      integer(ip), intent(in) :: pieces             !< 2, 4, 8, ...: of each edge
+      integer(ip), intent(in) :: pieces             !< 1, 2, 4, 8, ...: of each edge; even where nine-node elements become four-node
+      integer(ip), intent(in) :: shape              !< Q1_NODES or Q2_NODES of all fine elements; 0: that of their parents
       type(mesh_t), intent(out) :: fine
       type(refinement_t), intent(out) :: refinement
 
+      refinement%shape = shape
       refinement%pieces = pieces
       refinement%n_nodes = mesh%n_nodes
       refinement%n_elements = mesh%n_elements
@@ -55,12 +60,37 @@ contains
    end subroutine refine_mesh
 
    !> Node intervals along an element: 1 for Q1, 2 for Q2.
-   pure integer(ip) function order_of(mesh, element)
+   pure integer(ip) function order_of(shape)
+      integer(ip), intent(in) :: shape
+
+      order_of = merge(1_ip, 2_ip, shape == Q1_NODES)
+   end function order_of
+
+   !> Shape of the pieces of an element.
+   pure integer(ip) function fine_shape(mesh, shape, element)
       type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: shape, element
+
+      fine_shape = shape
+      if (shape == 0) fine_shape = mesh%shape(element)
+   end function fine_shape
+
+   !> Node intervals of the fine mesh along an edge of an element, and along an edge by its number.
+   pure integer(ip) function element_intervals(mesh, refinement, element) result(n)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
 
-      order_of = merge(1_ip, 2_ip, mesh%shape(element) == Q1_NODES)
-   end function order_of
+      n = order_of(fine_shape(mesh, refinement%shape, element))*refinement%pieces
+   end function element_intervals
+
+   pure integer(ip) function edge_intervals(refinement, edge) result(n)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: edge
+
+      n = refinement%pieces
+      if (refinement%shape == Q2_NODES .or. (refinement%shape == 0 .and. refinement%edge_node(3, edge) > 0)) n = 2*n
+   end function edge_intervals
 
    !> The edges of all elements, each once; elements of different order do not share theirs.
    pure subroutine list_edges(mesh, around, refinement)
@@ -121,14 +151,13 @@ contains
       n = mesh%n_nodes + 1
       do k = 1, refinement%n_edges
          refinement%edge_first(k) = n
-         intervals = order_of(mesh, refinement%edge_element(1, k))*refinement%pieces
-         n = n + intervals - 1
+         n = n + edge_intervals(refinement, k) - 1
          if (refinement%edge_node(3, k) > 0) n = n - 1
       end do
       refinement%edge_first(k) = n
       do e = 1, mesh%n_elements
          refinement%inner_first(e) = n
-         intervals = order_of(mesh, e)*refinement%pieces
+         intervals = element_intervals(mesh, refinement, e)
          n = n + (intervals - 1)**2
          if (mesh%shape(e) == Q2_NODES) n = n - 1
       end do
@@ -225,8 +254,7 @@ contains
       integer(ip), intent(in) :: edge, node          !< node: edge_first(edge) .. edge_first(edge + 1) - 1
       integer(ip) :: position, intervals
 
-      intervals = refinement%pieces
-      if (refinement%edge_node(3, edge) > 0) intervals = 2*intervals
+      intervals = edge_intervals(refinement, edge)
       position = node - refinement%edge_first(edge) + 1
       if (refinement%edge_node(3, edge) > 0 .and. 2*position >= intervals) position = position + 1
       t = real(position, wp)/real(intervals, wp)
@@ -250,7 +278,7 @@ contains
       integer(ip), allocatable, intent(inout) :: grid(:, :)   !< kept where its size is right: there are many elements
       integer(ip) :: i, j, k, n
 
-      n = order_of(mesh, element)*refinement%pieces
+      n = element_intervals(mesh, refinement, element)
       if (allocated(grid)) then
          if (ubound(grid, 1) /= n) deallocate (grid)
       end if
@@ -305,7 +333,7 @@ contains
       type(refinement_t), intent(in) :: refinement
       type(mesh_t), intent(inout) :: fine
       integer(ip), allocatable :: grid(:, :)
-      integer(ip) :: e, i, j, k, m, n, children
+      integer(ip) :: e, i, j, k, m, n, children, shape
       logical :: known, keep
 
       children = refinement%pieces**2
@@ -317,14 +345,15 @@ contains
       k = 0
       do e = 1, mesh%n_elements
          call fill_grid(mesh, refinement, e, grid)
-         m = order_of(mesh, e)
+         shape = fine_shape(mesh, refinement%shape, e)
+         m = order_of(shape)
          do j = 0, ubound(grid, 2, kind=ip) - m, m
             do i = 0, ubound(grid, 1, kind=ip) - m, m
                k = k + 1
-               fine%nodes(:mesh%shape(e), k) = nodes_of_square(grid(i:i + m, j:j + m))
+               fine%nodes(:shape, k) = nodes_of_square(grid(i:i + m, j:j + m))
                fine%element_id(k) = k
                if (keep) fine%element_id(k) = k + (mesh%element_id(e) - e)*children
-               fine%shape(k) = mesh%shape(e)
+               fine%shape(k) = shape
                fine%state(k) = mesh%state(e)
                call add_id(fine%element_map, fine%element_id(k), k, known)
             end do
@@ -345,6 +374,13 @@ contains
          pieces((i - 1)*children + 1:i*children) = [((members(i) - 1)*children + k, k=1, children)]
       end do
    end function fine_elements
+
+   !> Whether this tells of a refinement at all.
+   pure logical function is_refined(refinement)
+      type(refinement_t), intent(in) :: refinement
+
+      is_refined = refinement%n_elements > 0
+   end function is_refined
 
    !> True when a fine element has part of its parent's face as its own face of that number.
    pure logical function is_on_side(refinement, element, face)

@@ -1,7 +1,7 @@
 !> Named lists of nodes or elements. A set named again grows; members are kept once, in the order in which they came.
 module atrito_sets
    use atrito_kinds, only: ip
-   use atrito_strings, only: string_t, same_name, append_string
+   use atrito_strings, only: string_t, same_name
    implicit none (type, external)
    private
    public :: set_t, set_list_t, find_set, grow_set, set_names
@@ -80,10 +80,13 @@ contains
       type(string_t), allocatable :: names(:)
       integer(ip) :: i
 
-      allocate (names(0))
-      if (.not. allocated(list%sets)) return
+      if (.not. allocated(list%sets)) then
+         allocate (names(0))
+         return
+      end if
+      allocate (names(size(list%sets)))
       do i = 1, size(list%sets, kind=ip)
-         call append_string(names, list%sets(i)%name)
+         names(i)%s = list%sets(i)%name
       end do
    end function set_names
 

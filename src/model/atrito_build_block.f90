@@ -15,6 +15,7 @@ module atrito_build_block
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: nodes_of_square, Q2_NODES
    use atrito_model, only: model_t
+   use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_sets, only: find_set, grow_set, set_names
    use atrito_strings, only: same_name, to_text
@@ -27,6 +28,8 @@ module atrito_build_block
    real(wp), parameter :: MERGE_TOLERANCE = 1.0e-6_wp
    !> A corner whose Jacobian is smaller than this part of the longest side squared is flat.
    real(wp), parameter :: FLAT = 1.0e-12_wp
+   !> The first or the last element would be flat beyond it.
+   real(wp), parameter :: LARGEST_GRADE = 1.0e12_wp
 
    !> What a *BLOCK says.
    type :: spec_t
@@ -55,6 +58,8 @@ contains
       block%card = i_card
       block%state = spec%state
       block%order = spec%order
+      if (ok .and. named) ok = fits_memory(deck, deck%cards(i_card)%place, model, draft, count_nodes(spec), &
+                                           product(int(spec%n, lp)), 'BLOCK')
       if (ok .and. named) call place_block_nodes(deck, i_card, spec, model, draft, block, ok)
       if (ok .and. named) then
          call put_block_sets(model, draft, block)
@@ -80,11 +85,21 @@ contains
       call read_divisions(deck, card, all(good(2:3)), spec, good(5))
       ok = all(good)
       if (.not. all(good(2:3))) return
-      if (product(int(spec%order*spec%n, lp)) < int(MOST_NODES, lp)) return
+      if (count_nodes(spec) <= int(MOST_NODES, lp)) return
       ok = .false.
       call report_error(deck, card%place, 'E-VALUE', 'a block of more than '//to_text(MOST_NODES)//' nodes', &
                         expected='fewer elements NX, NY', keyword='BLOCK')
    end subroutine read_spec
+
+   !> Nodes of a block of two counts; many more than there can be where they would not fit into a long integer.
+   pure integer(lp) function count_nodes(spec) result(n)
+      type(spec_t), intent(in) :: spec
+      integer(lp) :: width(2)
+
+      width = int(spec%order, lp)*int(spec%n, lp) + 1_lp
+      n = huge(1_ip)
+      if (all(width < int(huge(1_ip), lp))) n = product(width)
+   end function count_nodes
 
    !> The line divides a direction; other lines are corners.
    pure logical function is_division(deck, line)
@@ -210,7 +225,7 @@ contains
       type(data_line_t), intent(in) :: line
       type(spec_t), intent(inout) :: spec
       logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT = 'last over first element length, a real > 0 [-]'
+      character(len=*), parameter :: WHAT = 'last over first element length, a real, 1e-12 to 1e12 [-]'
       integer(ip) :: k
       logical :: good
 
@@ -218,7 +233,7 @@ contains
       do k = 1, 2
          call get_real(deck, line_item(deck, line, k + 1), WHAT, spec%grade(k), good, 1.0_wp, 'BLOCK')
          ok = ok .and. good
-         if (.not. good .or. spec%grade(k) > 0.0_wp) cycle
+         if (.not. good .or. (spec%grade(k) >= 1/LARGEST_GRADE .and. spec%grade(k) <= LARGEST_GRADE)) cycle
          ok = .false.
          call report_error(deck, line_item(deck, line, k + 1), 'E-VALUE', 'a grading of '//to_text(spec%grade(k)), &
                            expected=WHAT, keyword='BLOCK')

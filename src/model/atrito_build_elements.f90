@@ -6,9 +6,10 @@ module atrito_build_elements
                            find_one_element, has_errors
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_element, find_element, find_node, Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS
    use atrito_model, only: model_t
+   use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
@@ -162,6 +163,7 @@ contains
             call find_one_element(deck, model, draft, line_item(deck, deck%lines(i), 1_ip), master, ok, 'ELGEN')
             if (.not. ok) cycle
             call read_repeats(deck, deck%lines(i), repeats, ok)
+            if (ok) ok = fits_memory(deck, deck%tokens(deck%lines(i)%first_token), model, draft, 0_lp, copies(repeats), 'ELGEN')
             if (.not. ok) cycle
             first_new = model%mesh%n_elements + 1
             call copy_element(deck, deck%lines(i), model, draft, master, repeats)
@@ -198,6 +200,13 @@ contains
       end do
    end subroutine read_repeats
 
+   !> How many there will be; the product of three integers may be larger than any of them can be.
+   pure integer(lp) function copies(repeats)
+      type(repeat_t), intent(in) :: repeats(3)
+
+      copies = int(min(product(real(repeats%n, wp)), real(huge(1_ip), wp)), lp)
+   end function copies
+
    !> Stops at the first copy that cannot be made: the others would fail for the same reason.
    subroutine copy_element(deck, line, model, draft, master, repeats)
       type(deck_t), intent(in) :: deck
@@ -206,14 +215,15 @@ contains
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: master                !< place
       type(repeat_t), intent(in) :: repeats(3)
-      integer(ip) :: i, j, k, shift(3)
+      integer(ip) :: i, j, k
+      integer(lp) :: shift(3)
       logical :: ok
 
       do k = 0, repeats(3)%n - 1
          do j = 0, repeats(2)%n - 1
             do i = 0, repeats(1)%n - 1
                shift = [i, j, k]
-               if (all(shift == 0)) cycle
+               if (all(shift == 0_lp)) cycle
                call copy_once(deck, line, model, draft, master, sum(shift*repeats%node_step), &
                               sum(shift*repeats%element_step), ok)
                if (.not. ok) return
@@ -227,29 +237,42 @@ contains
       type(data_line_t), intent(in) :: line
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      integer(ip), intent(in) :: master, node_shift, element_shift
+      integer(ip), intent(in) :: master
+      integer(lp), intent(in) :: node_shift, element_shift   !< of the numbers, which may leave the range of an integer
       logical, intent(out) :: ok
-      integer(ip) :: nodes(model%mesh%shape(master)), id, i
+      integer(lp) :: ids(model%mesh%shape(master)), id
+      integer(ip) :: nodes(size(ids)), i
 
       id = model%mesh%element_id(master) + element_shift
-      nodes = model%mesh%node_id(model%mesh%nodes(:size(nodes), master)) + node_shift
+      ids = model%mesh%node_id(model%mesh%nodes(:size(nodes), master)) + node_shift
       do i = 1, size(nodes, kind=ip)
-         ok = find_node(model%mesh, nodes(i)) > 0
+         nodes(i) = 0
+         if (ids(i) <= int(huge(1_ip), lp)) nodes(i) = find_node(model%mesh, int(max(ids(i), 0_lp), ip))
+         ok = nodes(i) > 0
          if (.not. ok) exit
-         nodes(i) = find_node(model%mesh, nodes(i))
       end do
       if (.not. ok) then
-         if (has_errors() .and. find_id(draft%spoiled_nodes, nodes(i)) > 0) return
-         call report_error(deck, line_item(deck, line, 1_ip), 'E-NODE', 'node '//to_text(nodes(i))// &
+         if (is_spoiled_node(draft, ids(i))) return
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-NODE', 'node '//to_text(ids(i))// &
                            ' of the generated element '//to_text(id)//' does not exist', &
                            expected='copies whose nodes all exist', keyword='ELGEN')
-      else if (id < 1) then
+      else if (id < 1_lp .or. id > int(huge(1_ip), lp)) then
          ok = .false.
          call report_error(deck, line_item(deck, line, 1_ip), 'E-ID', 'the generated element number '//to_text(id)// &
-                           ' is not positive', expected='positive element numbers', keyword='ELGEN')
+                           trim(merge(' is too large   ', ' is not positive', id > 0_lp)), expected='positive element numbers', &
+                           keyword='ELGEN')
       else
-         call place_element(deck, model, draft, id, model%mesh%state(master), nodes, line%first_token, ok, 'ELGEN')
+         call place_element(deck, model, draft, int(id, ip), model%mesh%state(master), nodes, line%first_token, ok, &
+                            'ELGEN')
       end if
    end subroutine copy_once
+
+   logical function is_spoiled_node(draft, id)
+      type(draft_t), intent(in) :: draft
+      integer(lp), intent(in) :: id
+
+      is_spoiled_node = has_errors() .and. id > 0_lp .and. id <= int(huge(1_ip), lp)
+      if (is_spoiled_node) is_spoiled_node = find_id(draft%spoiled_nodes, int(id, ip)) > 0
+   end function is_spoiled_node
 
 end module atrito_build_elements

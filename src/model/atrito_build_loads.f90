@@ -12,7 +12,7 @@ module atrito_build_loads
    use atrito_model_names, only: surface_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
-   use atrito_refinement, only: is_on_side
+   use atrito_refinement, only: is_on_side, is_refined
    use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)
    private
@@ -73,7 +73,7 @@ contains
 
       call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
       ! a concentrated force stays where the deck puts it
-      if (draft%refinement%pieces > 1) nodes = pack(nodes, nodes <= draft%refinement%n_nodes)
+      if (is_refined(draft%refinement)) nodes = pack(nodes, nodes <= draft%refinement%n_nodes)
       call get_integer(deck, line_item(deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
       call get_real(deck, line_item(deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
       if (.not. all(ok(2:))) return

@@ -3,9 +3,9 @@ module atrito_build_materials
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, spoil_name, place_text, keep_token, ids_text, report_unknown, is_spoiled, has_errors
-   use atrito_items, only: get_real, option_text
+   use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, material_t, section_t
+   use atrito_model, only: model_t, material_t, section_t, FORMULATION_BBAR
    use atrito_model_names, only: material_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_sets, only: find_set, set_names
@@ -110,7 +110,7 @@ contains
          end if
          if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
             ok(2) = .false.
-            call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson)// &
+            call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson, 15)// &
                               ' is out of range', expected=WHAT_MU, keyword='ELASTIC')
          end if
          draft%poisson(i) = line_item(deck, line, 2_ip)
@@ -151,6 +151,7 @@ contains
       if (named .and. i_set == 0) call report_unknown(deck, draft, place, 'element set', 'E-SET', &
                                                       set_names(model%element_sets), 'SOLID SECTION')
       ok = i_set > 0 .and. card%ok
+      if (option_word(deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
       call read_thickness(deck, card, section%thickness, ok)
       if (i_set == 0) draft%sections_unsure = .true.
 

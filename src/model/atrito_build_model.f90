@@ -15,12 +15,13 @@ module atrito_build_model
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_draft, only: draft_t, prepare_draft, has_errors
    use atrito_faces, only: list_node_elements
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
+   use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
    use atrito_refine_model, only: refine_model
-   use atrito_strings, only: append_string, deck_name
+   use atrito_strings, only: deck_name
    implicit none (type, external)
    private
    public :: build_model
@@ -33,38 +34,50 @@ contains
    !> Cards are read by subject, not by place: a section may stand before the elements of its set. Only nodes, elements and sets
    !> are made in the order of the deck, since they follow from each other.
    !>
-   !> With levels > 0 every element is refined into 4**levels. The model is built without it first: what is wrong with a deck is
-   !> told of the elements that stand in it.
-   subroutine build_model(deck, model, levels)
+   !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
+   !> built without it first: what is wrong with a deck is told of the elements that stand in it.
+   subroutine build_model(deck, model, levels, memory, shape)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
+      integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
+      integer(ip), intent(in), optional :: shape       !< Q1_NODES or Q2_NODES of all elements; default 0: as in the deck
       type(message_mark_t) :: mark
-      logical :: refined
+      integer(lp) :: limit
+      integer(ip) :: depth, kind
 
-      refined = .false.
-      if (present(levels)) refined = levels > 0
+      if (present(memory)) then
+         limit = memory
+      else
+         limit = available_memory()
+      end if
+      depth = 0
+      if (present(levels)) depth = levels
+      kind = 0
+      if (present(shape)) kind = shape
       mark = mark_messages()
-      call build_once(deck, 0_ip, model)
-      if (.not. refined .or. has_errors()) return
+      call build_once(deck, 0_ip, 0_ip, limit, model)
+      if (has_errors() .or. (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)))) return
       call forget_messages(mark)
-      call build_once(deck, levels, model)
+      call build_once(deck, depth, kind, limit, model)
    end subroutine build_model
 
-   subroutine build_once(deck, levels, model)
+   subroutine build_once(deck, levels, shape, memory, model)
       type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: levels
+      integer(ip), intent(in) :: levels, shape
+      integer(lp), intent(in) :: memory
       type(model_t), intent(out) :: model
       type(draft_t) :: draft
 
       call prepare_draft(deck, draft)
+      draft%memory = memory
       call take_titles(deck, model)
       call take_parameters(deck, model)
       call build_nodes(deck, model, draft)
       call build_elements(deck, model, draft)
       call trim_mesh(model%mesh)
       draft%around = list_node_elements(model%mesh)
-      if (levels > 0) call refine_model(deck, levels, model, draft)
+      if (levels > 0 .or. shape > 0) call refine_model(deck, levels, shape, model, draft)
       call build_surfaces(deck, model, draft)
       call build_materials(deck, model, draft)
       call build_contact(deck, model, draft)
@@ -79,15 +92,21 @@ contains
    subroutine take_titles(deck, model)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
-      integer(ip) :: i, k
+      integer(ip) :: i, k, n
 
       model%deck_path = deck%path
       model%deck_name = deck_name(deck%path)
-      allocate (model%heading(0))
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == 'HEADING') n = n + deck%cards(i)%n_lines
+      end do
+      allocate (model%heading(n))
+      n = 0
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) /= 'HEADING') cycle
          do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
-            call append_string(model%heading, token_text(deck, line_item(deck, deck%lines(k), 1_ip)))
+            n = n + 1
+            model%heading(n)%s = token_text(deck, line_item(deck, deck%lines(k), 1_ip))
          end do
       end do
    end subroutine take_titles

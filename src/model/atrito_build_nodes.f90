@@ -8,6 +8,7 @@ module atrito_build_nodes
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
    use atrito_model, only: model_t
+   use atrito_model_memory, only: fits_memory
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -157,6 +158,12 @@ contains
          call find_one_node(deck, model, draft, line_item(deck, line, 2_ip), ends(2), good(2), 'NGEN')
          call get_integer(deck, line_item(deck, line, 3_ip), 'increment of the numbers, an integer', step, good(3), 1_ip, 'NGEN')
          if (all(good)) good(3) = is_step(deck, line, model%mesh%node_id(ends), step)
+         if (all(good)) then
+            associate (ids => model%mesh%node_id(ends))
+               good(3) = fits_memory(deck, deck%tokens(line%first_token), model, draft, int((ids(2) - ids(1))/step, lp), 0_lp, &
+                                     'NGEN')
+            end associate
+         end if
       end if
       ok = all(good)
    end subroutine read_ngen_line
@@ -253,6 +260,8 @@ contains
       end if
       ok = all(good)
       if (ok) ok = numbers_fit(deck, line, model%mesh%node_id(from), n, step)
+      if (ok) ok = fits_memory(deck, deck%tokens(line%first_token), model, draft, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
+                               'NFILL')
    end subroutine read_nfill_line
 
    !> The numbers of the nodes between stay positive and in the range of an integer.

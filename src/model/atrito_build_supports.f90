@@ -9,7 +9,7 @@ module atrito_build_supports
    use atrito_load_lists, only: add_prescribed, trim_prescribed
    use atrito_model, only: model_t
    use atrito_parameters, only: evaluate_function
-   use atrito_refinement, only: edge_place
+   use atrito_refinement, only: edge_place, is_refined
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -87,7 +87,7 @@ contains
       do dof = first, min(last, PLANE_DOFS)
          call prescribe(deck, line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], model, draft)
       end do
-      if (size(nodes) == 1 .and. draft%refinement%pieces > 1) call take_number(line, nodes(1), first, last, value, numbered)
+      if (size(nodes) == 1 .and. is_refined(draft%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
 
    !> Node or set, first dof[, last dof], expression in x and y.
@@ -122,14 +122,14 @@ contains
       do dof = first, last
          call prescribe(deck, line, nodes, dof, values, model, draft)
       end do
-      if (size(nodes) == 1 .and. draft%refinement%pieces > 1) call take_number(line, nodes(1), first, last, values(1), numbered)
+      if (size(nodes) == 1 .and. is_refined(draft%refinement)) call take_number(line, nodes(1), first, last, values(1), numbered)
    end subroutine read_function_line
 
    pure subroutine begin_numbers(draft, numbered)
       type(draft_t), intent(in) :: draft
       type(by_number_t), intent(inout) :: numbered
 
-      if (draft%refinement%pieces == 1) return
+      if (.not. is_refined(draft%refinement)) return
       if (.not. allocated(numbered%token)) then
          allocate (numbered%token(PLANE_DOFS, draft%refinement%n_nodes), source=0_ip)
          allocate (numbered%value(PLANE_DOFS, draft%refinement%n_nodes), source=0.0_wp)

@@ -6,15 +6,17 @@ module atrito_check_mesh
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_draft, only: draft_t, place_token, ids_text, has_errors, is_spoiled
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: PLANE_STRAIN, Q1_NODES
-   use atrito_model, only: model_t
+   use atrito_mesh, only: PLANE_STRAIN, Q1_NODES, Q2_NODES
+   use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: check_mesh
 
-   !> From this ratio on fully integrated Q1 elements lock in plane strain.
+   !> From this ratio on fully integrated elements lock in plane strain: those with four nodes altogether, those with nine in their
+   !> pressures.
    real(wp), parameter :: LOCKING_RATIO = 0.49_wp
 
 contains
@@ -31,9 +33,10 @@ contains
          return
       end if
       call check_shapes(deck, model%mesh, draft)
-      if (draft%refinement%pieces == 1) call check_edges(deck, model, draft)
+      if (.not. is_refined(draft%refinement)) call check_edges(deck, model, draft)
       call check_sections(deck, model, draft)
       call check_materials(deck, model, draft)
+      call note_formulations(deck, model, draft)
       call note_loose_nodes(deck, model, draft)
    end subroutine check_mesh
 
@@ -64,17 +67,22 @@ contains
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
-      logical, dimension(size(model%materials)) :: strained, in_four_nodes
+      logical, dimension(size(model%materials)) :: strained, locks, oscillates
       integer(ip) :: e, i
 
       strained = .false.
-      in_four_nodes = .false.
+      locks = .false.
+      oscillates = .false.
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) <= 0) cycle
-         associate (material => model%sections(model%section_of(e))%material)
+         associate (section => model%sections(model%section_of(e)))
             if (model%mesh%state(e) /= PLANE_STRAIN) cycle
-            strained(material) = .true.
-            in_four_nodes(material) = in_four_nodes(material) .or. model%mesh%shape(e) == Q1_NODES
+            strained(section%material) = .true.
+            if (model%mesh%shape(e) == Q2_NODES) then
+               oscillates(section%material) = .true.
+            else if (section%formulation == FORMULATION_STANDARD) then
+               locks(section%material) = .true.
+            end if
          end associate
       end do
       do i = 1, size(model%materials, kind=ip)
@@ -85,28 +93,56 @@ contains
                                     expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
                end if
             else if (strained(i) .and. .not. draft%elastic_spoiled(i)) then
-               call check_strained(deck, material%poisson, in_four_nodes(i), draft%poisson(i))
+               call check_strained(deck, material%poisson, locks(i), oscillates(i), draft%poisson(i))
             end if
          end associate
       end do
    end subroutine check_materials
 
    !> Poisson's ratio of a material in plane strain.
-   subroutine check_strained(deck, poisson, in_four_nodes, place)
+   subroutine check_strained(deck, poisson, locks, oscillates, place)
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: poisson
-      logical, intent(in) :: in_four_nodes             !< of elements with four nodes; those with nine hardly lock
+      logical, intent(in) :: locks, oscillates         !< STANDARD elements with four nodes; elements with nine
       type(token_t), intent(in) :: place
 
       if (poisson >= 0.5_wp) then
-         call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson)//' in plane strain', &
+         call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson, 15)//' in plane strain', &
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
-      else if (poisson >= LOCKING_RATIO .and. in_four_nodes) then
+      else if (poisson >= LOCKING_RATIO .and. locks) then
          call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: fully integrated Q1 elements are much too stiff '// &
-                             'in plane strain', expected='mu < 0.49 [-]', keyword='ELASTIC')
+                             'in plane strain', expected='FORMULATION=BBAR of *SOLID SECTION, or mu < 0.49 [-]', keyword='ELASTIC')
+      else if (poisson >= LOCKING_RATIO .and. oscillates) then
+         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: in plane strain the pressures of elements with '// &
+                             'nine nodes oscillate, in contact too', expected='elements with four nodes and '// &
+                             'FORMULATION=BBAR, or mu < 0.49 [-]', keyword='ELASTIC')
       end if
    end subroutine check_strained
+
+   !> BBAR is for four nodes in plane strain; elsewhere it changes nothing, which is told once a section.
+   subroutine note_formulations(deck, model, draft)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(number_list_t) :: others
+      integer(ip) :: i, e
+
+      if (has_errors()) return
+      do i = 1, size(model%sections, kind=ip)
+         if (model%sections(i)%formulation /= FORMULATION_BBAR) cycle
+         others = number_list_t()
+         do e = 1, model%mesh%n_elements
+            if (model%section_of(e) /= i) cycle
+            if (model%mesh%state(e) == PLANE_STRAIN .and. model%mesh%shape(e) == Q1_NODES) cycle
+            call add_number(others, model%mesh%element_id(e))
+         end do
+         if (others%n == 0) cycle
+         call report_note(deck, draft%sections(i), 'N-FORMULATION', 'FORMULATION=BBAR changes nothing in element '// &
+                          ids_text(numbers_of(others))//' of set '//model%sections(i)%elset// &
+                          ': it is for four nodes in plane strain', expected='CPE4 elements', keyword='SOLID SECTION')
+      end do
+   end subroutine note_formulations
 
    subroutine note_loose_nodes(deck, model, draft)
       type(deck_t), intent(in) :: deck

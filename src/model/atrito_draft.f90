@@ -9,14 +9,15 @@ module atrito_draft
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_items, only: get_integer, get_name
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    use atrito_mesh, only: find_node, find_element
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
+   use atrito_name_list, only: name_list_t, add_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_refinement, only: refinement_t, fine_elements
+   use atrito_refinement, only: refinement_t, fine_elements, is_refined
    use atrito_sets, only: set_list_t, find_set, set_names
-   use atrito_strings, only: string_t, append_string, same_name, to_text
+   use atrito_strings, only: string_t, same_name, to_text
    implicit none (type, external)
    private
    public :: draft_t, block_t, BLOCK_SIDES
@@ -38,8 +39,9 @@ module atrito_draft
    end type block_t
 
    type :: draft_t
-      type(string_t), allocatable :: spoiled(:)        !< names whose definition is faulty
-      type(string_t), allocatable :: unsure(:)         !< nouns: one of these should have been defined, its name is not known
+      integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
+      type(name_list_t) :: spoiled                     !< names whose definition is faulty
+      type(name_list_t) :: unsure                      !< nouns: one of these should have been defined, its name is not known
       type(id_map_t) :: spoiled_nodes, spoiled_elements
       integer(ip) :: greatest_node = 0, greatest_element = 0        !< ids
       integer(ip), allocatable :: node_place(:), element_place(:)   !< > 0: token; < 0: card
@@ -47,7 +49,7 @@ module atrito_draft
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
       logical, allocatable :: card_done(:)             !< *NSET cards all of whose members are known
       type(node_elements_t) :: around                  !< elements round each node
-      type(refinement_t) :: refinement                 !< how the mesh came from that of the deck; pieces = 1: it is that
+      type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
       logical, allocatable :: elastic_given(:), elastic_spoiled(:)  !< for each material
@@ -68,7 +70,7 @@ contains
       type(draft_t), intent(out) :: draft
       integer(ip) :: i
 
-      allocate (draft%spoiled(0), draft%unsure(0), draft%blocks(0), draft%set_card(0))
+      allocate (draft%blocks(0), draft%set_card(0))
       allocate (draft%node_place(64), draft%element_place(64))
       allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
       allocate (draft%slaves(0), draft%masters(0), draft%elastic_given(0), draft%elastic_spoiled(0))
@@ -90,21 +92,21 @@ contains
 
       select case (keyword_name(card))
       case ('MATERIAL')
-         if (is_nameless(deck, card, 'NAME')) call append_string(draft%unsure, 'material')
+         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'material')
       case ('SURFACE INTERACTION')
-         if (is_nameless(deck, card, 'NAME')) call append_string(draft%unsure, 'surface interaction')
+         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'surface interaction')
       case ('SURFACE')
-         if (is_nameless(deck, card, 'NAME')) call append_string(draft%unsure, 'surface')
+         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'surface')
       case ('NSET')
-         if (is_nameless(deck, card, 'NSET')) call append_string(draft%unsure, 'node set')
+         if (is_nameless(deck, card, 'NSET')) call note_unsure(draft, 'node set')
       case ('ELSET')
-         if (is_nameless(deck, card, 'ELSET')) call append_string(draft%unsure, 'element set')
+         if (is_nameless(deck, card, 'ELSET')) call note_unsure(draft, 'element set')
       case ('BLOCK')
          if (.not. is_nameless(deck, card, 'ELSET')) return
-         call append_string(draft%unsure, 'node set')
-         call append_string(draft%unsure, 'earlier node set')
-         call append_string(draft%unsure, 'element set')
-         call append_string(draft%unsure, 'surface')
+         call note_unsure(draft, 'node set')
+         call note_unsure(draft, 'earlier node set')
+         call note_unsure(draft, 'element set')
+         call note_unsure(draft, 'surface')
       end select
    end subroutine note_nameless
 
@@ -169,16 +171,19 @@ contains
       end do
    end subroutine spoil_numbers
 
+   subroutine note_unsure(draft, noun)
+      type(draft_t), intent(inout) :: draft
+      character(len=*), intent(in) :: noun
+
+      if (.not. has_name(draft%unsure, noun)) call add_name(draft%unsure, noun)
+   end subroutine note_unsure
+
    !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
    subroutine spoil_name(draft, name)
       type(draft_t), intent(inout) :: draft
       character(len=*), intent(in) :: name
-      integer :: i
 
-      call append_string(draft%spoiled, name)
-      do i = 1, size(BLOCK_SIDES)
-         call append_string(draft%spoiled, name//trim(BLOCK_SIDES(i)))
-      end do
+      call add_name(draft%spoiled, name)
    end subroutine spoil_name
 
    !> Passes over, in silence, all that refers to the node with which a data line begins.
@@ -215,17 +220,19 @@ contains
       if (outcome == NUMBER_OK .and. id > 0) call add_id(map, id, 1_ip, known)
    end subroutine spoil_id
 
-   !> True when a name is to be passed over in silence.
+   !> True when a name, or that of the block whose side it is, is to be passed over in silence.
    logical function is_spoiled(draft, name)
       type(draft_t), intent(in) :: draft
       character(len=*), intent(in) :: name
-      integer :: i
+      integer :: i, k
 
       is_spoiled = .false.
       if (.not. has_errors()) return
-      do i = 1, size(draft%spoiled)
-         is_spoiled = same_name(draft%spoiled(i)%s, name)
-         if (is_spoiled) return
+      is_spoiled = has_name(draft%spoiled, name)
+      do i = 1, size(BLOCK_SIDES)
+         k = len(name) - len_trim(BLOCK_SIDES(i))
+         if (is_spoiled .or. k < 0) cycle
+         if (same_name(name(k + 1:), BLOCK_SIDES(i))) is_spoiled = has_name(draft%spoiled, name(:k))
       end do
    end function is_spoiled
 
@@ -347,7 +354,7 @@ contains
       element = 0
       call get_id(deck, token, 'element number', id, ok, keyword)
       if (.not. ok) return
-      if (draft%refinement%pieces > 1) then
+      if (is_refined(draft%refinement)) then
          element = find_id(draft%deck_elements, id)
       else
          element = find_element(model%mesh, id)
@@ -406,7 +413,7 @@ contains
       if (is_id_token(deck, token)) then
          call find_one_element(deck, model, draft, token, element, ok, keyword)
          if (ok) members = [element]
-         if (ok .and. draft%refinement%pieces > 1) members = fine_elements(draft%refinement, members)
+         if (ok .and. is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
       else
          call find_members(deck, model%element_sets, draft, token, 'element', members, ok, keyword)
       end if
@@ -457,10 +464,9 @@ contains
    logical function is_unsure(draft, noun)
       type(draft_t), intent(in) :: draft
       character(len=*), intent(in) :: noun
-      integer :: i
 
       is_unsure = .false.
-      if (has_errors()) is_unsure = any([(draft%unsure(i)%s == noun, i=1, size(draft%unsure))])
+      if (has_errors()) is_unsure = has_name(draft%unsure, noun)
    end function is_unsure
 
    pure function article(noun) result(text)

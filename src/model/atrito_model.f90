@@ -5,18 +5,19 @@ module atrito_model
    use atrito_mesh, only: mesh_t
    use atrito_sets, only: set_list_t
    use atrito_faces, only: face_list_t
+   use atrito_elasticity, only: FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    implicit none (type, external)
    private
    public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, prescribed_t, node_load_t, element_load_t
    public :: controls_t, requests_t, field_requests_t, parameter_value_t
-   public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD
+   public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_NODAL, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
    public :: LOAD_PRESSURE, LOAD_BODY
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
-   integer(ip), parameter :: FORMULATION_STANDARD = 1
+   character(len=8), parameter :: FORMULATION_NAME(2) = ['STANDARD', 'BBAR    ']
    integer(ip), parameter :: QUADRATURE_NODAL = 1
    integer(ip), parameter :: METHOD_ANDERSON = 1, METHOD_PICARD = 2, METHOD_NEWTON = 3
    character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
@@ -91,7 +92,7 @@ module atrito_model
 
    type :: controls_t
       integer(ip) :: method = METHOD_ANDERSON
-      real(wp) :: tolerance = 1.0e-8_wp             !< of the outer loop
+      real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
       integer(ip) :: max_iterations = 100           !< outer iterations
       real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
    end type controls_t

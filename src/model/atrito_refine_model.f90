@@ -1,13 +1,15 @@
-!> --refine: the mesh of a deck and its sets, refined. Surfaces, loads and supports are read afterwards and follow them.
+!> --refine and --elements: the mesh of a deck and its sets, refined or made of other elements. Surfaces, loads and supports are
+!> read afterwards and follow them.
 module atrito_refine_model
    use atrito_build_nodes, only: MOST_NODES
-   use atrito_deck, only: deck_t
+   use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
-   use atrito_mesh, only: mesh_t
+   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
    use atrito_model, only: model_t
+   use atrito_model_memory, only: fits_memory
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -16,18 +18,29 @@ module atrito_refine_model
 
 contains
 
-   !> Replaces the mesh, and the members of all sets. A mesh that would be too large is reported and left as it is.
-   subroutine refine_model(deck, levels, model, draft)
+   !> Replaces the mesh, and the members of all sets. A mesh that would be too large is reported and left as it is. Of a nine-node
+   !> element come four of four nodes, on the same nodes; of one of four nodes comes one of nine.
+   subroutine refine_model(deck, levels, shape, model, draft)
       type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: levels                !< > 0; each quadrilateral into 4**levels
+      integer(ip), intent(in) :: levels                !< >= 0; each quadrilateral into 4**levels
+      integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES for all elements; 0: their own
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(mesh_t) :: coarse
-      integer(ip) :: i
+      integer(ip) :: i, pieces
 
-      if (.not. is_possible(deck, levels, model%mesh)) return
+      pieces = 2**levels
+      if (shape == Q1_NODES .and. any(model%mesh%shape == Q2_NODES)) then
+         pieces = 2*pieces
+         if (any(model%mesh%shape == Q1_NODES)) then
+            call report_deck_error(deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
+                                   expected='a mesh of one kind')
+            return
+         end if
+      end if
+      if (.not. is_possible(deck, levels, pieces, shape, model, draft)) return
       coarse = model%mesh
-      call refine_mesh(coarse, draft%around, 2**levels, model%mesh, draft%refinement)
+      call refine_mesh(coarse, draft%around, pieces, shape, model%mesh, draft%refinement)
       model%levels = levels
       if (allocated(model%node_sets%sets)) then
          do i = 1, size(model%node_sets%sets, kind=ip)
@@ -48,25 +61,28 @@ contains
       draft%around = list_node_elements(model%mesh)
    end subroutine refine_model
 
-   !> There are not too many nodes, and there are numbers left for them. The numbers of elements are chosen so that they fit.
-   logical function is_possible(deck, levels, mesh)
+   !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
+   logical function is_possible(deck, levels, pieces, shape, model, draft)
       type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: levels
-      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: levels, pieces, shape
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(token_t) :: nowhere
       integer(lp) :: n, greatest
 
-      n = count_fine_nodes(mesh, 2**levels)
-      greatest = maxval(mesh%node_id(:mesh%n_nodes))
+      n = count_fine_nodes(model%mesh, pieces, shape)
+      greatest = maxval(model%mesh%node_id(:model%mesh%n_nodes))
       is_possible = n <= int(MOST_NODES, lp)
       if (.not. is_possible) then
          call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
                                 ' nodes', expected='a smaller number: each one more makes four elements of one')
          return
       end if
-      is_possible = greatest + (n - int(mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
+      is_possible = greatest + (n - int(model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
       if (.not. is_possible) call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//': the numbers of the new '// &
                                                     'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
                                                     expected='smaller node numbers')
+      if (is_possible) is_possible = fits_memory(deck, nowhere, model, draft, n, int(model%mesh%n_elements, lp)*int(pieces, lp)**2)
    end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.

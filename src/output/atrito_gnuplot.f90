@@ -2,12 +2,14 @@
 !>
 !> Pictures are an extra: whatever goes wrong here is a warning, W-PLOT, never a failed run.
 module atrito_gnuplot
+   use atrito_interrupts, only: note_file, forget_file
    use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_exists, read_file, remove_file
    use atrito_messages, only: add_warning
    use atrito_plot_files, only: LOG_NAME
+   use atrito_processes, only: run_command
    implicit none (type, external)
    private
    public :: draw_pictures, shell_quoted, plot_command, first_complaint
@@ -18,26 +20,36 @@ module atrito_gnuplot
 contains
 
    !> Draws <name>.png and <name>.svg from each <name>.gp of a folder. What gnuplot says stays in gnuplot.log beside them; a
-   !> failure is one warning.
+   !> failure is one warning. Interrupted, none of these pictures is left.
    subroutine draw_pictures(folder, names, drawn)
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
       type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
-      integer :: i, exit_code, not_started
+      integer :: i, exit_code
 
       allocate (drawn(0))
       if (size(names) == 0) return
+      call note_file(folder//'/'//LOG_NAME)
       do i = 1, size(names)
-         call remove_file(folder//'/'//names(i)%s//'.png')
-         call remove_file(folder//'/'//names(i)%s//'.svg')
+         call begin_picture(folder//'/'//names(i)%s//'.png')
+         call begin_picture(folder//'/'//names(i)%s//'.svg')
       end do
-      exit_code = 0
-      call execute_command_line(plot_command(folder, names), exitstat=exit_code, cmdstat=not_started)
+      call run_command(plot_command(folder, names), exit_code)
       do i = 1, size(names)
          if (has_pictures(folder//'/'//names(i)%s)) call append_string(drawn, names(i)%s)
+         call forget_file(folder//'/'//names(i)%s//'.png')
+         call forget_file(folder//'/'//names(i)%s//'.svg')
       end do
-      call judge_outcome(folder, exit_code, not_started, size(drawn) == size(names))
+      call forget_file(folder//'/'//LOG_NAME)
+      call judge_outcome(folder, exit_code, size(drawn) == size(names))
    end subroutine draw_pictures
+
+   subroutine begin_picture(path)
+      character(len=*), intent(in) :: path
+
+      call remove_file(path)
+      call note_file(path)
+   end subroutine begin_picture
 
    logical function has_pictures(path)
       character(len=*), intent(in) :: path          !< without ending
@@ -88,9 +100,9 @@ contains
       word = word//''''
    end function shell_quoted
 
-   subroutine judge_outcome(folder, exit_code, not_started, complete)
+   subroutine judge_outcome(folder, exit_code, complete)
       character(len=*), intent(in) :: folder
-      integer, intent(in) :: exit_code, not_started
+      integer, intent(in) :: exit_code
       logical, intent(in) :: complete               !< all pictures are there
       character(len=:), allocatable :: text
       character(len=*), parameter :: SCRIPTS = '; the scripts are in '
@@ -99,7 +111,7 @@ contains
       call read_file(folder//'/'//LOG_NAME, text, status)
       if (.not. is_ok(status)) text = ''
       if (len(text) == 0 .or. exit_code == NOT_FOUND) call remove_file(folder//'/'//LOG_NAME)
-      if (not_started /= 0 .or. exit_code == NOT_FOUND) then
+      if (exit_code == NOT_FOUND) then
          call add_warning('W-PLOT', 'gnuplot was not found (Debian: gnuplot-nox), no pictures'//SCRIPTS//folder)
       else if (exit_code /= 0 .or. .not. complete) then
          call add_warning('W-PLOT', 'gnuplot failed: '//first_complaint(text)//SCRIPTS//folder)

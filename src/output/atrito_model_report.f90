@@ -4,7 +4,7 @@ module atrito_model_report
    use atrito_strings, only: to_text
    use atrito_mesh, only: face_end, Q1_NODES, PLANE_STRAIN
    use atrito_sets, only: set_names
-   use atrito_model, only: model_t, interaction_t, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
+   use atrito_model, only: model_t, interaction_t, FORMULATION_NAME, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
                            FRICTION_NONLOCAL, LOAD_PRESSURE, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
    implicit none (type, external)
@@ -136,11 +136,13 @@ contains
          end associate
       end do
       call add_blank(page)
-      call add_line(page, '   '//left('section of elements', 24)//right('elements', 16)//right('thickness', 12)//'    material')
+      call add_line(page, '   '//left('section of elements', 24)//right('elements', 16)//right('thickness', 12)//'    '// &
+                    left('material', 24)//'formulation')
       do i = 1, count_of(model, 'sections')
          associate (section => model%sections(i))
             call add_line(page, '   '//left(section%elset, 24)//right(to_text(count(model%section_of == i, kind=ip)), 16)// &
-                          right(number(section%thickness, DIGITS), 12)//'    '//left(model%materials(section%material)%name, 40))
+                          right(number(section%thickness, DIGITS), 12)//'    '//left(model%materials(section%material)%name, 24)// &
+                          trim(FORMULATION_NAME(section%formulation)))
          end associate
       end do
    end subroutine describe_materials

@@ -9,9 +9,9 @@ module atrito_plot_files
    use atrito_messages, only: add_warning
    implicit none (type, external)
    private
-   public :: plot_folder, remove_plots, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT
+   public :: plot_folder, remove_plots, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT
 
-   character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary'
+   character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study'
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
    character(len=3), parameter :: ENDINGS(4) = ['gp ', 'dat', 'png', 'svg']
@@ -35,6 +35,7 @@ contains
       if (.not. is_folder(path)) return
       call remove_picture(path//'/'//MESH_PLOT)
       call remove_picture(path//'/'//OVERLAY_SUMMARY)
+      call remove_picture(path//'/'//STUDY_PLOT)
       call remove_numbered(path//'/'//CONTACT_PLOT)
       call remove_numbered(path//'/'//OVERLAY_PLOT)
       call remove_file(path//'/'//LOG_NAME)

@@ -2,12 +2,13 @@
 module atrito_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, append_string
    use atrito_model, only: model_t
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
-   public :: summarise_pair, pair_quantities, step_quantities, measure_fields
+   public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields
 
    !> What the contact tractions of one pair come to.
    type :: pair_summary_t
@@ -135,6 +136,23 @@ contains
               quantity('external_work', 'F L', results%external_work, 0.0_wp), &
               quantity('error_estimate_percent', '-', results%error_estimate, 0.0_wp)]
    end function step_quantities
+
+   !> Every quantity that summary.tab can have.
+   pure function quantity_names() result(names)
+      type(string_t), allocatable :: names(:)
+      type(quantity_t), allocatable :: of_pair(:), of_step(:)
+      integer :: i
+
+      of_pair = pair_quantities(pair_summary_t(), scales_t())
+      of_step = step_quantities(results_t())
+      allocate (names(0))
+      do i = 1, size(of_pair)
+         call append_string(names, trim(of_pair(i)%name))
+      end do
+      do i = 1, size(of_step)
+         call append_string(names, trim(of_step(i)%name))
+      end do
+   end function quantity_names
 
    pure function quantity(name, dimension, value, scale)
       character(len=*), intent(in) :: name, dimension

@@ -12,6 +12,7 @@ module atrito_body_store
    use atrito_results, only: body_result_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
    public :: body_store_t, provide_bodies, take_numbering
@@ -60,11 +61,16 @@ contains
             call take_back(store, b, bodies(b), results(b))
          else
             same_load = .false.
+            call report_progress(reporter, 'factor '//fem%bodies%list(b)%name)
             call condense_body(fem, b, asked, bodies(b), results(b), status)
             if (.not. is_ok(status)) return
             store%factorisations = store%factorisations + 1
          end if
-         if (.not. same_load) call set_load(fem, b, load, bodies(b))
+         if (.not. same_load) then
+            call start_phase('factor')
+            call set_load(fem, b, load, bodies(b))
+            call stop_phase('factor')
+         end if
          call report_body(reporter, fem, b, bodies(b), results(b))
       end do
       call move_alloc(bodies, store%bodies)
@@ -155,7 +161,8 @@ contains
    pure logical function is_same_section(a, b)
       type(elastic_t), intent(in) :: a, b
 
-      is_same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness
+      is_same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
+                        .and. a%formulation == b%formulation
    end function is_same_section
 
    pure logical function has_same_load(store, fem, b, load)

@@ -5,7 +5,7 @@
 !> that and any rigid motion Z a; the forces on it balance, Z' (f - B' q) = 0, so F is as good as any generalised inverse.
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
-   use atrito_assembly, only: fem_t, body_profile, assemble_body
+   use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
    use atrito_bodies, only: mode_at, elimination_places
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
    use atrito_mumps, only: has_mumps
@@ -16,6 +16,7 @@ module atrito_condensed_body
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_storage, only: storage_t
    use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
    public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, expand_body, motion_text
@@ -34,6 +35,8 @@ module atrito_condensed_body
    real(wp), parameter :: SPARSE_SPEED = 1.4_wp
    !> What MUMPS's analysis, lists and solves take beyond the skyline's: for an equation, and to begin with.
    real(wp), parameter :: SPARSE_OVERHEAD = 14000.0_wp, SPARSE_START = 8.0e6_wp
+   !> Equations from which on a body is handed to MUMPS unasked. It pays from a sixth of that on: docs/performance.md.
+   integer(ip), parameter :: LEAST_SPARSE = 32000_ip
 
 contains
 
@@ -52,6 +55,9 @@ contains
          result%reason = 'asked for'
       else
          kind = minloc(cost, dim=1)
+         if (kind == STORAGE_SPARSE) then
+            if (profile%n < LEAST_SPARSE) kind = minloc(cost(:STORAGE_BANDED), dim=1)
+         end if
          if (kind == STORAGE_SPARSE) then
             if (.not. has_mumps()) kind = minloc(cost(:STORAGE_BANDED), dim=1)
          end if
@@ -116,9 +122,23 @@ contains
       call choose_storage(profile, asked, kind, result)
       if (kind == STORAGE_SPARSE) profile%place = elimination_places(fem%mesh, fem%bodies, i_body)
       call new_storage(kind, body%storage)
+      call start_phase('assemble')
       call body%storage%create(profile, status)
+      if (is_ok(status)) call assemble_body(fem, i_body, body%storage)
+      call stop_phase('assemble')
       if (.not. is_ok(status)) return
-      call assemble_body(fem, i_body, body%storage)
+      call start_phase('factor')
+      call factor_body(fem, i_body, body, result, status)
+      call stop_phase('factor')
+   end subroutine condense_body
+
+   subroutine factor_body(fem, i_body, body, result, status)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(inout) :: body
+      type(body_result_t), intent(inout) :: result
+      type(status_t), intent(out) :: status
+
       call body%storage%factor(status)
       call report_pivots(fem, i_body, body%storage, result)
       if (.not. is_ok(status)) then
@@ -128,28 +148,57 @@ contains
          return
       end if
       call factor_contact(fem, i_body, body, status)
-   end subroutine condense_body
+      if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result)
+   end subroutine factor_body
 
    subroutine report_pivots(fem, i_body, storage, result)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       class(storage_t), intent(in) :: storage
       type(body_result_t), intent(inout) :: result
-      integer(ip) :: i, dof
 
       result%digits_lost = storage%report%digits_lost
       result%sign_changes = storage%report%sign_changes
       if (storage%report%worst_equation == 0) return
+      call name_equation(fem, i_body, storage%report%worst_equation, result)
+   end subroutine report_pivots
+
+   subroutine name_equation(fem, i_body, equation, result)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body, equation
+      type(body_result_t), intent(inout) :: result
+      integer(ip) :: i, dof
+
       associate (body => fem%bodies%list(i_body))
          do i = 1, size(body%nodes, kind=ip)
             do dof = 1, 2
-               if (fem%bodies%equation(dof, body%nodes(i)) /= storage%report%worst_equation) cycle
+               if (fem%bodies%equation(dof, body%nodes(i)) /= equation) cycle
                result%worst_node = fem%mesh%node_id(body%nodes(i))
                result%worst_dof = dof
             end do
          end do
       end associate
-   end subroutine report_pivots
+   end subroutine name_equation
+
+   !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the interior.
+   subroutine report_contact_pivots(fem, i_body, body, result)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(in) :: body
+      type(body_result_t), intent(inout) :: result
+      real(wp) :: original(size(body%factor, 1)), lost
+      integer(ip) :: i, first
+
+      if (size(original) == 0) return
+      first = fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_kept
+      call kept_diagonal(fem, i_body, original)
+      do i = 1, size(original, kind=ip)
+         lost = log10(original(i)/body%factor(i, i)**2)
+         if (lost <= result%digits_lost) cycle
+         result%digits_lost = lost
+         call name_equation(fem, i_body, first + i, result)
+      end do
+   end subroutine report_contact_pivots
 
    !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
    subroutine factor_contact(fem, i_body, body, status)

@@ -9,11 +9,13 @@ module atrito_contact_solution
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, outer_controls_t, solve_with_bound, stop_level, relative_residual
+   public :: contact_solution_t, outer_controls_t, solve_with_bound, has_settled, relative_residual
+
+   real(wp), parameter :: MOST_ROUND_OFF = 1.0e-7_wp
 
    type :: outer_controls_t
       integer(ip) :: method = 1                       !< METHOD_* of the model
-      real(wp) :: tolerance = 1.0e-8_wp
+      real(wp) :: tolerance = 1.0e-10_wp
       integer(ip) :: max_iterations = 100
       real(wp) :: relaxation = 1.0_wp
    end type outer_controls_t
@@ -62,12 +64,18 @@ contains
       if (.not. all(ieee_is_finite(image))) residual = HUGE_REAL   ! maxval passes over what is not a number
    end function relative_residual
 
-   !> The residual at which the outer loop stops: the tolerance, or what the matrix allows.
-   pure real(wp) function stop_level(tolerance, solution) result(level)
+   !> Whether the outer loop stops at this residual: below the tolerance; or below what round-off of the matrix can do to it, and no
+   !> longer halved by an iteration. (Round-off mostly does far less than its bound, so the bound alone stops too early.) Above
+   !> MOST_ROUND_OFF it never does: friction that is less certain is no solution.
+   pure logical function has_settled(tolerance, condition, last_residual, residual) result(settled)
       real(wp), intent(in) :: tolerance
-      type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: condition               !< of the scaled matrix of the free set
+      real(wp), intent(in) :: last_residual           !< of the iteration before; < 0: none
+      real(wp), intent(in) :: residual
 
-      level = max(tolerance, EPS_MACH*solution%inner%condition)
-   end function stop_level
+      settled = residual <= tolerance
+      if (last_residual < 0.0_wp .or. residual > min(EPS_MACH*condition, MOST_ROUND_OFF)) return
+      settled = settled .or. residual > 0.5_wp*last_residual
+   end function has_settled
 
 end module atrito_contact_solution

@@ -51,7 +51,8 @@ contains
       end do
       force = force - f + contact
       reaction = merge(force, 0.0_wp, held)
-      equilibrium%residual = maxval(abs(force), mask=.not. held)
+      ! of no free row at all maxval would be -huge
+      equilibrium%residual = max(0.0_wp, maxval(abs(force), mask=.not. held))
       equilibrium%largest_force = max(maxval(abs(f)), maxval(abs(contact)), maxval(abs(reaction)))
       equilibrium%round_off = maxval(size_of_force)
       equilibrium%holds = equilibrium%residual <= FORCE_TOLERANCE*equilibrium%largest_force &
@@ -206,7 +207,7 @@ contains
          if (abs(t - sign(tau, slip)) > allowed) wrong = 'slip without full friction against it'
       else if (limit > SIGN_TOLERANCE*place_scale) then
          ! the law is steep here: compare the stress within what the slip leaves open
-         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale)/limit) then
+         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale/limit)) then
             wrong = 'shear off the friction law'
          end if
       end if

@@ -6,7 +6,7 @@
 module atrito_newton
    use atrito_box_problem, only: box_problem_t, closing_slack, residual, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, stop_level
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, has_settled
    use atrito_dense, only: solve_lu
    use atrito_friction_law, only: stick_compliance, FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp
@@ -27,10 +27,11 @@ contains
       real(wp), allocatable :: jacobian(:, :), rhs(:), dtau(:, :)
       integer(ip), allocatable :: active(:)
       integer(ip) :: iteration, info, changes, i
-      real(wp) :: change, largest_force
+      real(wp) :: change, last_change, largest_force
 
       dtau = bound_derivative(problem, line)
       solution%converged = .false.
+      last_change = -1.0_wp
       do iteration = 1, controls%max_iterations
          call begin_outer(solution%history)
          solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
@@ -52,11 +53,10 @@ contains
          call change_states(problem, line, solution, changes)
          if (largest_force > 0.0_wp) change = change/largest_force
          call end_outer(solution%history, change)
+         solution%converged = changes == 0 .and. has_settled(controls%tolerance, solution%inner%condition, last_change, change)
          solution%residual = change
-         if (changes == 0 .and. change <= stop_level(controls%tolerance, solution)) then
-            solution%converged = .true.
-            exit
-         end if
+         last_change = change
+         if (solution%converged) exit
       end do
       if (.not. solution%converged) solution%verdict = 'NEWTON did not converge'
       call put_slipping_at_bounds(problem, line, solution)

@@ -3,7 +3,7 @@ module atrito_outer_loop
    use atrito_accelerator, only: accelerator_t, picard_t, anderson_t
    use atrito_box_problem, only: box_problem_t, FREE
    use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, stop_level, relative_residual
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, has_settled, relative_residual
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_model, only: METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
@@ -22,6 +22,8 @@ module atrito_outer_loop
    integer(ip), parameter :: LAST_RESORT_FACTOR = 4       !< times MAXIT
    real(wp), parameter :: LAST_RESORT_MIXING = 0.3_wp
    integer(ip), parameter :: LONGEST_CYCLE = 6
+   integer(ip), parameter :: STALE = 10                   !< iterations in which the residual is not halved
+   real(wp), parameter :: STALE_RESIDUAL = 1.0e-8_wp      !< that is accepted then
 
 contains
 
@@ -159,14 +161,16 @@ contains
       real(wp), intent(inout) :: tau(:)
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
-      real(wp) :: image(size(tau)), good(size(tau)), visited(size(tau), LONGEST_CYCLE), last_residual
+      real(wp) :: image(size(tau)), good(size(tau)), visited(size(tau), LONGEST_CYCLE), last_residual, best_residual
       logical :: has_good
-      integer(ip) :: outer, steps_back, cycle_length
+      integer(ip) :: outer, steps_back, cycle_length, best_outer
 
       has_good = .false.
       steps_back = 0
       solution%converged = .false.
-      last_residual = 0.0_wp
+      last_residual = -1.0_wp
+      best_residual = HUGE_REAL
+      best_outer = 0
       visited = -1.0_wp
       call accelerator%reset()
       do outer = 1, controls%max_iterations
@@ -189,16 +193,22 @@ contains
          call end_outer(solution%history, solution%residual)
          call tell(reporter, outer, solution)
          if (last_residual > 0.0_wp) solution%contraction = solution%residual/last_residual
+         solution%converged = has_settled(controls%tolerance, solution%inner%condition, last_residual, solution%residual)
          last_residual = solution%residual
-         solution%converged = solution%residual <= stop_level(controls%tolerance, solution)
+         if (solution%residual < 0.5_wp*best_residual) then
+            best_residual = solution%residual
+            best_outer = outer
+         end if
+         ! round-off that the matrix does not tell: displacements far below the initial gaps
+         if (outer - best_outer >= STALE .and. solution%residual <= STALE_RESIDUAL) solution%converged = .true.
          if (solution%converged) return
          good = tau
          has_good = .true.
          call accelerator%update(good, image, tau)
          call find_cycle(visited, tau, solution%residual, cycle_length)
          if (cycle_length > 1 .and. steps_back == 0) then
-            solution%verdict = 'the loop cycles between '//to_text(cycle_length) &
-                               //' states; METHOD=ANDERSON may find the solution'
+            solution%verdict = 'the loop cycles between '//to_text(cycle_length)//' states'
+            if (controls%method == METHOD_PICARD) solution%verdict = solution%verdict//'; METHOD=ANDERSON may find the solution'
             return
          end if
       end do

@@ -28,7 +28,8 @@ contains
       allocate (fem%sections(size(model%sections)))
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i), material => model%materials(model%sections(i)%material))
-            fem%sections(i) = elastic_t(material%young, material%poisson, section%thickness, material%density)
+            fem%sections(i) = elastic_t(material%young, material%poisson, section%thickness, material%density, &
+                                        section%formulation)
          end associate
       end do
       call list_prescribed(model, held, value)

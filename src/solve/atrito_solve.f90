@@ -8,7 +8,7 @@ module atrito_solve
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
    use atrito_contact_rows, only: contact_rows_t, build_rows
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, stop_level
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, lp, wp
@@ -18,11 +18,13 @@ module atrito_solve
    use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
+   use atrito_range, only: work_of
    use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
                               estimate_error
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t, iteration_t, body_result_t
    use atrito_scene_builder, only: build_scene, build_bodies
+   use atrito_scene_memory, only: check_memory, check_average_memory
    use atrito_solve_history, only: solve_history_t
    use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
@@ -39,6 +41,7 @@ module atrito_solve
    type :: solve_options_t
       integer :: storage_kind = SOLVER_AUTO
       integer :: threads = 1
+      integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
    end type solve_options_t
 
    !> The scene with everything that the phases of a solution share.
@@ -53,6 +56,7 @@ module atrito_solve
    end type scene_data_t
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
+   real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
 
 contains
@@ -66,13 +70,15 @@ contains
       type(scene_data_t) :: data
       type(body_store_t) :: store
 
-      call prepare(model, store, data)
+      call prepare(model, store, options, data, status)
+      if (.not. is_ok(status)) return
       call describe_scene(model, data, options, scene)
-      call check_known_points(data, status)
+      call check_scene(model, options, scene, status)
+      if (is_ok(status)) call check_known_points(data, status)
    end subroutine survey_scene
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
-   !> displacements and hard contact). results%converged and law_holds tell the rest.
+   !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.
    subroutine solve_static(model, options, reporter, results, status, kept)
       type(model_t), intent(in) :: model
       type(solve_options_t), intent(in) :: options
@@ -103,16 +109,15 @@ contains
 
       call set_blas_threads(int(options%threads, ip))
       call start_phase('order')
-      call prepare(model, store, data)
-      call describe_scene(model, data, options, results%scene)
+      call prepare(model, store, options, data, status)
+      if (is_ok(status)) call describe_scene(model, data, options, results%scene)
       call stop_phase('order')
-      call check_known_points(data, status)
+      if (is_ok(status)) call check_scene(model, options, results%scene, status)
+      if (is_ok(status)) call check_known_points(data, status)
       if (.not. is_ok(status)) return
-      call start_phase('factor')
       call provide_bodies(store, data%fem, data%held, data%points, free_load(data), options%storage_kind, reporter, &
                           results%scene%bodies, status)
       results%factorisations = store%factorisations
-      call stop_phase('factor')
       if (.not. is_ok(status)) return
       call start_phase('iterate')
       call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
@@ -131,24 +136,41 @@ contains
       call estimate_error(data%fem, results)
       call stop_phase('estimate')
       call start_phase('check')
-      call check_law(data%rows, data%line, stop_level(controls%tolerance, solution), results)
+      call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results)
       call stop_phase('check')
       call warn(model, data, solution, results)
    end subroutine solve_with_store
 
-   subroutine prepare(model, store, data)
+   subroutine prepare(model, store, options, data, status)
       type(model_t), intent(in) :: model
       type(body_store_t), intent(in) :: store
+      type(solve_options_t), intent(in) :: options
       type(scene_data_t), intent(out) :: data
+      type(status_t), intent(out) :: status
       logical :: known
 
       call build_scene(model, data%fem, data%held, data%value, data%points)
       call take_numbering(store, data%held, data%points, data%fem, known)
       if (.not. known) call build_bodies(model, data%held, data%points, data%fem)
       call build_rows(data%points, data%rows)
+      if (any(model%interactions%rho > 0.0_wp)) then
+         call check_average_memory(model%deck_path, data%rows%n, options%memory, status)
+         if (.not. is_ok(status)) return
+      end if
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
       data%f = nodal_loads(model)
    end subroutine prepare
+
+   !> status: STATUS_DECK when the matrices of the scene need more memory than there is.
+   subroutine check_scene(model, options, scene, status)
+      type(model_t), intent(in) :: model
+      type(solve_options_t), intent(in) :: options
+      type(scene_t), intent(in) :: scene
+      type(status_t), intent(inout) :: status
+
+      call check_memory(model%deck_path, 'the scene, '//to_text(scene%n_dofs)//' free displacements and '// &
+                        to_text(scene%n_normal + scene%n_tangential)//' contact unknowns,', scene%memory, options%memory, status)
+   end subroutine check_scene
 
    !> Fills what `check` and the listing print of a scene.
    subroutine describe_scene(model, data, options, scene)
@@ -324,7 +346,7 @@ contains
                                                      //to_text(imbalance, 3)
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
-      results%external_work = sum(data%f*results%u) + sum(results%reaction*results%u)
+      results%external_work = work_of(size(results%u, kind=ip), data%f + results%reaction, results%u)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call recover_stress(model, data%fem, results)
       call balance_forces(data, contact, results)
@@ -382,9 +404,13 @@ contains
          associate (body => results%scene%bodies(b))
             if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
                               //to_text(body%worst_node)//' dof '//to_text(body%worst_dof)//' lost '//to_text(body%digits_lost, 3) &
-                                                                 //' digits: a very slender body, or one that is barely held there')
+                                        //' digits: a very slender or nearly incompressible body, or one that is barely held there')
          end associate
       end do
+      if (solution%inner%condition > MUCH_LOST) call add_warning('W-DIGITS', 'the equations of the contact line lose ' &
+                                                     //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
+                                                                 //' with more points than its soft master has nodes, or points' &
+                                                                 //' that are almost one')
       nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
       if (nu >= LARGE_FRICTION) call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu) &
                                     //': there may be other solutions than the one found (measured contraction of the outer loop ' &

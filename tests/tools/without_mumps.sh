@@ -13,8 +13,8 @@ fail() {
    failures=$((failures + 1))
 }
 
-# a body of 7,000 equations, which the sparse solver would get
-sh "$scene" 60 line >"$work/deck.inp"
+# a body of 40,000 equations, which the sparse solver would get
+sh "$scene" 100 line >"$work/deck.inp"
 "$atrito" "$work/deck.inp" --quiet -o "$work/out" || fail "automatic choice: exit $?"
 grep -q '  sparse  ' "$work/out/deck.lst" && fail 'a body is sparse'
 grep -q 'predicted cost' "$work/out/deck.lst" || fail 'the listing does not say why'

@@ -3,7 +3,7 @@ module model_cases
    use atrito_build_model, only: build_model
    use atrito_deck, only: deck_t
    use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    use atrito_messages, only: message_t, clear_messages, count_messages, get_message, sort_messages
    use atrito_model, only: model_t
    use atrito_model_names, only: surface_names, find_name
@@ -13,7 +13,8 @@ module model_cases
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, said, first_text, node_ids, element_ids, faces_text
+   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, build_within, said, first_text, node_ids, &
+             element_ids, faces_text
 
    !> Two unit squares side by side.
    character(len=*), parameter :: PLATE = '*NODE|1, 0, 0|2, 1, 0|3, 2, 0|11, 0, 1|12, 1, 1|13, 2, 1|'// &
@@ -62,6 +63,23 @@ contains
       call build_model(deck, model, levels)
       call sort_messages()
    end subroutine build_with
+
+   !> As build, refined, with so much memory.
+   subroutine build_within(text, levels, memory, model)
+      character(len=*), intent(in) :: text
+      integer(ip), intent(in) :: levels
+      integer(lp), intent(in) :: memory                !< bytes
+      type(model_t), intent(out) :: model
+      type(string_t) :: none(0)
+      type(deck_t) :: deck
+      type(status_t) :: status
+
+      call clear_messages()
+      call write_deck(text)
+      call read_deck(FOLDER//'/scene.inp', none, deck, status)
+      call build_model(deck, model, levels, memory)
+      call sort_messages()
+   end subroutine build_within
 
    subroutine write_deck(text)
       character(len=*), intent(in) :: text

@@ -8,16 +8,18 @@ grep -q '  banded  ' skyline/ex1-plate-on-support.lst && complain "the skyline r
 for table in contact nodes reactions stress; do
    same_tables "skyline and banded, $table" skyline/$table.tab banded/$table.tab 1e-12
 done
-# the sparse one, where the program has it
-if "$atrito" check "$input/ex1-plate-on-support.inp" --solver sparse --quiet >sparse.out 2>&1; then
-   run 0 "$input/ex1-plate-on-support.inp" sparse --solver sparse --digits 17 --quiet
-   says "listing of sparse" sparse/ex1-plate-on-support.lst "  sparse  "
-   says "listing names the library" sparse/ex1-plate-on-support.lst "MUMPS"
+# the sparse storage, where the program has MUMPS
+if "$atrito" "$input/ex1-plate-on-support.inp" -o sparse --solver sparse --digits 17 --quiet 2>sparse.err; then
+   says 'listing of sparse' sparse/ex1-plate-on-support.lst '  sparse  '
    for table in contact nodes reactions stress; do
       same_tables "skyline and sparse, $table" skyline/$table.tab sparse/$table.tab 1e-12
    done
+   "$atrito" check "$input/ex3-pillar-in-ground.inp" --refine 4 >needs-4
+   "$atrito" check "$input/ex3-pillar-in-ground.inp" --refine 5 >needs-5
+   grep -q sparse needs-4 && complain 'bodies of 30000 equations are sparse unasked'
+   says 'bodies of 120000 equations' needs-5 sparse
 else
-   says "no sparse solver and no word" sparse.out "needs MUMPS"
+   says 'without MUMPS' sparse.err '--solver sparse needs MUMPS'
 fi
 # methods and laws
 cp "$here/drag.inp" .

@@ -19,5 +19,8 @@ compare_with() { # NAME L F: the same in other units
       "$(awk -v a="$(summary "$1" strain_energy)" 'BEGIN { printf "%.17g", 1e-12*a }')"
 }
 compare_with mm 1e3 1e3
+compare_with Gm 1e-9 1
 compare_with far 1e-9 1e9
+compare_with um 1e6 1e9
+compare_with um-GN 1e6 1e-6
 finish

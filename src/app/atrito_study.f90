@@ -1,0 +1,219 @@
+!> `atrito study`: one deck at several levels of refinement and with several elements; error against run time.
+module atrito_study
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_body_store, only: body_store_t
+   use atrito_command_line, only: command_t, output_folder
+   use atrito_console, only: print_messages, print_status
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: Q1_NODES, Q2_NODES
+   use atrito_messages, only: clear_messages
+   use atrito_numbers, only: read_real, NUMBER_OK
+   use atrito_page, only: page_t, print_page
+   use atrito_plot_files, only: remove_plots
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_run, only: run_deck, run_facts_t
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED
+   use atrito_strings, only: string_t, append_string, join, nearest_names, to_text
+   use atrito_summary, only: quantity_names
+   use atrito_study_plot, only: write_study_plot
+   use atrito_study_table, only: study_t, study_row_t, study_quantity_t, judge_study, write_study, compose_study
+   use atrito_sweep_tables, only: sweep_run_t, read_summary
+   use atrito_table, only: origin_t
+   use atrito_timers, only: reset_timers, get_phases
+   implicit none (type, external)
+   private
+   public :: run_study
+
+contains
+
+   !> Makes all runs; code is the worst of theirs.
+   subroutine run_study(command, code)
+      type(command_t), intent(in) :: command
+      integer, intent(out) :: code                  !< one of STATUS_*
+      type(study_t) :: study
+      type(status_t) :: status
+      type(string_t), allocatable :: elements(:)
+      type(reporter_t) :: reporter
+      integer(ip) :: level
+      integer :: i, k
+
+      reporter%quiet = command%quiet
+      call choose_quantities(command, study, status)
+      code = status%code
+      if (.not. is_ok(status)) then
+         call print_status(status, command%names(1)%s)
+         return
+      end if
+      elements = command%elements
+      if (size(elements) == 0) call append_string(elements, 'deck')
+      allocate (study%rows(size(elements)*command%levels))
+      k = 0
+      do i = 1, size(elements)
+         do level = 0, command%levels - 1
+            k = k + 1
+            call report_progress(reporter, 'run '//to_text(int(k, ip))//' of '//to_text(size(study%rows, kind=ip))//'  ' &
+                                 //elements(i)%s//', level '//to_text(level))
+            call make_run(command, elements(i)%s, level, study, study%rows(k), status)
+            ! the first run of a process pays for loading it: once more for the clock
+            if (k == 1 .and. is_ok(status) .and. .not. has_failed(study%rows(1))) then
+               call make_run(command, elements(i)%s, level, study, study%rows(k), status)
+            end if
+            if (.not. is_ok(status)) exit
+            ! a fault of the command line or the deck is the same at every level
+            if (study%rows(k)%code == STATUS_USAGE .or. (k == 1 .and. has_failed(study%rows(k)))) exit
+         end do
+         if (level < command%levels) exit
+      end do
+      code = max(status%code, maxval(study%rows(:k)%code))
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      if (k < size(study%rows) .or. has_failed(study%rows(1))) return
+      call finish(command, study, status)
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      code = max(code, status%code)
+   end subroutine run_study
+
+   pure logical function has_failed(row)
+      type(study_row_t), intent(in) :: row
+
+      has_failed = row%code /= STATUS_OK .and. row%code /= STATUS_NOT_CONVERGED
+   end function has_failed
+
+   !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair.
+   subroutine choose_quantities(command, study, status)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(inout) :: study
+      type(status_t), intent(out) :: status
+      type(string_t), allocatable :: list(:)
+      integer :: i, equals, outcome
+
+      list = command%references
+      if (size(list) == 0) list = [string_t('strain_energy'), string_t('normal_resultant')]
+      allocate (study%quantities(size(list)))
+      do i = 1, size(list)
+         associate (quantity => study%quantities(i))
+            equals = index(list(i)%s, '=')
+            quantity%name = list(i)%s
+            if (equals > 0) quantity%name = list(i)%s(:equals - 1)
+            call check_name(quantity%name, status)
+            if (.not. is_ok(status)) return
+            if (equals == 0) cycle
+            quantity%is_given = .true.
+            quantity%source = 'given'
+            call read_real(list(i)%s(equals + 1:), quantity%reference, outcome)
+            if (outcome == NUMBER_OK) cycle
+            call set_status(status, STATUS_USAGE, '--reference '//list(i)%s//': QUANTITY=VALUE with a number is expected')
+            return
+         end associate
+      end do
+   end subroutine choose_quantities
+
+   subroutine check_name(name, status)
+      character(len=*), intent(in) :: name
+      type(status_t), intent(inout) :: status
+      type(string_t), allocatable :: names(:), near(:)
+      character(len=:), allocatable :: text
+      integer :: i
+
+      names = quantity_names()
+      do i = 1, size(names)
+         if (names(i)%s == name) return
+      end do
+      text = '--reference '//name//': summary.tab has no such quantity'
+      near = nearest_names(name, names, 3)
+      if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
+      call set_status(status, STATUS_USAGE, text)
+   end subroutine check_name
+
+   subroutine make_run(command, element, level, study, row, status)
+      type(command_t), intent(in) :: command
+      character(len=*), intent(in) :: element
+      integer(ip), intent(in) :: level
+      type(study_t), intent(in) :: study
+      type(study_row_t), intent(out) :: row
+      type(status_t), intent(out) :: status
+      type(command_t) :: one
+      type(body_store_t) :: store
+      type(run_facts_t) :: facts
+      type(sweep_run_t) :: summary
+      integer :: i, code
+
+      one = command
+      one%quiet = .true.
+      one%plot = .false.
+      one%refine = command%refine + level
+      one%element = element
+      if (element == 'deck') one%element = ''
+      one%shape = shape_of(element)
+      one%folder = output_folder(command)//'/'//element//'_'//to_text(level)
+      call clear_messages()
+      call reset_timers()
+      call run_deck(one, store, code, facts)
+      row%element = element
+      row%level = level
+      row%code = int(code, ip)
+      row%h = facts%h
+      row%n_dofs = facts%n_dofs
+      row%n_points = facts%n_points
+      row%phases = get_phases()
+      summary%code = code
+      call read_summary(one%folder, summary, status)
+      allocate (row%values(size(study%quantities)))
+      do i = 1, size(row%values)
+         row%values(i) = amount(summary, study%quantities(i)%name)
+      end do
+      row%estimate = amount(summary, 'error_estimate_percent')
+      row%penetration = amount(summary, 'max_penetration')
+      row%slip = amount(summary, 'max_abs_slip')
+      row%pressure = amount(summary, 'max_pressure')
+   end subroutine make_run
+
+   pure integer(ip) function shape_of(element)
+      character(len=*), intent(in) :: element
+
+      shape_of = 0
+      if (index(element, '4') > 0) shape_of = Q1_NODES
+      if (index(element, '9') > 0) shape_of = Q2_NODES
+   end function shape_of
+
+   !> A quantity of the first pair, or of the step; nan where the summary has none.
+   pure real(wp) function amount(summary, name)
+      type(sweep_run_t), intent(in) :: summary
+      character(len=*), intent(in) :: name
+      integer :: i
+
+      amount = ieee_value(1.0_wp, ieee_quiet_nan)
+      do i = size(summary%quantities), 1, -1
+         if (summary%quantities(i)%s == name .and. summary%pairs(i) <= 1) amount = summary%numbers(i)
+      end do
+   end function amount
+
+   subroutine finish(command, study, status)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(inout) :: study
+      type(status_t), intent(out) :: status
+      type(origin_t) :: origin
+      type(page_t) :: page
+      type(string_t), allocatable :: drawn(:)
+
+      call judge_study(study)
+      associate (deck => command%names(1)%s)
+         origin%deck = deck(index(deck, '/', back=.true.) + 1:)
+         origin%not_converged = any(study%rows%code == STATUS_NOT_CONVERGED)
+         allocate (origin%heading(0))
+         call write_study(output_folder(command), origin, study, int(command%digits), status)
+         if (.not. is_ok(status)) return
+         call clear_messages()
+         if (command%plot) then
+            call write_study_plot(output_folder(command), origin%deck, study, drawn)
+         else
+            call remove_plots(output_folder(command))
+         end if
+         call print_messages(command%quiet, 1_ip)
+         if (command%quiet) return
+         call compose_study(deck, output_folder(command), study, page)
+         call print_page(page, output_unit)
+      end associate
+   end subroutine finish
+
+end module atrito_study

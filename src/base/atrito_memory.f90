@@ -1,0 +1,84 @@
+!> How much memory the machine has to give, so that a scene that needs more is refused before it is allocated: Linux promises
+!> more than it has, and ends the program when the promise is called in.
+module atrito_memory
+   use, intrinsic :: iso_c_binding, only: c_int, c_long
+   use atrito_files, only: read_system_line
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: available_memory, memory_text
+
+   integer(lp), parameter :: KIB = 1024_lp
+   integer(lp), parameter :: UNLIMITED = huge(1_lp)
+
+   interface
+      integer(c_int) function c_getrlimit(resource, limits) bind(C, name='getrlimit')
+         import :: c_int, c_long
+         integer(c_int), value :: resource
+         integer(c_long), intent(out) :: limits(2)     !< soft, hard
+      end function c_getrlimit
+   end interface
+
+contains
+
+   !> Memory that the program can still get [bytes]: the least of what is free (swap left out), what `ulimit -v` leaves and what
+   !> a container allows. A very large number where the system does not tell.
+   integer(lp) function available_memory() result(bytes)
+      bytes = min(count_of('/proc/meminfo', 'MemAvailable:', KIB), address_space_left(), &
+                  count_of('/sys/fs/cgroup/memory.max', '', 1_lp))
+   end function available_memory
+
+   !> Address space below the limit that `ulimit -v` sets [bytes].
+   integer(lp) function address_space_left() result(bytes)
+      integer(c_int), parameter :: ADDRESS_SPACE = 9_c_int       ! RLIMIT_AS of Linux
+      integer(c_long) :: limits(2)
+      integer(lp) :: used
+
+      bytes = UNLIMITED
+      if (c_getrlimit(ADDRESS_SPACE, limits) /= 0_c_int) return
+      if (limits(1) < 0_c_long) return                           ! infinity, which is -1
+      used = count_of('/proc/self/status', 'VmSize:', KIB)
+      if (used == UNLIMITED) used = 0_lp
+      bytes = max(0_lp, int(limits(1), lp) - used)
+   end function address_space_left
+
+   !> The number that follows a label at the beginning of a line of a file; UNLIMITED where there is none.
+   integer(lp) function count_of(path, label, unit) result(bytes)
+      character(len=*), intent(in) :: path, label
+      integer(lp), intent(in) :: unit                  !< bytes
+      character(len=:), allocatable :: line
+      logical :: found
+      integer :: i, d
+
+      bytes = UNLIMITED
+      call read_system_line(path, label, line, found)
+      if (.not. found) return
+      line = adjustl(line(len(label) + 1:))
+      if (verify(line(:min(1, len(line))), '0123456789') > 0 .or. len(line) == 0) return
+      bytes = 0_lp
+      do i = 1, min(len(line), 15)
+         d = iachar(line(i:i)) - iachar('0')
+         if (d < 0 .or. d > 9) exit
+         bytes = 10_lp*bytes + int(d, lp)
+      end do
+      bytes = bytes*unit
+   end function count_of
+
+   !> '1.5 GiB'
+   pure function memory_text(bytes) result(text)
+      integer(lp), intent(in) :: bytes
+      character(len=:), allocatable :: text
+      character(len=3), parameter :: NAMES(5) = ['B  ', 'KiB', 'MiB', 'GiB', 'TiB']
+      real(wp) :: x
+      integer(ip) :: i
+
+      x = real(bytes, wp)
+      do i = 1, size(NAMES, kind=ip) - 1
+         if (x < real(KIB, wp)) exit
+         x = x/real(KIB, wp)
+      end do
+      text = to_text(x, 4)//' '//trim(NAMES(i))
+   end function memory_text
+
+end module atrito_memory

@@ -1,0 +1,32 @@
+!> Sums whose terms may leave the range of numbers where nothing else does: the work of forces that are 1e300 in the user's units.
+module atrito_range
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   implicit none (type, external)
+   private
+   public :: work_of
+
+contains
+
+   !> sum(force*displacement); infinite, without raising an exception, where that is too large for a number.
+   pure real(wp) function work_of(n, force, displacement) result(work)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: force(n)             !< [F]
+      real(wp), intent(in) :: displacement(n)      !< [L]
+      real(wp) :: scale, total
+
+      work = 0.0_wp
+      if (n == 0) return
+      scale = maxval(abs(displacement))
+      if (scale <= 0.0_wp) return
+      total = sum(force*(displacement/scale))
+      if (abs(total) <= HUGE_REAL/max(scale, 1.0_wp)) then
+         work = total*scale
+      else if (total > 0.0_wp) then
+         work = ieee_value(work, ieee_positive_inf)
+      else
+         work = ieee_value(work, ieee_negative_inf)
+      end if
+   end function work_of
+
+end module atrito_range

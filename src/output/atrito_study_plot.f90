@@ -1,0 +1,221 @@
+!> The picture of a study: error against processor time, and processor time against the number of displacements, both on
+!> logarithmic axes, a curve an element type, its last slope in the legend.
+module atrito_study_plot
+   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files, discard_files
+   use atrito_gnuplot, only: draw_pictures
+   use atrito_kinds, only: ip, wp, is_nan
+   use atrito_messages, only: add_warning
+   use atrito_number_text, only: trimmed_real
+   use atrito_plot_files, only: plot_folder, remove_plots, STUDY_PLOT
+   use atrito_plot_text, only: quoted, cleaned, put_top, put_terminal, COLOUR, N_COLOURS, LOOP_END
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_study_table, only: study_t
+   implicit none (type, external)
+   private
+   public :: write_study_plot
+
+   integer, parameter :: LONGEST_TITLE = 90          !< characters
+
+contains
+
+   !> Draws <folder>/plots/study.png and .svg. A failure is a warning, W-PLOT.
+   subroutine write_study_plot(folder, title, study, drawn)
+      character(len=*), intent(in) :: folder         !< of the study
+      character(len=*), intent(in) :: title
+      type(study_t), intent(in) :: study
+      type(string_t), allocatable, intent(out) :: drawn(:)
+      type(status_t) :: status
+
+      call remove_plots(folder)
+      call write_study_script(folder, title, study, status)
+      if (is_ok(status)) then
+         call draw_pictures(plot_folder(folder), [string_t(STUDY_PLOT)], drawn)
+      else
+         allocate (drawn(0))
+         call add_warning('W-PLOT', 'no plots are written: '//status%text)
+      end if
+   end subroutine write_study_plot
+
+   subroutine write_study_script(folder, title, study, status)
+      character(len=*), intent(in) :: folder, title
+      type(study_t), intent(in) :: study
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+      type(string_t) :: others(0)
+      type(string_t), allocatable :: elements(:)
+
+      call begin_files(set, plot_folder(folder), status)
+      if (.not. is_ok(status)) return
+      call list_elements(study, elements)
+      call write_data(set, study, elements, status)
+      if (is_ok(status)) call write_script(set, title, study, elements, status)
+      if (is_ok(status)) then
+         call commit_files(set, others, status)
+      else
+         call discard_files(set)
+      end if
+   end subroutine write_study_script
+
+   pure subroutine list_elements(study, elements)
+      type(study_t), intent(in) :: study
+      type(string_t), allocatable, intent(out) :: elements(:)
+      integer :: k
+
+      allocate (elements(0))
+      do k = 1, size(study%rows)
+         if (k > 1) then
+            if (study%rows(k)%element == study%rows(k - 1)%element) cycle
+         end if
+         call append_string(elements, study%rows(k)%element)
+      end do
+   end subroutine list_elements
+
+   !> A block an element: dofs, seconds, estimate, then the error of each quantity [%].
+   subroutine write_data(set, study, elements, status)
+      type(file_set_t), intent(inout) :: set
+      type(study_t), intent(in) :: study
+      type(string_t), intent(in) :: elements(:)
+      type(status_t), intent(out) :: status
+      type(text_file_t) :: file
+      character(len=:), allocatable :: line
+      integer :: i, j, k
+
+      call open_text(set, STUDY_PLOT//'.dat', file)
+      call put_line(file, '# a block an element; columns: dofs, processor seconds, estimated error [%], errors of the '// &
+                    'quantities [%]')
+      do i = 1, size(elements)
+         do k = 1, size(study%rows)
+            associate (row => study%rows(k))
+               if (row%element /= elements(i)%s) cycle
+               line = to_text(row%n_dofs)//' '//trimmed_real(sum(row%phases%cpu), 6)//' '//trimmed_real(row%estimate, 6)
+               do j = 1, size(study%quantities)
+                  line = line//' '//trimmed_real(100*study%quantities(j)%error(k), 6)
+               end do
+               call put_line(file, line)
+            end associate
+         end do
+         call put_line(file, '')
+         call put_line(file, '')
+      end do
+      call close_text(file, status)
+   end subroutine write_data
+
+   subroutine write_script(set, title, study, elements, status)
+      type(file_set_t), intent(inout) :: set
+      character(len=*), intent(in) :: title
+      type(study_t), intent(in) :: study
+      type(string_t), intent(in) :: elements(:)
+      type(status_t), intent(out) :: status
+      type(text_file_t) :: file
+      integer :: j, panels
+
+      panels = size(study%quantities) + 2
+      call open_text(set, STUDY_PLOT//'.gp', file)
+      call put_top(file, STUDY_PLOT, 'error against run time, and run time against size')
+      call put_line(file, '# Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
+                    'quantities [%]')
+      call put_line(file, 'set logscale xy; set format "10^{%T}"; set grid lt 1 lw 1 lc rgb "#E0E0E0"')
+      call put_line(file, 'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"')
+      call put_line(file, 'set lmargin at screen 0.12; set rmargin at screen 0.76')
+      call put_line(file, 'set key outside right top Left reverse samplen 2.5 noenhanced')
+      call put_terminal(file, STUDY_PLOT, '1000,'//to_text(int(60 + 320*panels, ip)))
+      call put_line(file, 'set multiplot layout '//to_text(int(panels, ip))//',1 title '//quoted(cleaned(title, LONGEST_TITLE)) &
+                    //' noenhanced')
+      do j = 1, size(study%quantities)
+         call put_line(file, 'set xlabel "processor time [s]"; set ylabel '//quoted('error of '//study%quantities(j)%name//' [%]') &
+                       //' noenhanced')
+         call put_curves(file, study, elements, 2, 3 + j)
+      end do
+      call put_line(file, 'set xlabel "processor time [s]"; set ylabel "estimated error, energy norm [%]" enhanced')
+      call put_curves(file, study, elements, 2, 3)
+      call put_line(file, 'set xlabel "displacements"; set ylabel "processor time [s]"')
+      call put_curves(file, study, elements, 1, 2)
+      call put_line(file, 'unset multiplot')
+      call put_line(file, LOOP_END)
+      call put_line(file, 'set output')
+      call close_text(file, status)
+   end subroutine write_script
+
+   !> One panel: column y against column x. Where no number can be drawn the panel is left empty.
+   subroutine put_curves(file, study, elements, x, y)
+      type(text_file_t), intent(inout) :: file
+      type(study_t), intent(in) :: study
+      type(string_t), intent(in) :: elements(:)
+      integer, intent(in) :: x, y
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = ''
+      do i = 1, size(elements)
+         if (.not. has_points(study, elements(i)%s, x, y)) cycle
+         if (len(line) > 0) line = line//', '
+         line = line//'"study.dat" index '//to_text(int(i - 1, ip))//' using '//to_text(int(x, ip))//':'//to_text(int(y, ip)) &
+                //' with linespoints lt 1 lw 1.8 pt '//to_text(int(5 + 2*mod(i, 4), ip))//' ps 0.9*dot lc rgb "' &
+                //COLOUR(mod(i - 1, N_COLOURS) + 1)//'" title '//quoted(elements(i)%s//slope_text(study, elements(i)%s, x, y))
+      end do
+      if (len(line) == 0) then
+         call put_line(file, 'set multiplot next')
+      else
+         call put_line(file, 'plot '//line)
+      end if
+   end subroutine put_curves
+
+   pure logical function has_points(study, element, x, y)
+      type(study_t), intent(in) :: study
+      character(len=*), intent(in) :: element
+      integer, intent(in) :: x, y
+      integer :: k
+
+      has_points = .false.
+      do k = 1, size(study%rows)
+         if (study%rows(k)%element /= element) cycle
+         has_points = has_points .or. (is_positive(column(study, k, x)) .and. is_positive(column(study, k, y)))
+      end do
+   end function has_points
+
+   !> `, slope -0.49` of the last two points; empty where there are none.
+   pure function slope_text(study, element, x, y) result(text)
+      type(study_t), intent(in) :: study
+      character(len=*), intent(in) :: element
+      integer, intent(in) :: x, y
+      character(len=:), allocatable :: text
+      real(wp) :: dx
+      integer :: k
+
+      text = ''
+      do k = 2, size(study%rows)
+         if (study%rows(k)%element /= element .or. study%rows(k - 1)%element /= element) cycle
+         text = ''
+         if (.not. (is_positive(column(study, k, x)) .and. is_positive(column(study, k - 1, x)))) cycle
+         if (.not. (is_positive(column(study, k, y)) .and. is_positive(column(study, k - 1, y)))) cycle
+         dx = log(column(study, k, x)/column(study, k - 1, x))
+         if (dx > 0.0_wp) text = ', slope '//to_text(log(column(study, k, y)/column(study, k - 1, y))/dx, 2)
+      end do
+   end function slope_text
+
+   pure logical function is_positive(x)
+      real(wp), intent(in) :: x
+
+      is_positive = .false.
+      if (.not. is_nan(x)) is_positive = x > 0.0_wp
+   end function is_positive
+
+   !> A number of study.dat.
+   pure real(wp) function column(study, k, place)
+      type(study_t), intent(in) :: study
+      integer, intent(in) :: k, place
+
+      select case (place)
+      case (1)
+         column = real(study%rows(k)%n_dofs, wp)
+      case (2)
+         column = sum(study%rows(k)%phases%cpu)
+      case (3)
+         column = study%rows(k)%estimate
+      case default
+         column = study%quantities(place - 3)%error(k)
+      end select
+   end function column
+
+end module atrito_study_plot

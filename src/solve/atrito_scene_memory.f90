@@ -1,0 +1,64 @@
+!> Whether the machine can hold the matrices of a scene, asked before they are made.
+module atrito_scene_memory
+   use atrito_kinds, only: ip, lp
+   use atrito_memory, only: available_memory, memory_text
+   use atrito_messages, only: message_t, add_message, SEVERITY_ERROR
+   use atrito_status, only: status_t, STATUS_DECK
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: check_memory, check_average_memory
+
+   !> An entry of the average: its value and its column.
+   integer(lp), parameter :: ENTRY_BYTES = 12_lp
+
+contains
+
+   !> status: STATUS_DECK, and an error, when a scene needs more than there is.
+   subroutine check_memory(deck_path, what, needed, limit, status)
+      character(len=:), allocatable, intent(in) :: deck_path   !< a model made without a deck has none
+      character(len=*), intent(in) :: what             !< e.g. 'the scene, 12 equations,'
+      integer(lp), intent(in) :: needed                !< bytes
+      integer(lp), intent(in) :: limit                 !< bytes; what the machine has counts where it is less
+      type(status_t), intent(inout) :: status
+      integer(lp) :: memory
+
+      memory = min(limit, available_memory())
+      if (needed > memory) call refuse(deck_path, what//' needs about '//memory_text(needed)//' of memory, there are '// &
+                                       memory_text(memory), status)
+   end subroutine check_memory
+
+   !> The same of the average over contact points, before they are averaged: each may have all others in its reach, and the entries
+   !> must have numbers.
+   subroutine check_average_memory(deck_path, n, limit, status)
+      character(len=:), allocatable, intent(in) :: deck_path
+      integer(ip), intent(in) :: n                     !< contact points
+      integer(lp), intent(in) :: limit                 !< bytes
+      type(status_t), intent(inout) :: status
+      integer(lp) :: entries
+
+      entries = int(n, lp)**2
+      if (entries > int(huge(n), lp)) then
+         call refuse(deck_path, 'an average over '//to_text(n)//' contact points is too large for the numbers of its entries', &
+                     status)
+      else
+         call check_memory(deck_path, 'the average over '//to_text(n)//' contact points', ENTRY_BYTES*entries, limit, status)
+      end if
+   end subroutine check_average_memory
+
+   subroutine refuse(deck_path, text, status)
+      character(len=:), allocatable, intent(in) :: deck_path
+      character(len=*), intent(in) :: text
+      type(status_t), intent(inout) :: status
+      type(message_t) :: message
+
+      status%code = STATUS_DECK                        ! without a text: the message tells it
+      message%severity = SEVERITY_ERROR
+      message%id = 'E-MEMORY'
+      if (allocated(deck_path)) message%file = deck_path
+      message%text = text
+      message%expected = 'a coarser mesh or fewer contact points, or a larger machine'
+      call add_message(message)
+   end subroutine refuse
+
+end module atrito_scene_memory
