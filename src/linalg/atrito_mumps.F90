@@ -416,7 +416,7 @@ contains
       real(wp), intent(in) :: shift                !< added to the diagonal; 0: the factor is good enough
       integer(ip) :: n_interior, i
       integer(lp) :: k
-      real(wp), allocatable :: x(:, :)
+      real(wp), allocatable :: x(:, :), y(:)
 
       n_interior = self%n - self%n_kept
       if (shift > 0.0_wp) then
@@ -428,16 +428,17 @@ contains
          call run(self, FACTOR_AGAIN)
          if (self%instance%mumps%infog(1) < 0) return
       end if
-      allocate (x(self%n, 1))
-      x = 0.0_wp
+      allocate (x(self%n, 1), y(self%n))
+      y = 0.0_wp
       ! without a symmetry that the motion could have
-      x(:n_interior, 1) = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, n_interior)]
+      y(:n_interior) = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, n_interior)]
       do i = 1, 3
-         x = x/maxval(abs(x))
+         x(:, 1) = y/self%scale/maxval(abs(y))
          call solve_with(self, INTERIOR_ALONE, x)
+         y = x(:, 1)/self%scale                    ! scaled unknowns: those of the deck may leave the range of numbers
+         y(n_interior + 1:) = 0.0_wp
       end do
-      x = x/maxval(abs(x))
-      x(:, 1) = x(:, 1)*self%scale
+      x(:, 1) = y/maxval(abs(y))*self%scale
       self%report%worst_equation = maxloc(abs(x(:n_interior, 1)), dim=1, kind=ip)
    end subroutine find_weakest
 
