@@ -32,35 +32,30 @@ found_hdf5() {
    return 1
 }
 
-# Installs what is missing; nothing to do is nothing said, and no network is needed then.
-install_missing() {
-   packages=$(missing_packages)
-   optional=$(missing_optional)
-   [ -z "$optional" ] || install_optional
-   [ -z "$packages" ] || install_packages "$packages"
-}
-
-# gnuplot draws the pictures of --plot, MUMPS factors large bodies; neither is needed for anything else.
-missing_optional() {
-   command -v gnuplot >/dev/null 2>&1 || printf ' gnuplot-nox'
-   found_mumps || printf ' libmumps-seq-dev'
-}
-
 found_mumps() {
-   for folder in /usr/include /usr/include/* /usr/local/include; do
+   for folder in /usr/include /usr/include/mumps_seq /usr/local/include; do
       [ -e "$folder/dmumps_struc.h" ] && return 0
    done
    return 1
 }
 
-# They come along with the other packages, else they are tried once, and without them the build goes on.
-install_optional() {
+# Installs what is missing; nothing to do is nothing said, and no network is needed then.
+install_missing() {
+   packages=$(missing_packages)
+   command -v gnuplot >/dev/null 2>&1 || want gnuplot-nox "without gnuplot --plot writes its scripts, but no pictures"
+   found_mumps || want libmumps-seq-dev "without MUMPS there is no sparse solver, and large bodies take long"
+   [ -z "$packages" ] || install_packages "$packages"
+}
+
+# want PACKAGE LOSS: what atrito can do without comes along with the other packages, else it is tried once, and without it the
+# build goes on.
+want() {
    if [ -n "$packages" ]; then
-      packages="$packages$optional"
-   elif [ "$(cat "$top/build/optional-tried" 2>/dev/null)" != "$optional" ]; then
+      packages="$packages $1"
+   elif [ ! -e "$top/build/$1-tried" ]; then
       mkdir -p "$top/build"
-      printf '%s\n' "$optional" >"$top/build/optional-tried"
-      (install_packages "$optional") || say "without$optional there are no pictures, or no sparse solver"
+      : >"$top/build/$1-tried"
+      (install_packages " $1") || say "$2"
    fi
 }
 

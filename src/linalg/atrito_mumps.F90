@@ -82,8 +82,9 @@ module atrito_mumps
    integer, parameter :: ZERO_PIVOT = -10, NO_ROOM = -9, NO_MEMORY = -13
    !> Digits lost from which the place is worth two solves.
    real(wp), parameter :: MANY_DIGITS = 9.0_wp
-   !> Added to the unit diagonal to find the motion that a singular matrix leaves free; far below the softest elastic one.
-   real(wp), parameter :: SHIFT = 1.0e-9_wp
+   !> Added to the unit diagonal of a matrix that could not be factored, to find the motion that it leaves free; far below the
+   !> softest elastic one.
+   real(wp), parameter :: SHIFT = 1.0e-13_wp
 
 contains
 
@@ -391,7 +392,7 @@ contains
          report%digits_lost = ALL_DIGITS
          if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)
          if (singular .or. report%sign_changes > 0) then
-            call find_weakest(self, SHIFT)
+            call find_weakest(self, merge(SHIFT, 0.0_wp, mumps%infog(1) == ZERO_PIVOT))
             call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: '//to_text(report%sign_changes) &
                             //' negative pivots, the softest motion is largest at equation '//to_text(report%worst_equation))
          else if (report%digits_lost > MANY_DIGITS) then
@@ -415,7 +416,7 @@ contains
       real(wp), intent(in) :: shift                !< added to the diagonal; 0: the factor is good enough
       integer(ip) :: n_interior, i
       integer(lp) :: k
-      real(wp), allocatable :: x(:, :)
+      real(wp), allocatable :: x(:, :), y(:)
 
       n_interior = self%n - self%n_kept
       if (shift > 0.0_wp) then
@@ -427,16 +428,17 @@ contains
          call run(self, FACTOR_AGAIN)
          if (self%instance%mumps%infog(1) < 0) return
       end if
-      allocate (x(self%n, 1))
-      x = 0.0_wp
-      ! no symmetry to be missed
-      x(:n_interior, 1) = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, n_interior)]
+      allocate (x(self%n, 1), y(self%n))
+      y = 0.0_wp
+      ! without a symmetry that the motion could have
+      y(:n_interior) = [(1.0_wp + real(modulo(37*modulo(i, 101), 101), wp)/101.0_wp, i=1, n_interior)]
       do i = 1, 3
-         x = x/maxval(abs(x))
+         x(:, 1) = y/self%scale/maxval(abs(y))
          call solve_with(self, INTERIOR_ALONE, x)
+         y = x(:, 1)/self%scale                    ! scaled unknowns: those of the deck may leave the range of numbers
+         y(n_interior + 1:) = 0.0_wp
       end do
-      x = x/maxval(abs(x))
-      x(:, 1) = x(:, 1)*self%scale
+      x(:, 1) = y/maxval(abs(y))*self%scale
       self%report%worst_equation = maxloc(abs(x(:n_interior, 1)), dim=1, kind=ip)
    end subroutine find_weakest
 

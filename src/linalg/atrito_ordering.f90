@@ -2,10 +2,10 @@
 !>
 !> Reference: A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4.
 module atrito_ordering
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
-   public :: graph_t, build_graph, order_contact_last, connected_components
+   public :: graph_t, build_graph, order_contact_last, connected_components, mesh_components
 
    !> Which nodes share an element. Node itself left out.
    type :: graph_t
@@ -28,22 +28,22 @@ contains
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
       type(graph_t), intent(out) :: graph
-      integer(ip), allocatable :: start(:), list(:), last_seen_from(:)
-      integer(ip) :: i, pass, used
+      integer(ip), allocatable :: start(:), list(:), last_seen_from(:), neighbours(:)
+      integer(ip) :: i, used
 
       call list_elements(n, elements, start, list)
       graph%n = n
       allocate (graph%xadj(n + 1), last_seen_from(n))
-      do pass = 1, 2          ! count, then fill
-         last_seen_from = 0
-         used = 0
-         do i = 1, n
-            graph%xadj(i) = used + 1
-            call take_neighbours(i, elements, list(start(i):start(i + 1) - 1), last_seen_from, graph%adjncy, used)
-         end do
-         graph%xadj(n + 1) = used + 1
-         if (pass == 1) allocate (graph%adjncy(used))
+      ! a node shares an element with at most all others of each of its elements; what is not touched takes no memory
+      allocate (neighbours(size(list, kind=lp)*max(size(elements, 1) - 1, 0)))
+      last_seen_from = 0
+      used = 0
+      do i = 1, n
+         graph%xadj(i) = used + 1
+         call take_neighbours(i, elements, list(start(i):start(i + 1) - 1), last_seen_from, neighbours, used)
       end do
+      graph%xadj(n + 1) = used + 1
+      graph%adjncy = neighbours(:used)
    end subroutine build_graph
 
    !> The elements at each node: list(start(i):start(i + 1) - 1).
@@ -58,7 +58,8 @@ contains
       do e = 1, size(elements, 2, kind=ip)
          do k = 1, size(elements, 1, kind=ip)
             node = elements(k, e)
-            if (node > 0) start(node + 1) = start(node + 1) + 1
+            if (node == 0) exit
+            start(node + 1) = start(node + 1) + 1
          end do
       end do
       start(1) = 1
@@ -70,19 +71,19 @@ contains
       do e = 1, size(elements, 2, kind=ip)
          do k = 1, size(elements, 1, kind=ip)
             node = elements(k, e)
-            if (node == 0) cycle
+            if (node == 0) exit
             list(next(node)) = e
             next(node) = next(node) + 1
          end do
       end do
    end subroutine list_elements
 
-   !> Appends the neighbours of node i, or counts them while `neighbours` is not allocated.
+   !> Appends the neighbours of node i.
    pure subroutine take_neighbours(i, elements, around, last_seen_from, neighbours, used)
       integer(ip), intent(in) :: i, elements(:, :)
       integer(ip), intent(in) :: around(:)                    !< elements at node i
       integer(ip), intent(inout) :: last_seen_from(:)
-      integer(ip), allocatable, intent(inout) :: neighbours(:)
+      integer(ip), intent(inout) :: neighbours(:)
       integer(ip), intent(inout) :: used
       integer(ip) :: e, k, node
 
@@ -90,14 +91,57 @@ contains
       do e = 1, size(around, kind=ip)
          do k = 1, size(elements, 1, kind=ip)
             node = elements(k, around(e))
-            if (node == 0) cycle
+            if (node == 0) exit
             if (last_seen_from(node) == i) cycle
             last_seen_from(node) = i
             used = used + 1
-            if (allocated(neighbours)) neighbours(used) = node
+            neighbours(used) = node
          end do
       end do
    end subroutine take_neighbours
+
+   !> Numbers the connected components of a mesh from 1 in the order of their lowest nodes, without its graph: sets of nodes are
+   !> joined element by element, each known by its lowest node.
+   pure subroutine mesh_components(n, elements, component, n_components)
+      integer(ip), intent(in) :: n               !< nodes
+      integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
+      integer(ip), intent(out) :: component(:)   !< (n) 1..n_components; a node without element is one by itself
+      integer(ip), intent(out) :: n_components
+      integer(ip) :: parent(n), e, k, i, one, other
+
+      parent = [(i, i=1, n)]
+      do e = 1, size(elements, 2, kind=ip)
+         one = elements(1, e)
+         call find_lowest(parent, one)
+         do k = 2, size(elements, 1, kind=ip)
+            if (elements(k, e) == 0) exit
+            other = elements(k, e)
+            call find_lowest(parent, other)
+            parent(max(one, other)) = min(one, other)
+            one = min(one, other)
+         end do
+      end do
+      n_components = 0
+      do i = 1, n                                ! a parent is lower than its children
+         if (parent(i) == i) then
+            n_components = n_components + 1
+            component(i) = n_components
+         else
+            component(i) = component(parent(i))
+         end if
+      end do
+   end subroutine mesh_components
+
+   !> Goes up to the lowest node of a set, and halves the way for those who come later.
+   pure subroutine find_lowest(parent, node)
+      integer(ip), intent(inout) :: parent(:)
+      integer(ip), intent(inout) :: node
+
+      do while (parent(node) /= node)
+         parent(node) = parent(parent(node))
+         node = parent(node)
+      end do
+   end subroutine find_lowest
 
    !> Reverse Cuthill-McKee numbering that ends with given nodes.
    !>

@@ -157,8 +157,8 @@ contains
    !> Expected floating-point operations of the sparse factorisation with its Schur complement.
    !>
    !> Nested dissection and minimum degree need about c n m operations for a grid of n equations that is m wide (George, SIAM J.
-   !> Numer. Anal. 10 (1973) 345-363, for the square); the mean height of the columns tells the width. c was counted by MUMPS for
-   !> bodies of 7,000 to 850,000 equations: 30 to 60.
+   !> Numer. Anal. 10 (1973) 345-363, for the square); the mean height of the columns tells the width. c was counted by MUMPS with
+   !> the order of atrito_dissection for bodies of 27,000 to 850,000 equations: 30 to 55.
    pure real(wp) function sparse_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
       real(wp), parameter :: C = 45.0_wp
@@ -171,16 +171,16 @@ contains
    !> Expected entries of the sparse factor: a n log2 m - b n of the grid above, counted by MUMPS for the same bodies.
    pure real(wp) function sparse_entries(profile) result(entries)
       type(profile_t), intent(in) :: profile
-      real(wp), parameter :: A = 14.5_wp, B = 35.0_wp, LEAST = 10.0_wp
+      real(wp), parameter :: A = 11.0_wp, B = 16.0_wp, LEAST = 10.0_wp
 
       entries = real(profile%n, wp)*max(A*log(max(mean_height(profile), 1.0_wp))/log(2.0_wp) - B, LEAST)
    end function sparse_entries
 
-   !> Memory that the sparse solver is expected to hold [bytes]: the factor, and a third for its lists.
+   !> Memory that the sparse solver is expected to hold [bytes]: the factor, and half as much for matrix and lists.
    pure integer(lp) function sparse_bytes(profile) result(bytes)
       type(profile_t), intent(in) :: profile
 
-      bytes = REAL_BYTES*int(sparse_entries(profile)*4.0_wp/3.0_wp, lp)
+      bytes = REAL_BYTES*int(1.5_wp*sparse_entries(profile), lp)
    end function sparse_bytes
 
    !> Memory of the skyline storage [bytes].

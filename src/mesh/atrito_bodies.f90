@@ -4,7 +4,7 @@ module atrito_bodies
    use atrito_mesh, only: mesh_t
    use atrito_dense, only: null_space
    use atrito_dissection, only: dissect
-   use atrito_ordering, only: graph_t, build_graph, connected_components, order_contact_last
+   use atrito_ordering, only: graph_t, build_graph, mesh_components, order_contact_last
    implicit none (type, external)
    private
    public :: body_t, bodies_t, find_bodies, number_equations, elimination_places, find_rigid_modes, element_equations, mode_at
@@ -38,13 +38,11 @@ contains
    subroutine find_bodies(mesh, bodies)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(out) :: bodies
-      type(graph_t) :: graph
       integer(ip), allocatable :: component(:), number(:)
       integer(ip) :: n_components, e, i
 
       allocate (component(mesh%n_nodes))
-      call build_graph(mesh%n_nodes, mesh%nodes, graph)
-      call connected_components(graph, component, n_components)
+      call mesh_components(mesh%n_nodes, mesh%nodes(:, :mesh%n_elements), component, n_components)
       allocate (number(n_components), bodies%of_node(mesh%n_nodes), bodies%of_element(mesh%n_elements), source=0_ip)
       do e = 1, mesh%n_elements
          i = component(mesh%nodes(1, e))

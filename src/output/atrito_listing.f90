@@ -9,7 +9,8 @@ module atrito_listing
    use atrito_messages, only: count_messages, get_message, format_message
    use atrito_timers, only: phase_time_t, get_phases, peak_memory
    use atrito_model, only: model_t
-   use atrito_results, only: chatter_t, results_t, balance_t, iteration_t
+   use atrito_mumps, only: mumps_name
+   use atrito_results, only: chatter_t, results_t, scene_t, balance_t, iteration_t
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, &
                           left, right, number, bytes, plural
    use atrito_model_report, only: describe_model
@@ -65,7 +66,9 @@ contains
       call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
       call describe_bodies(page, results%scene, factored=.true.)
       call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
+      if (is_sparse(results%scene)) call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
       call add_entry(page, 'BLAS', trim(blas_name()))
+      if (is_sparse(results%scene)) call add_entry(page, 'sparse solver', mumps_name())
       call add_entry(page, 'factorisations', to_text(int(results%factorisations, ip)))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
       call add_heading(page, '4  ITERATIONS')
@@ -85,6 +88,18 @@ contains
          call add_paragraph(page, join(pictures, ', '), 6)
       end if
    end subroutine compose_listing
+
+   !> Whether any body was given to the sparse solver.
+   pure logical function is_sparse(scene)
+      type(scene_t), intent(in) :: scene
+      integer :: i
+
+      is_sparse = .false.
+      do i = 1, size(scene%bodies)
+         if (.not. allocated(scene%bodies(i)%storage)) cycle
+         is_sparse = is_sparse .or. scene%bodies(i)%storage == 'sparse'
+      end do
+   end function is_sparse
 
    subroutine add_title(page, model, results)
       type(page_t), intent(inout) :: page

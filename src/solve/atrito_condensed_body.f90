@@ -27,14 +27,16 @@ module atrito_condensed_body
       real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
    end type condensed_body_t
 
+   ! Costs in operations of the skyline, fitted to blocks and strips of 200 to 900,000 equations with OpenBLAS; the crossing lies
+   ! near 4,000 equations for a square, and never for a strip of few elements across (docs/developer/solvers.md).
    !> Floating-point operations that LAPACK's band routines do in the time of one of the skyline's.
-   real(wp), parameter :: BAND_SPEED = 3.0_wp
-   !> The same of MUMPS on the dense blocks of a large body.
-   real(wp), parameter :: SPARSE_SPEED = 3.0_wp
-   !> Equations from which on a body is handed to MUMPS unasked. It pays from a tenth of that on: docs/performance.md.
-   integer(ip), parameter :: LEAST_SPARSE = 50000_ip
-   !> What MUMPS's analysis and assembly take for an equation, in operations of the skyline.
-   real(wp), parameter :: SPARSE_OVERHEAD = 4000.0_wp
+   real(wp), parameter :: BAND_SPEED = 2.2_wp
+   !> The same of MUMPS.
+   real(wp), parameter :: SPARSE_SPEED = 1.4_wp
+   !> What MUMPS's analysis, lists and solves take beyond the skyline's: for an equation, and to begin with.
+   real(wp), parameter :: SPARSE_OVERHEAD = 14000.0_wp, SPARSE_START = 8.0e6_wp
+   !> Equations from which on a body is handed to MUMPS unasked. It pays from a sixth of that on: docs/performance.md.
+   integer(ip), parameter :: LEAST_SPARSE = 32000_ip
 
 contains
 
@@ -76,7 +78,7 @@ contains
 
       cost(STORAGE_SKYLINE) = skyline_flops(profile)
       cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED
-      cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp)
+      cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
    end function predict_costs
 
    pure integer(lp) function predict_memory(profile, kind) result(bytes)

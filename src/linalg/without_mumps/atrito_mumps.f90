@@ -15,8 +15,8 @@ module atrito_mumps
       procedure :: add => add_to_sparse
       procedure :: factor => factor_sparse
       procedure :: get_schur => get_sparse_schur
-      procedure :: reduce => solve_sparse
-      procedure :: expand => solve_sparse
+      procedure :: reduce => reduce_sparse
+      procedure :: expand => expand_sparse
       procedure :: memory_bytes => sparse_memory
       procedure, nopass :: name => sparse_name
    end type sparse_t
@@ -67,10 +67,15 @@ contains
       schur = 0.0_wp
    end subroutine get_sparse_schur
 
-   subroutine solve_sparse(self, x)
+   subroutine reduce_sparse(self, f)
+      class(sparse_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: f(:, :)
+   end subroutine reduce_sparse
+
+   subroutine expand_sparse(self, x)
       class(sparse_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
-   end subroutine solve_sparse
+   end subroutine expand_sparse
 
    pure integer(lp) function sparse_memory(self)
       class(sparse_t), intent(in) :: self
