@@ -144,6 +144,21 @@ writing() { # writing FOLDER WATCHED
 writing kept
 same_files first kept 'SIGTERM while writing'
 writing some/where/new
+
+# --- the output folder is removed under the run -----------------------------------------------------------------------------------
+for n in 20000 80000 320000; do
+   strip $n
+   "$atrito" strip.inp -o gone --quiet --digits 17 2>err >out &
+   run=$!
+   await $run parts gone
+   rm -rf gone
+   wait $run
+   code=$?
+   [ $code -eq 0 ] || break
+done
+expect_code 5 'the output folder removed while the tables are written'
+told err 'gone/' || fail 'the output folder removed: no file is named'
+[ ! -e gone ] || fail 'the output folder removed: something is left'
 [ ! -e some ] || fail 'SIGTERM while writing: the new folders are left'
 
 # SIGKILL leaves temporary files, which the next run removes, whether or not it writes these tables
