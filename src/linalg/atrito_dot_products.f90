@@ -6,7 +6,7 @@ module atrito_dot_products
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: dot, dot_1x4, dot_2x4, take_off, PANEL_WIDTH
+   public :: dot, dot_down, dot_1x4, dot_2x4, take_off, PANEL_WIDTH
 
    integer(ip), parameter :: PANEL_WIDTH = 4_ip   !< columns that are eliminated together
 
@@ -24,6 +24,19 @@ contains
          dot = dot + a(k)*b(k)
       end do
    end function dot
+
+   !> a . b, from the last to the first, for those who go backward through a.
+   pure real(wp) function dot_down(n, a, b)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: a(n), b(n)
+      integer(ip) :: k
+
+      dot_down = 0.0_wp
+      !$omp simd reduction(+:dot_down)
+      do k = n, 1, -1
+         dot_down = dot_down + a(k)*b(k)
+      end do
+   end function dot_down
 
    !> y <- y - factor a, from the last to the first: the skyline is gone through backward by this, and memory is fetched ahead only
    !> while the addresses go one way.
