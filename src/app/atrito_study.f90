@@ -5,7 +5,9 @@ module atrito_study
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
-   use atrito_kinds, only: ip, wp
+   use atrito_files, only: check_folder
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_kinds, only: ip, wp, is_nan
    use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_messages, only: clear_messages
    use atrito_numbers, only: read_real, NUMBER_OK
@@ -33,18 +35,32 @@ contains
       integer, intent(out) :: code                  !< one of STATUS_*
       type(study_t) :: study
       type(status_t) :: status
+      type(folder_claim_t) :: claim
+
+      call choose_quantities(command, study, status)
+      if (is_ok(status)) call check_folder(output_folder(command), status)
+      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
+      code = status%code
+      if (is_ok(status)) then
+         call make_runs(command, study, code)
+         call release_folder(claim)
+      else
+         call print_status(status, command%names(1)%s)
+      end if
+   end subroutine run_study
+
+   !> The runs and what is made of them. The folder is claimed all the time.
+   subroutine make_runs(command, study, code)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(inout) :: study
+      integer, intent(out) :: code
+      type(status_t) :: status
       type(string_t), allocatable :: elements(:)
       type(reporter_t) :: reporter
       integer(ip) :: level
       integer :: i, k
 
       reporter%quiet = command%quiet
-      call choose_quantities(command, study, status)
-      code = status%code
-      if (.not. is_ok(status)) then
-         call print_status(status, command%names(1)%s)
-         return
-      end if
       elements = command%elements
       if (size(elements) == 0) call append_string(elements, 'deck')
       allocate (study%rows(size(elements)*command%levels))
@@ -71,7 +87,7 @@ contains
       call finish(command, study, status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
       code = max(code, status%code)
-   end subroutine run_study
+   end subroutine make_runs
 
    pure logical function has_failed(row)
       type(study_row_t), intent(in) :: row
@@ -163,9 +179,9 @@ contains
          row%values(i) = amount(summary, study%quantities(i)%name)
       end do
       row%estimate = amount(summary, 'error_estimate_percent')
-      row%penetration = amount(summary, 'max_penetration')
-      row%slip = amount(summary, 'max_abs_slip')
-      row%pressure = amount(summary, 'max_pressure')
+      row%penetration = amount_or_0(summary, 'max_penetration')
+      row%slip = amount_or_0(summary, 'max_abs_slip')
+      row%pressure = amount_or_0(summary, 'max_pressure')
    end subroutine make_run
 
    pure integer(ip) function shape_of(element)
@@ -175,6 +191,15 @@ contains
       if (index(element, '4') > 0) shape_of = Q1_NODES
       if (index(element, '9') > 0) shape_of = Q2_NODES
    end function shape_of
+
+   !> 0 in a scene without contact.
+   pure real(wp) function amount_or_0(summary, name) result(x)
+      type(sweep_run_t), intent(in) :: summary
+      character(len=*), intent(in) :: name
+
+      x = amount(summary, name)
+      if (is_nan(x)) x = 0.0_wp
+   end function amount_or_0
 
    !> A quantity of the first pair, or of the step; nan where the summary has none.
    pure real(wp) function amount(summary, name)

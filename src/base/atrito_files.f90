@@ -315,7 +315,9 @@ contains
          call rename_all(set%folder, set%names, status)
          if (is_ok(status)) then
             do i = 1, size(stale)
-               if (.not. is_in(set, stale(i)%s)) call remove_file(set%folder//'/'//stale(i)%s)
+               if (is_in(set, stale(i)%s)) cycle
+               call remove_file(set%folder//'/'//stale(i)%s)
+               call remove_file(set%folder//'/'//stale(i)%s//TEMPORARY)   ! of a run that was killed
             end do
             call keep_files(set)
          end if

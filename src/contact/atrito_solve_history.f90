@@ -1,10 +1,15 @@
 !> What changed from one linear solve of the contact line to the next: the rows of iterations.tab.
 module atrito_solve_history
    use atrito_kinds, only: ip, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    implicit none (type, external)
    private
-   public :: solve_record_t, solve_history_t, record_solve, begin_outer, end_outer
+   public :: solve_record_t, solve_history_t, record_solve, begin_outer, end_outer, state_letters, OUTER_KEPT
+
+   integer(ip), parameter :: OUTER_KEPT = 8          !< outer iterations whose states are kept
+   !> State of a point: open, closed without a tangential unknown, sticking, slipping along T and against it.
+   integer(ip), parameter :: IS_OPEN = 1, IS_CLOSED = 2, IS_STUCK = 3, SLIPS_ALONG = 4, SLIPS_AGAINST = 5
+   character(len=1), parameter :: LETTERS(5) = ['o', 'c', '=', '+', '-']
 
    type :: solve_record_t
       integer(ip) :: outer = 0, inner = 0
@@ -20,6 +25,8 @@ module atrito_solve_history
       real(wp) :: last_residual = 1.0_wp             !< of the friction bounds, at the end of the last outer iteration
       real(wp), allocatable :: moved(:), stress(:)   !< of the solve before
       integer(ip), allocatable :: tangential_of(:)   !< (n_normal) tangential unknown of the same point; 0: none
+      integer(ip), allocatable :: states(:, :)       !< (n_normal, OUTER_KEPT) at the end of the last outer iterations, oldest first
+      integer(ip) :: kept = 0                        !< of them there are
    end type solve_history_t
 
 contains
@@ -90,25 +97,66 @@ contains
 
    !> Points without pressure are open; of the closed ones those whose tangential unknown is free stick, the others slip.
    pure subroutine count_states(history, problem, state, record)
-      type(solve_history_t), intent(in) :: history
+      type(solve_history_t), intent(inout) :: history
       type(box_problem_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state
       type(solve_record_t), intent(inout) :: record
-      integer(ip) :: i, t
+      integer(ip) :: now(problem%n_normal), i
 
-      do i = 1, problem%n_normal
-         t = 0
-         if (allocated(history%tangential_of)) t = history%tangential_of(i)
-         if (state%state(i) /= FREE) then
-            record%open = record%open + 1
-         else if (t == 0) then
-            record%slip = record%slip + 1
-         else if (state%state(t) == FREE) then
-            record%stick = record%stick + 1
-         else
-            record%slip = record%slip + 1
-         end if
-      end do
+      now = [(point_state(history, state, i), i=1, problem%n_normal)]
+      record%open = count(now == IS_OPEN, kind=ip)
+      record%stick = count(now == IS_STUCK, kind=ip)
+      record%slip = problem%n_normal - record%open - record%stick
+      call keep_states(history, record%inner == 1, now)
    end subroutine count_states
+
+   pure integer(ip) function point_state(history, state, i) result(now)
+      type(solve_history_t), intent(in) :: history
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i                   !< normal unknown
+      integer(ip) :: t
+
+      t = 0
+      if (allocated(history%tangential_of)) t = history%tangential_of(i)
+      if (state%state(i) /= FREE) then
+         now = IS_OPEN
+      else if (t == 0) then
+         now = IS_CLOSED
+      else
+         select case (state%state(t))
+         case (FREE)
+            now = IS_STUCK
+         case (AT_UPPER)
+            now = SLIPS_ALONG
+         case (AT_LOWER)
+            now = SLIPS_AGAINST
+         case default
+            now = IS_CLOSED
+         end select
+      end if
+   end function point_state
+
+   !> The last solve of an outer iteration counts.
+   pure subroutine keep_states(history, is_first, now)
+      type(solve_history_t), intent(inout) :: history
+      logical, intent(in) :: is_first                !< solve of its outer iteration
+      integer(ip), intent(in) :: now(:)
+
+      if (.not. allocated(history%states)) allocate (history%states(size(now), OUTER_KEPT), source=0_ip)
+      if (is_first .and. history%kept == OUTER_KEPT) history%states(:, :OUTER_KEPT - 1) = history%states(:, 2:)
+      if (is_first .and. history%kept < OUTER_KEPT) history%kept = history%kept + 1
+      history%states(:, max(history%kept, 1_ip)) = now
+   end subroutine keep_states
+
+   !> A letter a state: o open, c closed without friction, = sticking, + slipping along T, - against it.
+   pure function state_letters(states) result(text)
+      integer(ip), intent(in) :: states(:)
+      character(len=size(states)) :: text
+      integer :: i
+
+      do i = 1, size(states)
+         text(i:i) = LETTERS(states(i))
+      end do
+   end function state_letters
 
 end module atrito_solve_history

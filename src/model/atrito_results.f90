@@ -4,7 +4,7 @@ module atrito_results
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
-   public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t
+   public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, chatter_t
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -34,6 +34,14 @@ module atrito_results
       integer(ip) :: open = 0, stick = 0, slip = 0
       real(wp) :: residual = 0.0_wp                 !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
    end type iteration_t
+
+   !> A contact point that changes its state from one outer iteration to the next.
+   type :: chatter_t
+      integer(ip) :: pair = 0, point = 0, node = 0  !< node: the user's number
+      real(wp) :: x(2) = 0.0_wp                     !< [L]
+      character(len=8) :: states = ' '              !< at the end of the last ones, oldest first: o open, c closed without
+      !< friction, = sticking, + slipping along T, - against it
+   end type chatter_t
 
    !> How a body was handled.
    type :: body_result_t
@@ -94,7 +102,9 @@ module atrito_results
       real(wp) :: error_estimate = 0.0_wp           !< of the stresses, in the energy norm, relative [%]; Zienkiewicz and Zhu
       type(iteration_t), allocatable :: iterations(:)
       integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
+      type(chatter_t), allocatable :: chatter(:)    !< of a run that did not converge, the most restless first
       real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
+      real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions
       real(wp) :: equilibrium_residual = 0.0_wp
       real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
       type(balance_t) :: balance

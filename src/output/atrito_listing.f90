@@ -10,7 +10,7 @@ module atrito_listing
    use atrito_timers, only: phase_time_t, get_phases, peak_memory
    use atrito_model, only: model_t
    use atrito_mumps, only: mumps_name
-   use atrito_results, only: results_t, scene_t, balance_t, iteration_t
+   use atrito_results, only: chatter_t, results_t, scene_t, balance_t, iteration_t
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, &
                           left, right, number, bytes, plural
    use atrito_model_report, only: describe_model
@@ -23,6 +23,7 @@ module atrito_listing
 
    integer, parameter :: WIDTH = 100                !< columns
    integer, parameter :: DIGITS = 6                 !< of numbers for people
+   real(wp), parameter :: LEAST_CONTRACTION = 1.0e-6_wp      !< below it nothing couples pressure and friction but round-off
 
 contains
 
@@ -137,7 +138,11 @@ contains
       integer :: i
 
       call add_entry(page, 'outer iterations', to_text(int(results%outer_iterations, ip)))
-      if (results%contraction > 0.0_wp) call add_entry(page, 'measured rate of the outer loop', number(results%contraction, 3))
+      if (results%contraction > 0.0_wp) call add_entry(page, 'contraction, measured', number(results%contraction, 3))
+      if (results%contraction_estimate > LEAST_CONTRACTION) then
+         call add_entry(page, 'contraction, estimated', number(results%contraction_estimate, 3) &
+                        //'; from 1 on there may be several solutions')
+      end if
       if (allocated(results%verdict)) call add_entry(page, 'outcome', results%verdict)
       if (.not. allocated(results%iterations)) return
       if (size(results%iterations) == 0) return
@@ -147,7 +152,27 @@ contains
       do i = 1, size(results%iterations)
          call add_line(page, iteration_line(results%iterations(i)))
       end do
+      if (allocated(results%chatter)) call add_chatter(page, results%chatter)
    end subroutine add_iterations
+
+   !> All points that changed their states in the last outer iterations.
+   subroutine add_chatter(page, chatter)
+      type(page_t), intent(inout) :: page
+      type(chatter_t), intent(in) :: chatter(:)
+      integer :: i
+
+      if (size(chatter) == 0) return
+      call add_blank(page)
+      call add_paragraph(page, 'Points that chatter, with their states at the end of the last outer iterations, oldest first: ' &
+                         //'o open, = sticking, + slipping along T, - against it, c closed without friction', 3)
+      call add_line(page, right('pair', 8)//right('point', 7)//right('node', 10)//right('x', 16)//right('y', 16)//'   states')
+      do i = 1, size(chatter)
+         associate (c => chatter(i))
+            call add_line(page, right(to_text(c%pair), 8)//right(to_text(c%point), 7)//right(to_text(c%node), 10)// &
+                          right(number(c%x(1), DIGITS), 16)//right(number(c%x(2), DIGITS), 16)//'   '//c%states)
+         end associate
+      end do
+   end subroutine add_chatter
 
    pure function iteration_line(row) result(text)
       type(iteration_t), intent(in) :: row

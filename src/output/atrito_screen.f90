@@ -15,6 +15,9 @@ module atrito_screen
    public :: compose_summary
 
    integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
+   integer, parameter :: SCREEN_LINES = 24
+   integer, parameter :: MOST_OUTER = 4             !< outer iterations shown of a run that did not converge
+   integer, parameter :: CHATTER_LINES = 2
    integer, parameter :: DIGITS = 5
    integer, parameter :: LABEL_WIDTH = 34           !< columns of a pair's name
 
@@ -38,7 +41,11 @@ contains
       call add_rule(page, '-')
       call add_verdict(page, results)
       call add_sizes(page, model, results)
-      call add_pairs(page, results, most_pairs(results, files, present(pictures)))
+      if (has_trail(results)) then                  ! the pairs of the last iterate say less than how it got there
+         call add_trail(page, results, SCREEN_LINES - page%n - 6 - extra_lines(files, present(pictures)))
+      else
+         call add_pairs(page, results, most_pairs(results, files, present(pictures)))
+      end if
       call add_rule(page, '-')
       call add_closing(page, folder, files)
       if (present(pictures)) call add_pictures(page, folder, pictures)
@@ -141,16 +148,80 @@ contains
       type(results_t), intent(in) :: results
       type(string_t), intent(in) :: files(:)
       logical, intent(in) :: has_pictures
-      integer :: i, extra
+      integer :: extra
 
       extra = merge(1, 2, results%converged .and. results%law_holds)  ! the estimated error, or what is wrong
-      if (has_pictures) extra = extra + 1
-      do i = 1, size(files)
-         if (ends_with(files(i)%s, '.xdmf')) extra = extra + 1
-      end do
+      extra = extra + extra_lines(files, has_pictures)
       most = 2
       if (extra > 2) most = 1
    end function most_pairs
+
+   !> Lines of pictures and field files.
+   pure integer function extra_lines(files, has_pictures) result(extra)
+      type(string_t), intent(in) :: files(:)
+      logical, intent(in) :: has_pictures
+      integer :: i
+
+      extra = merge(1, 0, has_pictures)
+      do i = 1, size(files)
+         if (ends_with(files(i)%s, '.xdmf')) extra = extra + 1
+      end do
+   end function extra_lines
+
+   !> Whether the way of an iteration that did not converge is known.
+   pure logical function has_trail(results)
+      type(results_t), intent(in) :: results
+
+      has_trail = .not. results%converged .and. results%scene%outer_loop .and. allocated(results%iterations)
+      if (has_trail) has_trail = size(results%iterations) > 0
+   end function has_trail
+
+   !> The last outer iterations, and the points that chatter; all of them are in the listing.
+   subroutine add_trail(page, results, room)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      integer, intent(in) :: room                   !< lines there are
+      integer :: i, ends(size(results%iterations)), n, shown
+
+      n = 0
+      do i = 1, size(results%iterations)            ! the last solve of each outer iteration
+         if (i < size(results%iterations)) then
+            if (results%iterations(i + 1)%outer == results%iterations(i)%outer) cycle
+         end if
+         n = n + 1
+         ends(n) = i
+      end do
+      shown = min(n, MOST_OUTER, room - 2 - CHATTER_LINES)
+      call add_rule(page, '-')
+      call add_line(page, right('outer', 7)//right('solves', 8)//right('open', 8)//right('stick', 8)//right('slip', 8)// &
+                    right('residual', 14))
+      do i = n - shown + 1, n
+         associate (row => results%iterations(ends(i)))
+            call add_line(page, right(to_text(row%outer), 7)//right(to_text(row%inner), 8)//right(to_text(row%open), 8)// &
+                          right(to_text(row%stick), 8)//right(to_text(row%slip), 8)//right(number(row%residual, 3), 14))
+         end associate
+      end do
+      if (allocated(results%chatter)) call add_chatter(page, results)
+   end subroutine add_trail
+
+   !> `node 12 o=o=o=o=`: as many points as two lines hold.
+   subroutine add_chatter(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: text, next
+      integer :: i
+
+      if (size(results%chatter) == 0) return
+      call add_line(page, left(plural(size(results%chatter, kind=ip), 'point chatters', 'points chatter') &
+                               //' in the last outer iterations: o open, c closed, = stick, +- slip', WIDTH))
+      text = ''
+      do i = 1, size(results%chatter)
+         next = '  node '//to_text(results%chatter(i)%node)//' '//trim(results%chatter(i)%states)
+         if (len(text) + len(next) > WIDTH) exit
+         text = text//next
+      end do
+      call add_line(page, text)
+   end subroutine add_chatter
 
    !> A row a pair as in Quadro I of the paper, and a line of tractions.
    subroutine add_pairs(page, results, most)

@@ -150,6 +150,10 @@ contains
       integer :: k
 
       associate (quantity => study%quantities(i), rows => study%rows)
+         if (is_nan(quantity%reference)) then
+            call append_string(study%words, quantity%name//': '//quantity%source)
+            return
+         end if
          call append_string(study%words, quantity%name//': reference '//to_text(quantity%reference, 8)//', '//quantity%source)
          do k = 2, size(rows)
             if (.not. is_last(rows, k) .or. is_nan(quantity%error(k))) cycle

@@ -314,6 +314,7 @@ contains
          text = 'body '//body%name//' (node '//to_text(fem%mesh%node_id(body%nodes(1)))//' and all others) is free to '
          if (abs(mode(3)) > SMALL*size_of_mode) then
             centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
+            where (abs(centre) < 1.0e-12_wp*body%size) centre = 0.0_wp
             text = text//'rotate about ('//to_text(centre(1))//', '//to_text(centre(2))//')'
          else if (abs(mode(2)) <= SMALL*size_of_mode) then
             text = text//'move along x1'

@@ -29,7 +29,7 @@ module atrito_contact_solution
       logical :: converged = .false.
       character(len=:), allocatable :: verdict        !< why not
       real(wp) :: residual = 0.0_wp                   !< |nu S_rho(p) - tau| / |tau|
-      real(wp) :: contraction = 0.0_wp                !< largest measured rate of the last Picard-like steps
+      real(wp) :: contraction = 0.0_wp                !< largest measured rate of the Picard map; 0: not measured
    end type contact_solution_t
 
 contains

@@ -161,7 +161,8 @@ contains
       real(wp), intent(inout) :: tau(:)
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
-      real(wp) :: image(size(tau)), good(size(tau)), visited(size(tau), LONGEST_CYCLE), last_residual, best_residual
+      real(wp) :: image(size(tau)), good(size(tau)), good_image(size(tau)), visited(size(tau), LONGEST_CYCLE)
+      real(wp) :: last_residual, best_residual
       logical :: has_good
       integer(ip) :: outer, steps_back, cycle_length, best_outer
 
@@ -172,6 +173,7 @@ contains
       best_residual = HUGE_REAL
       best_outer = 0
       visited = -1.0_wp
+      solution%contraction = 0.0_wp
       call accelerator%reset()
       do outer = 1, controls%max_iterations
          call begin_outer(solution%history)
@@ -192,7 +194,10 @@ contains
          solution%residual = relative_residual(tau, image)
          call end_outer(solution%history, solution%residual)
          call tell(reporter, outer, solution)
-         if (last_residual > 0.0_wp) solution%contraction = solution%residual/last_residual
+         if (has_good .and. maxval(tau) > 0.0_wp) then
+            call measure_rate(line%weight/maxval(line%weight), (tau - good)/maxval(tau), (image - good_image)/maxval(tau), &
+                              solution%contraction)
+         end if
          solution%converged = has_settled(controls%tolerance, solution%inner%condition, last_residual, solution%residual)
          last_residual = solution%residual
          if (solution%residual < 0.5_wp*best_residual) then
@@ -203,6 +208,7 @@ contains
          if (outer - best_outer >= STALE .and. solution%residual <= STALE_RESIDUAL) solution%converged = .true.
          if (solution%converged) return
          good = tau
+         good_image = image
          has_good = .true.
          call accelerator%update(good, image, tau)
          call find_cycle(visited, tau, solution%residual, cycle_length)
@@ -216,6 +222,17 @@ contains
                          //to_text(solution%residual, 3)//')'
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
+
+   !> How much larger the images of two bounds differ than the bounds, whatever made the step between them: the largest so far.
+   pure subroutine measure_rate(weight, step, answer, rate)
+      real(wp), intent(in) :: weight(:)             !< relative to the largest
+      real(wp), intent(in) :: step(:), answer(:)    !< relative to the largest bound
+      real(wp), intent(inout) :: rate
+      real(wp), parameter :: LEAST_STEP = 1.0e-6_wp !< below it round-off is measured
+
+      if (maxval(abs(step)) <= LEAST_STEP) return
+      rate = max(rate, norm2(sqrt(weight)*answer)/norm2(sqrt(weight)*step))
+   end subroutine measure_rate
 
    subroutine tell(reporter, outer, solution)
       type(reporter_t), intent(in) :: reporter

@@ -10,6 +10,8 @@ module atrito_solve
    use atrito_contact_rows, only: contact_rows_t, build_rows
    use atrito_contact_solution, only: contact_solution_t, outer_controls_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
+   use atrito_chatter, only: report_chatter
+   use atrito_free_motion, only: free_motion_text
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: add_warning
@@ -30,6 +32,7 @@ module atrito_solve
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
    use atrito_strings, only: to_text, append_string
    use atrito_timers, only: start_phase, stop_phase
+   use atrito_uniqueness, only: estimate_contraction
    implicit none (type, external)
    private
    public :: solve_options_t, solve_static, survey_scene
@@ -124,6 +127,8 @@ contains
       controls = outer_controls_t(model%controls%method, model%controls%tolerance, model%controls%max_iterations, &
                                   model%controls%relaxation)
       call solve_contact_line(problem, data%line, controls, reporter, solution, status)
+      if (is_ok(status)) results%contraction_estimate = estimate_contraction(problem, data%line, solution%bounds%d, &
+                                                                             solution%state%state)
       call stop_phase('iterate')
       if (.not. is_ok(status)) then
          call explain_failure(data, problem, solution, status)
@@ -138,6 +143,7 @@ contains
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results)
       call stop_phase('check')
+      call report_chatter(data%fem%mesh, data%points, data%rows, data%line, solution, results)
       call warn(model, data, solution, results)
    end subroutine solve_with_store
 
@@ -288,12 +294,10 @@ contains
       type(box_problem_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       type(status_t), intent(inout) :: status
-      real(wp) :: mode(3)
-      integer(ip) :: b, node
+      integer(ip) :: node
 
       if (status%text == FREE_MOTION) then
-         call motion_body(data%fem, solution%inner%motion, b, mode)
-         call set_status(status, STATUS_SINGULAR, motion_text(data%fem, b, mode)//' under its load: '//why_free(data))
+         call set_status(status, STATUS_SINGULAR, free_motion_text(data%fem, data%held, data%rows, data%line, problem, solution))
       else if (status%text == DEPENDENT_POINTS) then
          node = data%rows%node(1, data%line%point(solution%inner%dependent))
          call set_status(status, STATUS_SINGULAR, 'the contact point at node '//to_text(data%fem%mesh%node_id(node)) &
@@ -301,20 +305,6 @@ contains
                          //' repeats what other points ask: two pairs share it, or the slave is finer than its own dofs')
       end if
    end subroutine explain_failure
-
-   pure function why_free(data) result(text)
-      type(scene_data_t), intent(in) :: data
-      character(len=:), allocatable :: text
-
-      if (data%line%has_friction) then
-         text = 'the contact opens or slides beyond friction (tangential force above nu times normal force), and no support' &
-                //' holds it'
-      else if (data%line%n > 0) then
-         text = 'the contact opens, or slides since it has no friction, and no support holds it'
-      else
-         text = 'no support holds it'
-      end if
-   end function why_free
 
    !> Displacements, reactions, stresses, contact fields, energies and balances.
    subroutine recover(model, data, condensed, solution, results)
@@ -391,7 +381,7 @@ contains
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(in) :: results
       integer(ip) :: b
-      real(wp) :: nu, mode(3)
+      real(wp) :: mode(3)
 
       if (is_reference_blas()) call add_warning('W-BLAS', 'this program was linked with the reference BLAS; with OpenBLAS' &
                                                 //' it is about three times as fast')
@@ -411,10 +401,27 @@ contains
                                                      //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
                                                                  //' with more points than its soft master has nodes, or points' &
                                                                  //' that are almost one')
-      nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
-      if (nu >= LARGE_FRICTION) call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu) &
-                                    //': there may be other solutions than the one found (measured contraction of the outer loop ' &
-                                                 //to_text(solution%contraction, 3)//')')
+      call warn_of_others(model, results)
    end subroutine warn
+
+   !> Whether there may be other solutions.
+   subroutine warn_of_others(model, results)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: measured
+      real(wp) :: nu
+
+      nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
+      if (results%contraction_estimate < 1.0_wp .and. nu < LARGE_FRICTION) return
+      measured = ' (estimated contraction of the outer loop '//to_text(results%contraction_estimate, 3)
+      if (results%contraction > 0.0_wp) measured = measured//', measured '//to_text(results%contraction, 3)
+      if (results%contraction_estimate >= 1.0_wp) then
+         call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found;' &
+                          //' one alone is expected below '//to_text(nu/results%contraction_estimate, 3)//measured//')')
+      else
+         call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found' &
+                          //measured//'; below 1 others are rare)')
+      end if
+   end subroutine warn_of_others
 
 end module atrito_solve

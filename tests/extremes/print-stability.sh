@@ -66,6 +66,14 @@ grep FAILED locking.rows
 printf '\n## Slender elements, far places, units\n\nAgainst closed forms, or the same scene in other units (tests/verify/extreme-geometry, units; their READMEs tell what is allowed\nand why). `bar-CPS4-1e6-1`: elements 1e6 times as long as wide; the last number of a bar is how far it was moved.\n\n| scene | numbers | largest error over the allowed one |\n|---|---|---|\n'
 measures extreme-geometry
 measures units
+printf '\n## Several solutions, or none\n\nOne node whose friction has three solutions, or whose plain Picard loop goes to and fro (tests/verify/several-solutions); a\n'
+printf 'block held by friction alone, or not (friction-holds); bodies that are free to move (free-motion); loops that do not\n'
+printf 'converge (not-converged). `all hold`: the exit codes (3, 4) and the words are as expected, too.\n\n'
+printf '| scene | numbers | largest error over the allowed one |\n|---|---|---|\n'
+for case in several-solutions friction-holds free-motion not-converged; do
+   measures $case
+   echo "| tests/verify/$case | | $(tail -1 $case.txt) |"
+done
 printf '\n## Faults\n\nBroken input, files that cannot be read or written, signals (tests/tools). After each the scripts also look that no temporary\n'
 printf 'file is left and that the results of an earlier run are what they were.\n\n| fault | expected | came |\n|---|---|---|\n'
 FAULT_ROWS=$work/rows

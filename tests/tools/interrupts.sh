@@ -146,6 +146,24 @@ same_files first kept 'SIGTERM while writing'
 writing some/where/new
 [ ! -e some ] || fail 'SIGTERM while writing: the new folders are left'
 
+# SIGKILL leaves temporary files, which the next run removes, whether or not it writes these tables
+for n in 20000 80000 320000; do
+   strip $n
+   "$atrito" strip.inp -o killed --quiet --digits 17 2>err >out &
+   run=$!
+   await $run test -e killed/stress.tab.part
+   kill -KILL $run 2>/dev/null
+   wait $run 2>/dev/null
+   parts killed && break
+   rm -rf killed
+done
+parts killed || fail 'SIGKILL while writing: no temporary file was seen'
+strip 20
+sed -i.bak '/^\*EL PRINT/,/^S$/d' strip.inp
+"$atrito" strip.inp -o killed --quiet || fail "after SIGKILL: exit $?"
+no_parts killed 'after SIGKILL'
+[ -f killed/nodes.tab ] && [ ! -e killed/stress.tab ] || fail 'after SIGKILL: not the tables of the new run'
+
 # SIGINT: a job in the background of a script ignores it, so the run stands in the foreground and the signal comes from behind
 strip 20000
 : >err

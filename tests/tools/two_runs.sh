@@ -25,13 +25,13 @@ same() { # same A B: all tables but the times, and the listing up to its times
 
 # races: whichever was last, it is one of the two
 "$atrito" "$deck" --refine 2 -o one --quiet --set nu=0.1 || fail 'the deck itself fails'
-"$atrito" "$deck" --refine 2 -o two --quiet --set nu=0.6 || fail 'the deck itself fails'
+"$atrito" "$deck" --refine 2 -o two --quiet --set nu=0.4 || fail 'the deck itself fails'
 same one two && fail 'the two cannot be told apart'
 for i in 1 2 3 4 5 6 7 8 9 10; do
    [ $((i % 2)) -eq 0 ] || rm -rf both
    "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.1 2>err.1 &
    first=$!
-   "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.6 2>err.2 &
+   "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.4 2>err.2 &
    second=$!
    wait $first || { fail "race $i: the first ends with $?"; cat err.1; }
    wait $second || { fail "race $i: the second ends with $?"; cat err.2; }
@@ -45,7 +45,7 @@ for i in 1 2 3 4 5; do
    rm -rf both
    (ulimit -f 1; "$atrito" "$deck" --refine 2 -o both --quiet --digits 17 2>err.1) &
    first=$!
-   "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.6 2>err.2 &
+   "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.4 2>err.2 &
    second=$!
    wait $first
    [ $? -eq 5 ] || fail "failing race $i: not exit 5"
@@ -73,7 +73,7 @@ if command -v flock >/dev/null; then
    flock both sh -c 'echo held >is-held; until [ -e go ]; do sleep 0.02 2>/dev/null || sleep 1; done' &
    holder=$!
    until [ -s is-held ]; do pause; done
-   "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.6 2>err >out &
+   "$atrito" "$deck" --refine 2 -o both --quiet --set nu=0.4 2>err >out &
    run=$!
    until grep -q 'wait  another run' err || ! kill -0 $run 2>/dev/null; do pause; done
    kill -TERM $run

@@ -11,10 +11,18 @@ expect_motion() { # NAME TEXT options
 run 0 "$here/block.inp" pressed --quiet
 near 'pressed' "$(summary pressed normal_resultant)" 1 1e-12
 expect_motion pulled 'free to move along x2' --set top=-1
+says pulled pulled.err 'the contact opens, the load drives it with 1 [F]; it has no support'
 expect_motion pushed 'free to move along x1' --set side=0.1
+says pushed pushed.err 'it slides, the load drives it with H = 0.1 [F] and there is no friction; it has no support'
+# a support that does not help is named
+sed 's/^\*STEP/*BOUNDARY\n25, 1\n*STEP/' "$here/block.inp" >guided.inp
+run 4 guided.inp guided --set top=-1
+says guided guided.err 'its supports (node 25 along x1) do not prevent that'
 sed 's/^\*CONTACT PAIR/*FRICTION\n5.\n*CONTACT PAIR/' "$here/block.inp" >tip.inp
 run 4 tip.inp tipped --set right=0.6
-says tipped tipped.err 'free to rotate about'
+# about the corner at (1, 0), node 5; 0.6 at height 1 against the weight of 1 at 0.5
+says tipped tipped.err 'free to rotate about (1, 0), which is node 5 of the contact,'
+says tipped tipped.err 'the load turns it with 0.1 [F L] about that point'
 absent tipped
 run 0 tip.inp stands --set right=0.4 --quiet
 sed -e '/^\*SURFACE, NAME=FLOOR/,/^CRATE-BOTTOM/d' "$here/block.inp" >alone.inp

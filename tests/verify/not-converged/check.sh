@@ -19,12 +19,25 @@ for lean in 0.3 0.6 1; do
       name=post-$lean-$nu
       run 3 post.inp "$name" --set px=0.5 --set lean=$lean --set nu=$nu
       says "$name" "$name.err" 'the loop cycles between 2 states'
+      # the point that chatters, on the screen with the last iterations, and in the listing
+      says "$name" "$name.err" '1 point chatters: node '
+      says "$name" "$name.out" '1 point chatters in the last outer iterations'
+      node=$(sed -n 's/.*1 point chatters: node \([0-9]*\).*/\1/p' "$name.err")
+      grep -Eq "^  node $node [oc=+-]*(o[c=+-]|[c=+-]o)[oc=+-]*\$" "$name.out" || complain "$name: the screen does not name node $node"
+      grep -Eq "^ +1 +[12] +$node +[^ ]+ +[^ ]+ +[oc=+-]+\$" "$name/post.lst" || complain "$name: the listing does not name node $node"
+      last=$(awk '!/^#/ { print $2, $9 }' "$name/iterations.tab" | tail -n 1)
+      grep -Eq "^ +${last% *} +[0-9]+ +[0-9]+ +[0-9]+ +[0-9]+ +" "$name.out" || complain "$name: the last outer iteration is not shown"
+      [ "$(wc -l <"$name.out")" -le 24 ] || complain "$name: more than a screen"
       marked "$name"
       # the same folder again, now with a method that finds it
       echo '*CONTROLS, METHOD=ANDERSON' >controls.inp
       "$atrito" post.inp -o "$name" --set px=0.5 --set lean=$lean --set nu=$nu --digits 17 --quiet 2>"$name.err" ||
          { complain "$name ANDERSON"; cat "$name.err"; }
       unmarked "$name"
+      # the map does not contract at the solution; one point is closed, so the estimate is what the loop measured
+      says "$name" "$name.err" '[W-UNIQUE]'
+      rates=$(sed -n 's/.*outer loop \([^,]*\), measured \([^)]*\)).*/\1 \2/p' "$name.err")
+      near "$name contraction" "${rates% *}" "${rates#* }" "$(value "1e-2*${rates#* }")"
       near "$name open" "$(summary "$name" open_points)" 1 0
       near "$name slipping" "$(summary "$name" slip_points)" 1 0
       near "$name shear over nu p" "$(value "-1*($(summary "$name" shear_resultant))/($nu*($(summary "$name" normal_resultant)))")" 1 1e-8
@@ -35,6 +48,14 @@ done
 sed 's/^\*STATIC/*STATIC\n*CONTROLS, METHOD=PICARD, MAXIT=1/' "$input/ex1-plate-on-support.inp" >early.inp
 run 3 early.inp early
 marked early
+[ "$(wc -l <early.out)" -le 24 ] || complain 'early: more than a screen'
+# stopped before anything repeats: no point changes its state, and the one that is furthest off is named
+sed 's/^\*STATIC/*STATIC\n*CONTROLS, METHOD=PICARD, MAXIT=5, TOLERANCE=1e-14/' "$input/ex1-plate-on-support.inp" >slow.inp
+run 3 slow.inp slow --refine 1
+marked slow
+says slow slow.err 'did not converge in 5 iterations'
+grep -Eq 'no point changes its state, the friction bound is off most at node [0-9]+;' slow.err || complain 'slow: no place is named'
+grep -q chatter slow.out && complain 'slow: points that have settled are said to chatter'
 run 0 "$input/ex1-plate-on-support.inp" whole --quiet
 unmarked whole
 finish

@@ -35,6 +35,12 @@ run 0 nine.inp nine --digits 17 --quiet
 same_tables 'contact of cpe9' nine/contact.tab other/cpe9_0/contact.tab 1e-9
 near 'energy of cpe9' "$(summary other/cpe9_0 strain_energy)" "$(summary nine strain_energy)" 1e-13
 
+# A body without contact: what belongs to a pair is nan.
+sed -e '/^\*SURFACE, NAME=SUPPORT/,/^OVER-BOTTOM, SUPPORT/d' -e '/^\*CONTACT PRINT/d' -e 's/^SPAN-RIGHT, 1/&\nOVER-BOTTOM, 2/' \
+   "$input/ex1-plate-on-rigid-support.inp" >lone.inp
+"$atrito" study lone.inp --levels 3 -o lone --quiet --plot || complain 'a study of a body without contact'
+near 'resultant of no pair' "$(grep -c 'normal_resultant: no limit' lone/study.tab)" 1 0
+
 # Faults are told before anything is written.
 for fault in '--levels 2 --elements cpe4' '--levels 2 --reference energy' '--levels 2 --reference strain_energy=x' '--elements cps4'; do
    # shellcheck disable=SC2086

@@ -1,0 +1,114 @@
+!> Which points keep a run from converging: those whose state changed in the last outer iteration, or more than once in the last
+!> ones; where there is none, the one whose friction bound is off most.
+module atrito_chatter
+   use atrito_contact_line, only: contact_line_t, friction_bound
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: results_t, chatter_t
+   use atrito_solve_history, only: state_letters
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: report_chatter
+
+   integer(ip), parameter :: MOST_NAMED = 5        !< nodes in the verdict
+
+contains
+
+   !> Fills results%chatter, the most restless points first, and adds to the verdict of a run that did not converge.
+   subroutine report_chatter(mesh, points, rows, line, solution, results)
+      type(mesh_t), intent(in) :: mesh
+      type(contact_points_t), intent(in) :: points(:)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: i
+
+      if (solution%converged .or. .not. allocated(solution%history%states)) return
+      order = restless_points(solution%history%states(:, :solution%history%kept))
+      allocate (results%chatter(size(order)))
+      do i = 1, size(order, kind=ip)
+         results%chatter(i) = point_of(mesh, points, rows, line%point(order(i)))
+         results%chatter(i)%states = state_letters(solution%history%states(order(i), :solution%history%kept))
+      end do
+      if (.not. allocated(results%verdict)) results%verdict = 'not converged'
+      if (size(order) > 0) then
+         results%verdict = results%verdict//'; '//chatter_text(results%chatter)
+      else
+         results%verdict = results%verdict//slowest_text(mesh, rows, line, solution)
+      end if
+   end subroutine report_chatter
+
+   !> Normal unknowns that find no rest, by the number of their changes. One that has changed once and stayed has settled.
+   pure function restless_points(states) result(order)
+      integer(ip), intent(in) :: states(:, :)       !< (n_normal, outer iterations)
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: changes(size(states, 1)), i, j
+
+      do i = 1, size(states, 1, kind=ip)
+         associate (own => states(i, :), n => size(states, 2))
+            changes(i) = count(own(2:) /= own(:n - 1), kind=ip)
+            if (changes(i) == 1 .and. own(n) == own(max(n - 1, 1))) changes(i) = 0
+         end associate
+      end do
+      allocate (order(0))
+      do j = size(states, 2, kind=ip) - 1, 1, -1
+         order = [order, pack([(i, i=1, size(changes, kind=ip))], changes == j)]
+      end do
+   end function restless_points
+
+   pure function point_of(mesh, points, rows, j) result(point)
+      type(mesh_t), intent(in) :: mesh
+      type(contact_points_t), intent(in) :: points(:)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j                  !< of the contact line
+      type(chatter_t) :: point
+
+      point%pair = 1
+      point%point = j
+      do while (point%point > points(point%pair)%n)
+         point%point = point%point - points(point%pair)%n
+         point%pair = point%pair + 1
+      end do
+      point%node = mesh%node_id(rows%node(1, j))
+      point%x = points(point%pair)%x(:, point%point)
+   end function point_of
+
+   function chatter_text(chatter) result(text)
+      type(chatter_t), intent(in) :: chatter(:)     !< at least one
+      character(len=:), allocatable :: text
+      integer(ip) :: i
+
+      if (size(chatter) == 1) then
+         text = '1 point chatters: node '//to_text(chatter(1)%node)
+      else
+         text = to_text(size(chatter, kind=ip))//' points chatter: nodes '//to_text(chatter(1)%node)
+         do i = 2, min(size(chatter, kind=ip), MOST_NAMED)
+            text = text//', '//to_text(chatter(i)%node)
+         end do
+         if (size(chatter) > MOST_NAMED) text = text//', ...'
+      end if
+   end function chatter_text
+
+   !> No point changes its state: where the friction bound is furthest from its image.
+   function slowest_text(mesh, rows, line, solution) result(text)
+      type(mesh_t), intent(in) :: mesh
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      character(len=:), allocatable :: text
+      real(wp) :: change(line%n)
+
+      text = ''
+      if (.not. line%has_friction .or. .not. allocated(solution%p)) return
+      change = abs(friction_bound(line, solution%p) - solution%tau)
+      text = '; no point changes its state, the friction bound is off most at node ' &
+             //to_text(mesh%node_id(rows%node(1, maxloc(change, dim=1))))
+   end function slowest_text
+
+end module atrito_chatter
