@@ -273,13 +273,21 @@ contains
          if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)
          if (singular .or. report%sign_changes > 0) then
             call find_weakest(self, merge(SHIFT, 0.0_wp, mumps%infog(1) == ZERO_PIVOT))
-            call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: '//to_text(report%sign_changes) &
-                            //' negative pivots, the softest motion is largest at equation '//to_text(report%worst_equation))
+            call set_status(status, STATUS_SINGULAR, pivot_text(report))
          else if (report%digits_lost > MANY_DIGITS) then
             call find_weakest(self, 0.0_wp)
          end if
       end associate
    end subroutine judge_pivots
+
+   pure function pivot_text(report) result(text)
+      type(pivot_report_t), intent(in) :: report
+      character(len=:), allocatable :: text
+
+      text = 'the matrix is singular'
+      if (report%sign_changes > 0) text = text//' or indefinite ('//to_text(report%sign_changes)//' negative pivots)'
+      text = text//': its softest motion is largest at equation '//to_text(report%worst_equation)
+   end function pivot_text
 
    pure function failure_text(code, detail) result(text)
       integer, intent(in) :: code, detail
