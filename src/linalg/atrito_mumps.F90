@@ -12,6 +12,7 @@
 !> guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
 module atrito_mumps
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_ptr
+   use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_profile, only: profile_t
@@ -24,12 +25,10 @@ module atrito_mumps
 
    include 'dmumps_struc.h'
 
-   !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then. The matrix is the lower
-   !> triangle; until factor it is a list a column, and column(k) the entry that follows k in its list.
+   !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then.
    type :: instance_t
       type(dmumps_struc) :: mumps
-      integer(ip), allocatable :: row(:), column(:)
-      real(wp), allocatable :: values(:)
+      type(coordinate_matrix_t) :: matrix        !< until factor
       integer(ip), allocatable :: place(:)       !< (n) of the equations in the elimination; not allocated: MUMPS decides
       real(wp), allocatable :: reduced(:, :)     !< (n_interior, loads) the load whose half-solved part MUMPS holds
    end type instance_t
@@ -38,8 +37,6 @@ module atrito_mumps
       private
       procedure(call_mumps), pointer, nopass :: mumps => null()
       type(instance_t), pointer :: instance => null()
-      integer(ip), allocatable :: newest(:)      !< (n) first entry of the list of column j; 0: none
-      integer(ip) :: entries = 0                 !< of the lower triangle
       real(wp), allocatable :: scale(:)          !< (n) of rows and columns; 1 for the kept ones
    contains
       procedure :: create => create_sparse
@@ -133,7 +130,6 @@ contains
       self%n = profile%n
       self%n_kept = profile%n_kept
       self%report = pivot_report_t()
-      self%entries = 0
       call load_mumps(self%mumps)
       if (.not. associated(self%mumps)) then
          call set_status(status, STATUS_INTERNAL, mumps_trouble())
@@ -148,8 +144,7 @@ contains
          call set_controls(self)
       end associate
       if (allocated(profile%place)) self%instance%place = profile%place
-      call take_room(self%instance, profile%entries, no_memory)
-      if (no_memory == 0) allocate (self%newest(self%n), source=0_ip, stat=no_memory)
+      call begin_matrix(self%instance%matrix, self%n, profile%entries, no_memory)
       if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the sparse matrix')
    end subroutine create_sparse
 
@@ -158,71 +153,8 @@ contains
       integer(ip), intent(in) :: equations(:)
       real(wp), intent(in) :: matrix(:, :)
 
-      integer(lp) :: most
-      integer :: no_memory
-
-      most = self%entries + size(equations, kind=lp)**2
-      associate (instance => self%instance)
-         if (most > size(instance%row, kind=lp)) call take_room(instance, 2*most, no_memory)
-         call add_lower(equations, matrix, self%newest, self%entries, instance%row, instance%values, instance%column)
-      end associate
+      call add_element_matrix(self%instance%matrix, equations, matrix)
    end subroutine add_to_sparse
-
-   !> Room for entries, those that are there kept. What is never touched takes no memory.
-   subroutine take_room(instance, length, no_memory)
-      type(instance_t), intent(inout) :: instance
-      integer(lp), intent(in) :: length
-      integer, intent(out) :: no_memory            !< 0: there is room
-      integer(ip), allocatable :: row(:), column(:)
-      real(wp), allocatable :: values(:)
-      integer(lp) :: n
-
-      allocate (row(length), column(length), values(length), stat=no_memory)
-      if (no_memory /= 0) return
-      if (allocated(instance%row)) then
-         n = size(instance%row, kind=lp)
-         row(:n) = instance%row
-         column(:n) = instance%column
-         values(:n) = instance%values
-      end if
-      call move_alloc(row, instance%row)
-      call move_alloc(column, instance%column)
-      call move_alloc(values, instance%values)
-   end subroutine take_room
-
-   !> Adds the lower triangle of an element to the lists of its columns.
-   pure subroutine add_lower(equations, matrix, newest, entries, row, values, next)
-      integer(ip), intent(in) :: equations(:)
-      real(wp), intent(in) :: matrix(:, :)
-      integer(ip), intent(inout) :: newest(:)
-      integer(ip), intent(inout) :: entries
-      integer(ip), intent(inout), contiguous :: row(:), next(:)
-      real(wp), intent(inout), contiguous :: values(:)
-      integer(ip) :: a, b, i, j, k
-
-      do b = 1, size(equations, kind=ip)
-         j = equations(b)
-         if (j == 0) cycle
-         do a = 1, size(equations, kind=ip)
-            i = equations(a)
-            if (i < j) cycle
-            k = newest(j)
-            do while (k /= 0)
-               if (row(k) == i) exit
-               k = next(k)
-            end do
-            if (k == 0) then
-               entries = entries + 1
-               k = entries
-               row(k) = i
-               values(k) = 0.0_wp
-               next(k) = newest(j)
-               newest(j) = k
-            end if
-            values(k) = values(k) + matrix(a, b)
-         end do
-      end do
-   end subroutine add_lower
 
    subroutine factor_sparse(self, status)
       class(sparse_t), intent(inout) :: self
@@ -230,7 +162,7 @@ contains
       integer(ip) :: empty
 
       self%report = pivot_report_t()
-      call finish_lists(self, empty)
+      call hand_over_matrix(self, empty)
       call prepare_schur(self)
       if (self%n == self%n_kept) then
          call add_kept(self)
@@ -246,84 +178,32 @@ contains
          end if
          call judge_pivots(self, status)
       end if
-      deallocate (self%instance%row, self%instance%column, self%instance%values)    ! MUMPS wants them no more
+      call drop_matrix(self%instance%matrix)         ! MUMPS wants it no more
       if (allocated(self%instance%place)) deallocate (self%instance%place)
       nullify (self%instance%mumps%irn, self%instance%mumps%jcn, self%instance%mumps%a, self%instance%mumps%perm_in)
    end subroutine factor_sparse
 
-   !> Turns the lists into coordinates, in place, and scales them. `empty`: an interior equation without stiffness, else 0.
-   subroutine finish_lists(self, empty)
+   !> Scales the matrix and shows it to MUMPS, with the order of elimination. `empty`: an interior equation without stiffness,
+   !> else 0.
+   subroutine hand_over_matrix(self, empty)
       class(sparse_t), intent(inout) :: self
       integer(ip), intent(out) :: empty
 
       if (allocated(self%scale)) deallocate (self%scale)
       allocate (self%scale(self%n))
-      associate (mumps => self%instance%mumps, instance => self%instance)
-         call walk_lists(self%newest, self%n - self%n_kept, instance%row, instance%values, instance%column, self%scale, empty)
-         call scale_entries(int(self%entries, lp), self%scale, instance%row, instance%column, instance%values)
+      call finish_matrix(self%instance%matrix, self%n - self%n_kept, self%scale, empty)
+      associate (mumps => self%instance%mumps)
          mumps%n = self%n
-         mumps%nnz = int(self%entries, lp)
-         mumps%irn => self%instance%row
-         mumps%jcn => self%instance%column
-         mumps%a => self%instance%values
-         if (allocated(instance%place)) then
+         mumps%nnz = int(self%instance%matrix%entries, lp)
+         mumps%irn => self%instance%matrix%row
+         mumps%jcn => self%instance%matrix%column
+         mumps%a => self%instance%matrix%values
+         if (allocated(self%instance%place)) then
             mumps%perm_in => self%instance%place
             mumps%icntl(7) = 1                    ! the order that is given
          end if
       end associate
-      deallocate (self%newest)
-   end subroutine finish_lists
-
-   !> Writes the column over the place of the next entry, and finds the scale from the diagonal.
-   pure subroutine walk_lists(newest, n_interior, row, values, next, factor, empty)
-      integer(ip), intent(in) :: newest(:), n_interior
-      integer(ip), intent(in), contiguous :: row(:)
-      real(wp), intent(in), contiguous :: values(:)
-      integer(ip), intent(inout), contiguous :: next(:)
-      real(wp), intent(out) :: factor(:)
-      integer(ip), intent(out) :: empty
-      integer(ip) :: j, k, following
-      real(wp) :: diagonal
-
-      empty = 0
-      do j = 1, size(newest, kind=ip)
-         diagonal = 0.0_wp
-         k = newest(j)
-         do while (k /= 0)
-            if (row(k) == j) diagonal = values(k)
-            following = next(k)
-            next(k) = j
-            k = following
-         end do
-         factor(j) = 1.0_wp
-         if (j > n_interior) cycle
-         if (abs(diagonal) > 0.0_wp) then
-            factor(j) = root_scale(diagonal)
-         else if (empty == 0) then
-            empty = j
-         end if
-      end do
-   end subroutine walk_lists
-
-   !> A power of two that brings a diagonal to 1/2 .. 2 when it multiplies row and column.
-   elemental real(wp) function root_scale(diagonal)
-      real(wp), intent(in) :: diagonal             !< not 0
-      integer, parameter :: EVEN = 4096            !< beyond all exponents: the quotient rounds down
-
-      root_scale = set_exponent(1.0_wp, EVEN/2 + 1 - (exponent(diagonal) + EVEN)/2)
-   end function root_scale
-
-   pure subroutine scale_entries(entries, scale, row, column, values)
-      integer(lp), intent(in) :: entries
-      real(wp), intent(in) :: scale(:)
-      integer(ip), intent(in), contiguous :: row(:), column(:)
-      real(wp), intent(inout), contiguous :: values(:)
-      integer(lp) :: k
-
-      do k = 1, entries
-         values(k) = values(k)*scale(row(k))*scale(column(k))
-      end do
-   end subroutine scale_entries
+   end subroutine hand_over_matrix
 
    subroutine prepare_schur(self)
       class(sparse_t), intent(inout) :: self
@@ -351,7 +231,7 @@ contains
 
       associate (mumps => self%instance%mumps)
          if (self%n_kept > 0) mumps%schur = 0.0_wp
-         do k = 1, self%entries
+         do k = 1, self%instance%matrix%entries
             associate (s => mumps%schur(int(mumps%jcn(k) - 1, lp)*int(self%n_kept, lp) + int(mumps%irn(k), lp)))
                s = s + mumps%a(k)
             end associate
@@ -393,13 +273,21 @@ contains
          if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)
          if (singular .or. report%sign_changes > 0) then
             call find_weakest(self, merge(SHIFT, 0.0_wp, mumps%infog(1) == ZERO_PIVOT))
-            call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: '//to_text(report%sign_changes) &
-                            //' negative pivots, the softest motion is largest at equation '//to_text(report%worst_equation))
+            call set_status(status, STATUS_SINGULAR, pivot_text(report))
          else if (report%digits_lost > MANY_DIGITS) then
             call find_weakest(self, 0.0_wp)
          end if
       end associate
    end subroutine judge_pivots
+
+   pure function pivot_text(report) result(text)
+      type(pivot_report_t), intent(in) :: report
+      character(len=:), allocatable :: text
+
+      text = 'the matrix is singular'
+      if (report%sign_changes > 0) text = text//' or indefinite ('//to_text(report%sign_changes)//' negative pivots)'
+      text = text//': its softest motion is largest at equation '//to_text(report%worst_equation)
+   end function pivot_text
 
    pure function failure_text(code, detail) result(text)
       integer, intent(in) :: code, detail
@@ -585,7 +473,6 @@ contains
       end associate
       call run(self, FINISH)
       deallocate (self%instance)
-      if (allocated(self%newest)) deallocate (self%newest)
    end subroutine free_instance
 
 end module atrito_mumps
