@@ -49,7 +49,7 @@ contains
    subroutine add_options(page)
       type(page_t), intent(inout) :: page
 
-      call add_line(page, 'options of a run and a sweep (check knows --set, --refine, --solver, --threads, --quiet)')
+      call add_line(page, 'options of a run, a sweep and a study (check knows --set, --refine, --solver, --threads, --quiet)')
       call add_line(page, '  -o DIR             folder of the tables, made if missing; default ./output/<name of the deck>')
       call add_line(page, '  --set NAME=VALUE   value of a *PARAMETER of the deck; may be repeated')
       call add_line(page, '  --refine K         each element into 4, K times; sets, surfaces, loads and supports follow')
@@ -58,6 +58,12 @@ contains
       call add_line(page, '  --digits N         significant digits of the tables, 6 to 17, default 10')
       call add_line(page, '  --plot             pictures by gnuplot: mesh and contact pairs, into DIR/plots')
       call add_line(page, '  --quiet            no progress, no notes, no summary; only warnings and errors')
+      call add_line(page, 'options of a sweep')
+      call add_line(page, '  --vary NAME=v1,..  values of a *PARAMETER; several --vary: every combination')
+      call add_line(page, 'options of a study')
+      call add_line(page, '  --levels N         so many meshes, each with four elements for one of the mesh before')
+      call add_line(page, '  --elements LIST    cpe4, cps4, cpe9, cps9 with commas; default the deck''s own')
+      call add_line(page, '  --reference Q=V    exact value of a quantity of summary.tab; Q alone: extrapolated; may be repeated')
       call add_line(page, 'options of compare')
       call add_line(page, '  --rtol R           relative to the largest value of the column, default 1e-6')
       call add_line(page, '  --atol A           absolute, default 0')

@@ -10,7 +10,7 @@ module atrito_build_block
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item
    use atrito_diagnostics, only: report_error, report_warning
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, report_unknown
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_block, report_unknown
    use atrito_items, only: get_real, option_text, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: nodes_of_square, Q2_NODES
@@ -65,7 +65,7 @@ contains
          call put_block_sets(model, draft, block)
          draft%blocks = [draft%blocks, block]
       else
-         call spoil_name(draft, block%name)
+         call spoil_block(draft, block%name)
       end if
    end subroutine read_block_card
 

@@ -21,7 +21,7 @@ module atrito_draft
    implicit none (type, external)
    private
    public :: draft_t, block_t, BLOCK_SIDES
-   public :: prepare_draft, spoil_name, spoil_node, spoil_element, is_spoiled, has_errors
+   public :: prepare_draft, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, has_errors
    public :: place_token, place_text, note_place, keep_token, ids_text
    public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, report_unknown
 
@@ -179,6 +179,16 @@ contains
    end subroutine note_unsure
 
    !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
+   !> A block that could not be made: its sets, and the numbers of nodes and elements from there on.
+   subroutine spoil_block(draft, name)
+      type(draft_t), intent(inout) :: draft
+      character(len=*), intent(in) :: name
+
+      call spoil_name(draft, name)
+      call note_unsure(draft, 'node')
+      call note_unsure(draft, 'element')
+   end subroutine spoil_block
+
    subroutine spoil_name(draft, name)
       type(draft_t), intent(inout) :: draft
       character(len=*), intent(in) :: name
@@ -334,7 +344,7 @@ contains
       node = find_node(model%mesh, id)
       ok = node > 0
       if (ok) return
-      if (has_errors() .and. find_id(draft%spoiled_nodes, id) > 0) return
+      if (has_errors() .and. find_id(draft%spoiled_nodes, id) > 0 .or. is_unsure(draft, 'node')) return
       call report_error(deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
                         expected='the number of a node that *NODE, *NGEN, *NFILL or *BLOCK defines ('// &
                         range_text(model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
@@ -361,7 +371,7 @@ contains
       end if
       ok = element > 0
       if (ok) return
-      if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0) return
+      if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0 .or. is_unsure(draft, 'element')) return
       call report_error(deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
                         expected='the number of an element that *ELEMENT, *ELGEN or *BLOCK defines ('// &
                         range_text(model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)

@@ -6,9 +6,10 @@ module atrito_free_motion
    use atrito_condensed_body, only: motion_text
    use atrito_contact_line, only: contact_line_t, pressure_of, friction_bound
    use atrito_contact_problem, only: motion_body
-   use atrito_contact_rows, only: contact_rows_t
+   use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
+   use atrito_recovery, only: add_rigid_motions
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -18,6 +19,7 @@ module atrito_free_motion
    type :: motion_forces_t
       logical :: turns = .false.
       logical :: slides = .false.              !< no point that was closed opens
+      logical :: together = .false.            !< a translation with what it touches: no point opens or slides
       real(wp) :: load = 0.0_wp                !< H
       real(wp) :: normal = 0.0_wp              !< N of the points that slide
       real(wp) :: friction = 0.0_wp            !< nu N, what friction can hold at most
@@ -44,6 +46,9 @@ contains
 
       call motion_body(fem, solution%inner%motion, b, mode)
       forces = measure_motion(fem%bodies%list(b), mode, line, problem, solution)
+      if (forces%n_closed > 0 .and. .not. forces%turns) then
+         forces%together = moves_together(fem, rows, line, problem, solution)
+      end if
       text = motion_text(fem, b, mode)
       if (forces%turns) text = text//pivot_text(fem, b, mode, rows)
       text = text//' under its load: '//cause_text(forces, line)//'; '//support_text(fem, b, held)
@@ -83,6 +88,29 @@ contains
       forces%slides = forces%n_closed > 0 .and. opening <= SMALL*maxval(abs([moved, 0.0_wp]))
    end function measure_motion
 
+   !> Whether no closed point opens or slides: the motion takes along what the body touches.
+   function moves_together(fem, rows, line, problem, solution) result(together)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(box_problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      logical :: together
+      real(wp), allocatable :: u(:, :)
+      real(wp) :: relative
+      integer(ip) :: i, j
+
+      allocate (u(2, fem%mesh%n_nodes), source=0.0_wp)
+      call add_rigid_motions(fem, solution%inner%motion, u)
+      together = .true.
+      do i = 1, problem%n_normal
+         if (solution%state%state(i) /= FREE) cycle
+         j = line%point(i)
+         relative = max(abs(row_value(rows, j, rows%normal(:, j), u)), abs(row_value(rows, j, rows%tangent(:, j), u)))
+         together = together .and. relative <= SMALL*maxval(abs(u))
+      end do
+   end function moves_together
+
    function cause_text(forces, line) result(text)
       type(motion_forces_t), intent(in) :: forces
       type(contact_line_t), intent(in) :: line
@@ -90,6 +118,8 @@ contains
 
       if (line%n == 0) then
          text = 'the load drives it with '//amount(forces%load, forces%turns)
+      else if (forces%together) then
+         text = 'the load drives it, together with the body that it touches, with '//amount(forces%load, .false.)
       else if (forces%turns) then
          text = 'the load turns it with '//amount(forces%load, .true.)//' about that point, and no pressure there holds it'
       else if (forces%slides .and. line%has_friction) then

@@ -28,5 +28,10 @@ run 0 tip.inp stands --set right=0.4 --quiet
 sed -e '/^\*SURFACE, NAME=FLOOR/,/^CRATE-BOTTOM/d' "$here/block.inp" >alone.inp
 run 4 alone.inp alone
 says alone alone.err 'no support and no contact pair holds it'
+# two bodies that fall together: nothing opens or slides
+sed '/^SUPPORT, 2$/d' "$input/ex2-two-plates.inp" >falls.inp
+run 4 falls.inp falls
+says falls falls.err 'the load drives it, together with the body that it touches, with 5000 [F]; its supports'
+absent falls
 absent alone
 finish
