@@ -7,6 +7,9 @@ module atrito_command_line
    use atrito_files, only: file_exists
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
+   use atrito_option_table, only: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, &
+                                  TASK_OPTIONS, TASK_VERSION, OPTIONS, SOLVERS, ELEMENT_NAMES, MOST_THREADS, MOST_LEVELS, &
+                                  find_option, option_names, string_list, value_text, task_text
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
@@ -14,15 +17,10 @@ module atrito_command_line
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_OPTIONS, TASK_VERSION
    public :: SOLVERS
 
-   integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
-   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4, TASK_SWEEP = 5, TASK_STUDY = 6
-   integer, parameter :: TASK_OPTIONS = 7           !< --help
-   integer, parameter :: TASK_VERSION = 8           !< --version
-
    character(len=7), parameter :: COMMANDS(5) = ['check  ', 'compare', 'study  ', 'sweep  ', 'help   ']
-   character(len=7), parameter :: SOLVERS(4) = ['auto   ', 'skyline', 'banded ', 'sparse ']
-   integer, parameter :: MOST_THREADS = 1024
-   integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
+   character(len=*), parameter :: SWEEP_FORM = 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]'
+   character(len=*), parameter :: STUDY_FORM = 'atrito study DECK.inp --levels N [--elements cpe4,cpe9] '// &
+                                  '[--reference QUANTITY=VALUE]'
 
    !> What the user asks for.
    type :: command_t
@@ -44,39 +42,6 @@ module atrito_command_line
       logical :: plot = .false.                     !< pictures by gnuplot
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
    end type command_t
-
-   !> An option: which tasks know it and whether it is built.
-   type :: option_t
-      character(len=11) :: name
-      logical :: has_value
-      logical :: for_task(TASK_STUDY)               !< run, check, compare, help, sweep, study
-      logical :: is_built
-   end type option_t
-
-   character(len=*), parameter :: SWEEP_FORM = 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]'
-
-   character(len=*), parameter :: STUDY_FORM = 'atrito study DECK.inp --levels N [--elements cpe4,cpe9] '// &
-                                  '[--reference QUANTITY=VALUE]'
-   character(len=4), parameter :: ELEMENT_NAMES(4) = ['cpe4', 'cps4', 'cpe9', 'cps9']
-
-   logical, parameter :: Y = .true., N = .false.
-   type(option_t), parameter :: OPTIONS(16) = [ &
-                                option_t('-o         ', Y, [Y, N, N, N, Y, Y], Y), &
-                                option_t('--set      ', Y, [Y, Y, N, N, Y, Y], Y), &
-                                option_t('--solver   ', Y, [Y, Y, N, N, Y, Y], Y), &
-                                option_t('--threads  ', Y, [Y, Y, N, N, Y, Y], Y), &
-                                option_t('--digits   ', Y, [Y, N, N, N, Y, Y], Y), &
-                                option_t('--quiet    ', N, [Y, Y, Y, N, Y, Y], Y), &
-                                option_t('--rtol     ', Y, [N, N, Y, N, N, N], Y), &
-                                option_t('--atol     ', Y, [N, N, Y, N, N, N], Y), &
-                                option_t('--refine   ', Y, [Y, Y, N, N, Y, Y], Y), &
-                                option_t('--plot     ', N, [Y, N, N, N, Y, Y], Y), &
-                                option_t('--levels   ', Y, [N, N, N, N, N, Y], Y), &
-                                option_t('--vary     ', Y, [N, N, N, N, Y, N], Y), &
-                                option_t('--elements ', Y, [N, N, N, N, N, Y], Y), &
-                                option_t('--reference', Y, [N, N, N, N, N, Y], Y), &
-                                option_t('--help     ', N, [Y, Y, Y, Y, Y, Y], Y), &
-                                option_t('--version  ', N, [Y, Y, Y, Y, Y, Y], Y)]
 
    !> An option as it was given.
    type :: given_t
@@ -190,39 +155,7 @@ contains
          if (ok) given%value = arguments(i + 1)%s
          i = i + 1
       end if
-      if (ok) then
-         if (.not. OPTIONS(given%option)%is_built) then
-            ok = .false.
-            error = wrong(name//' is not built yet in this version')
-         end if
-      end if
    end subroutine read_option
-
-   pure integer function find_option(name) result(i)
-      character(len=*), intent(in) :: name
-
-      do i = 1, size(OPTIONS)
-         if (OPTIONS(i)%name == name) return
-      end do
-      i = 0
-   end function find_option
-
-   pure function option_names() result(names)
-      type(string_t), allocatable :: names(:)
-
-      names = string_list(OPTIONS%name)
-   end function option_names
-
-   pure function string_list(words) result(list)
-      character(len=*), intent(in) :: words(:)
-      type(string_t), allocatable :: list(:)
-      integer :: i
-
-      allocate (list(size(words)))
-      do i = 1, size(words)
-         list(i)%s = trim(words(i))
-      end do
-   end function string_list
 
    !> An error of the command line.
    function wrong(text, expected, nearest) result(error)
@@ -370,50 +303,6 @@ contains
       end select
       if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(name))
    end subroutine take_option
-
-   pure function task_text(task) result(text)
-      integer, intent(in) :: task
-      character(len=:), allocatable :: text
-      character(len=14), parameter :: NAMES(TASK_STUDY) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ', &
-                                                           'atrito sweep  ', 'atrito study  ']
-
-      text = trim(NAMES(task))
-   end function task_text
-
-   !> What the value of an option may be.
-   pure function value_text(name) result(text)
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: text
-
-      select case (name)
-      case ('-o')
-         text = 'a folder; it is made where it is missing'
-      case ('--set')
-         text = 'NAME=VALUE, VALUE an expression of numbers'
-      case ('--vary')
-         text = 'NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'
-      case ('--refine')
-         text = 'a whole number, 0 to '//to_text(int(MOST_LEVELS, ip))//': each element into 4, so many times'
-      case ('--levels')
-         text = 'a whole number, 1 to '//to_text(int(MOST_LEVELS, ip))//': so many meshes, each with four elements for one'
-      case ('--elements')
-         text = 'cpe4, cps4, cpe9, cps9, several with commas between them'
-      case ('--reference')
-         text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
-      case ('--solver')
-         text = 'auto, skyline, banded or sparse'
-      case ('--threads')
-         text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
-      case ('--digits')
-         text = 'a whole number, '//to_text(int(LEAST_DIGITS, ip))//' to '//to_text(int(MOST_DIGITS, ip))
-      case ('--rtol')
-         text = 'a number, 0 to 1'
-      case ('--atol')
-         text = 'a number, not negative'
-      case default
-         text = 'a value'
-      end select
-   end function value_text
 
    !> Names of elements between commas, each once.
    subroutine take_elements(value, elements, ok)

@@ -27,6 +27,8 @@ module atrito_study
    private
    public :: run_study
 
+   character(len=*), parameter :: DECK_ELEMENTS = 'deck'   !< instead of a kind of element: as in the deck
+
 contains
 
    !> Makes all runs; code is the worst of theirs.
@@ -55,39 +57,43 @@ contains
       type(study_t), intent(inout) :: study
       integer, intent(out) :: code
       type(status_t) :: status
-      type(string_t), allocatable :: elements(:)
       type(reporter_t) :: reporter
-      integer(ip) :: level
-      integer :: i, k
+      integer :: k
 
       reporter%quiet = command%quiet
-      elements = command%elements
-      if (size(elements) == 0) call append_string(elements, 'deck')
-      allocate (study%rows(size(elements)*command%levels))
-      k = 0
-      do i = 1, size(elements)
-         do level = 0, command%levels - 1
-            k = k + 1
+      call list_runs(command, study%rows)
+      code = STATUS_OK
+      do k = 1, size(study%rows)
+         associate (row => study%rows(k))
             call report_progress(reporter, 'run '//to_text(int(k, ip))//' of '//to_text(size(study%rows, kind=ip))//'  ' &
-                                 //elements(i)%s//', level '//to_text(level))
-            call make_run(command, elements(i)%s, level, study, study%rows(k), status)
+                                 //row%element//', level '//to_text(row%level))
+            call make_run(command, study, row, status)
             ! the first run of a process pays for loading it: once more for the clock
-            if (k == 1 .and. is_ok(status) .and. .not. has_failed(study%rows(1))) then
-               call make_run(command, elements(i)%s, level, study, study%rows(k), status)
-            end if
-            if (.not. is_ok(status)) exit
+            if (k == 1 .and. is_ok(status) .and. .not. has_failed(row)) call make_run(command, study, row, status)
+            code = max(code, status%code, int(row%code))
             ! a fault of the command line or the deck is the same at every level
-            if (study%rows(k)%code == STATUS_USAGE .or. (k == 1 .and. has_failed(study%rows(k)))) exit
-         end do
-         if (level < command%levels) exit
+            if (.not. is_ok(status) .or. row%code == STATUS_USAGE .or. (k == 1 .and. has_failed(row))) exit
+         end associate
       end do
-      code = max(status%code, maxval(study%rows(:k)%code))
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
-      if (k < size(study%rows) .or. has_failed(study%rows(1))) return
-      call finish(command, study, status)
+      if (is_ok(status) .and. k > size(study%rows)) call finish(command, study, status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
       code = max(code, status%code)
    end subroutine make_runs
+
+   !> Every element at every level.
+   pure subroutine list_runs(command, rows)
+      type(command_t), intent(in) :: command
+      type(study_row_t), allocatable, intent(out) :: rows(:)
+      integer(ip) :: i, k
+
+      allocate (rows(max(1, size(command%elements))*command%levels))
+      do k = 1, size(rows, kind=ip)
+         i = (k - 1)/command%levels + 1
+         rows(k)%level = k - 1 - (i - 1)*command%levels
+         rows(k)%element = DECK_ELEMENTS
+         if (size(command%elements) > 0) rows(k)%element = command%elements(i)%s
+      end do
+   end subroutine list_runs
 
    pure logical function has_failed(row)
       type(study_row_t), intent(in) :: row
@@ -141,12 +147,10 @@ contains
       call set_status(status, STATUS_USAGE, text)
    end subroutine check_name
 
-   subroutine make_run(command, element, level, study, row, status)
+   subroutine make_run(command, study, row, status)
       type(command_t), intent(in) :: command
-      character(len=*), intent(in) :: element
-      integer(ip), intent(in) :: level
       type(study_t), intent(in) :: study
-      type(study_row_t), intent(out) :: row
+      type(study_row_t), intent(inout) :: row       !< element and level are given
       type(status_t), intent(out) :: status
       type(command_t) :: one
       type(body_store_t) :: store
@@ -157,16 +161,13 @@ contains
       one = command
       one%quiet = .true.
       one%plot = .false.
-      one%refine = command%refine + level
-      one%element = element
-      if (element == 'deck') one%element = ''
-      one%shape = shape_of(element)
-      one%folder = output_folder(command)//'/'//element//'_'//to_text(level)
+      one%refine = command%refine + row%level
+      if (row%element /= DECK_ELEMENTS) one%element = row%element
+      one%shape = shape_of(one%element)
+      one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
       call clear_messages()
       call reset_timers()
       call run_deck(one, store, code, facts)
-      row%element = element
-      row%level = level
       row%code = int(code, ip)
       row%h = facts%h
       row%n_dofs = facts%n_dofs
@@ -174,10 +175,7 @@ contains
       row%phases = get_phases()
       summary%code = code
       call read_summary(one%folder, summary, status)
-      allocate (row%values(size(study%quantities)))
-      do i = 1, size(row%values)
-         row%values(i) = amount(summary, study%quantities(i)%name)
-      end do
+      row%values = [(amount(summary, study%quantities(i)%name), i=1, size(study%quantities))]
       row%estimate = amount(summary, 'error_estimate_percent')
       row%penetration = amount_or_0(summary, 'max_penetration')
       row%slip = amount_or_0(summary, 'max_abs_slip')

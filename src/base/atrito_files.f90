@@ -15,7 +15,8 @@ module atrito_files
    private
    public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
              remove_empty_folder, check_folder, ignore_broken_pipe
-   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text, commit_files, discard_files
+   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text
+   public :: end_files, commit_files, discard_files
 
    !> A set of files that appear together or not at all.
    type :: file_set_t
@@ -298,6 +299,22 @@ contains
       end if
       status = file%status
    end subroutine close_text
+
+   !> Ends a set: commits it when all went well so far, else discards it.
+   subroutine end_files(set, status, stale)
+      type(file_set_t), intent(in) :: set
+      type(status_t), intent(inout) :: status       !< of writing the files; of the whole set on return
+      type(string_t), intent(in), optional :: stale(:)
+      type(string_t) :: none(0)
+
+      if (.not. is_ok(status)) then
+         call discard_files(set)
+      else if (present(stale)) then
+         call commit_files(set, stale, status)
+      else
+         call commit_files(set, none, status)
+      end if
+   end subroutine end_files
 
    !> Gives all files of the set their final names and removes the stale ones, files of an earlier run that this one does not
    !> write. A signal that would end the program waits until it is done.

@@ -5,7 +5,8 @@ module atrito_build_requests
    use atrito_draft, only: draft_t, report_unknown
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+   use atrito_mesh, only: mesh_t
+   use atrito_model, only: model_t, controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_sets, only: set_list_t, find_set, set_names
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
@@ -26,24 +27,24 @@ contains
       type(draft_t), intent(in) :: draft
       integer(ip) :: i
 
-      associate (requests => model%requests)
-         allocate (requests%node_u(model%mesh%n_nodes), requests%node_rf(model%mesh%n_nodes), &
-                   requests%element_s(model%mesh%n_elements), source=.false.)
-      end associate
       do i = 1, deck%n_cards
          select case (keyword_name(deck%cards(i)))
          case ('CONTROLS')
             call read_controls_card(deck, deck%cards(i), model%controls)
          case ('NODE PRINT')
-            call read_node_print_card(deck, deck%cards(i), model, draft)
+            call read_node_card(deck, deck%cards(i), model%mesh, model%node_sets, draft, &
+                                model%requests%requested_t)
          case ('EL PRINT')
-            call read_el_print_card(deck, deck%cards(i), model, draft)
+            call read_el_card(deck, deck%cards(i), model%mesh, model%element_sets, draft, &
+                              model%requests%requested_t)
          case ('CONTACT PRINT')
             model%requests%contact = .true.
          case ('NODE FILE')
-            call read_node_file_card(deck, deck%cards(i), model, draft)
+            call read_node_card(deck, deck%cards(i), model%mesh, model%node_sets, draft, &
+                                model%requests%fields)
          case ('EL FILE')
-            call read_el_file_card(deck, deck%cards(i), model, draft)
+            call read_el_card(deck, deck%cards(i), model%mesh, model%element_sets, draft, &
+                              model%requests%fields)
          case ('CONTACT FILE')
             model%requests%fields%contact = .true.
          end select
@@ -121,70 +122,38 @@ contains
       end do
    end subroutine check_relaxation
 
-   subroutine read_node_print_card(deck, card, model, draft)
+   !> *NODE PRINT, *NODE FILE
+   subroutine read_node_card(deck, card, mesh, sets, draft, requested)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
+      type(mesh_t), intent(in) :: mesh
+      type(set_list_t), intent(in) :: sets
       type(draft_t), intent(in) :: draft
+      type(requested_t), intent(inout) :: requested
       logical, allocatable :: chosen(:)
       logical :: ok
 
-      call choose_members(deck, card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, draft, chosen, ok)
+      call choose_members(deck, card, 'NSET', 'node set', sets, mesh%n_nodes, draft, chosen, ok)
       if (.not. ok) return
-      if (asks_for(deck, card, 'U')) then
-         model%requests%nodes = .true.
-         model%requests%node_u = model%requests%node_u .or. chosen
-      end if
-      if (asks_for(deck, card, 'RF')) then
-         model%requests%reactions = .true.
-         model%requests%node_rf = model%requests%node_rf .or. chosen
-      end if
-   end subroutine read_node_print_card
+      if (asks_for(deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
+      if (asks_for(deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
+   end subroutine read_node_card
 
-   subroutine read_el_print_card(deck, card, model, draft)
+   !> *EL PRINT, *EL FILE
+   subroutine read_el_card(deck, card, mesh, sets, draft, requested)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
+      type(mesh_t), intent(in) :: mesh
+      type(set_list_t), intent(in) :: sets
       type(draft_t), intent(in) :: draft
+      type(requested_t), intent(inout) :: requested
       logical, allocatable :: chosen(:)
       logical :: ok
 
-      call choose_members(deck, card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, draft, chosen, ok)
-      if (.not. ok .or. .not. asks_for(deck, card, 'S')) return
-      model%requests%stress = .true.
-      model%requests%element_s = model%requests%element_s .or. chosen
-   end subroutine read_el_print_card
-
-   subroutine read_node_file_card(deck, card, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
-      type(draft_t), intent(in) :: draft
-      logical, allocatable :: chosen(:)
-      logical :: ok
-
-      call choose_members(deck, card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, draft, chosen, ok)
+      call choose_members(deck, card, 'ELSET', 'element set', sets, mesh%n_elements, draft, chosen, ok)
       if (.not. ok) return
-      associate (fields => model%requests%fields)
-         if (asks_for(deck, card, 'U')) call ask_for(chosen, fields%nodes, fields%node_u)
-         if (asks_for(deck, card, 'RF')) call ask_for(chosen, fields%reactions, fields%node_rf)
-      end associate
-   end subroutine read_node_file_card
-
-   subroutine read_el_file_card(deck, card, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
-      type(draft_t), intent(in) :: draft
-      logical, allocatable :: chosen(:)
-      logical :: ok
-
-      call choose_members(deck, card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, draft, chosen, ok)
-      if (.not. ok) return
-      associate (fields => model%requests%fields)
-         if (asks_for(deck, card, 'S')) call ask_for(chosen, fields%stress, fields%element_s)
-      end associate
-   end subroutine read_el_file_card
+      if (asks_for(deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
+   end subroutine read_el_card
 
    !> Adds members to those asked for before.
    pure subroutine ask_for(chosen, wanted, mask)

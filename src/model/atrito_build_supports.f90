@@ -71,9 +71,7 @@ contains
       integer(ip) :: first, last, dof, i
       logical :: ok(4)
 
-      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
-      call get_integer(deck, line_item(deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(deck, line_item(deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      call read_place(deck, line, model, draft, nodes, first, last, ok(:3))
       call get_real(deck, line_item(deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
       if (.not. all(ok(2:))) return
       if (in_model .and. abs(value) > 0.0_wp) then
@@ -90,6 +88,21 @@ contains
       if (size(nodes) == 1 .and. is_refined(draft%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
 
+   !> Node or set, first dof[, last dof]: what both kinds of line begin with.
+   subroutine read_place(deck, line, model, draft, nodes, first, last, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), allocatable, intent(out) :: nodes(:)
+      integer(ip), intent(out) :: first, last
+      logical, intent(out) :: ok(3)
+
+      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
+      call get_integer(deck, line_item(deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
+      call get_integer(deck, line_item(deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+   end subroutine read_place
+
    !> Node or set, first dof[, last dof], expression in x and y.
    subroutine read_function_line(deck, line, in_model, model, draft, numbered)
       type(deck_t), intent(in) :: deck
@@ -104,9 +117,7 @@ contains
       integer(ip) :: first, last, dof
       logical :: ok(4)
 
-      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
-      call get_integer(deck, line_item(deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(deck, line_item(deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      call read_place(deck, line, model, draft, nodes, first, last, ok(:3))
       ! commas belong to the expression: max(x, y)
       expression = line_item(deck, line, 4_ip)
       expression%last = deck%tokens(line%first_token + line%n_tokens - 1)%last

@@ -10,7 +10,7 @@ module atrito_model
    implicit none (type, external)
    private
    public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, prescribed_t, node_load_t, element_load_t
-   public :: controls_t, requests_t, field_requests_t, parameter_value_t
+   public :: controls_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_NODAL, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
@@ -97,17 +97,15 @@ module atrito_model
       real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
    end type controls_t
 
-   !> What the field file holds; there is none when nothing is asked for.
-   type :: field_requests_t
+   !> Nodes, elements and contact that were asked for.
+   type :: requested_t
       logical :: nodes = .false., reactions = .false., stress = .false., contact = .false.
       logical, allocatable :: node_u(:), node_rf(:), element_s(:)  !< which nodes, nodes, elements; allocated when asked for
-   end type field_requests_t
+   end type requested_t
 
-   !> What is to be printed.
-   type :: requests_t
-      logical :: nodes = .false., reactions = .false., stress = .false., contact = .false.
-      logical, allocatable :: node_u(:), node_rf(:), element_s(:)  !< which nodes, nodes, elements
-      type(field_requests_t) :: fields
+   !> What is to be printed, and what goes into the field file.
+   type, extends(requested_t) :: requests_t
+      type(requested_t) :: fields
    end type requests_t
 
    type :: parameter_value_t

@@ -6,7 +6,7 @@ module atrito_overlay_plots
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files, discard_files
+   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
    use atrito_messages, only: add_warning
    use atrito_number_text, only: trimmed_real
    use atrito_gnuplot, only: draw_pictures
@@ -83,11 +83,7 @@ contains
          call write_summary_plot(set, heading, list, size(pairs, kind=ip), parameter_name, status)
          call append_string(names, OVERLAY_SUMMARY)
       end if
-      if (is_ok(status)) then
-         call commit_files(set, [string_t ::], status)
-      else
-         call discard_files(set)
-      end if
+      call end_files(set, status)
    end subroutine write_overlay_scripts
 
    pure function collect_runs(folder, labels, runs, values) result(list)

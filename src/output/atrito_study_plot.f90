@@ -1,7 +1,7 @@
 !> The picture of a study: error against processor time, and processor time against the number of displacements, both on
 !> logarithmic axes, a curve an element type, its last slope in the legend.
 module atrito_study_plot
-   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files, discard_files
+   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
    use atrito_gnuplot, only: draw_pictures
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_messages, only: add_warning
@@ -42,7 +42,6 @@ contains
       type(study_t), intent(in) :: study
       type(status_t), intent(out) :: status
       type(file_set_t) :: set
-      type(string_t) :: others(0)
       type(string_t), allocatable :: elements(:)
 
       call begin_files(set, plot_folder(folder), status)
@@ -50,11 +49,7 @@ contains
       call list_elements(study, elements)
       call write_data(set, study, elements, status)
       if (is_ok(status)) call write_script(set, title, study, elements, status)
-      if (is_ok(status)) then
-         call commit_files(set, others, status)
-      else
-         call discard_files(set)
-      end if
+      call end_files(set, status)
    end subroutine write_study_script
 
    pure subroutine list_elements(study, elements)

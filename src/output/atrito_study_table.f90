@@ -5,7 +5,7 @@
 !> p = log2(d1/d2) and the limit is q3 + d2/(2**p - 1).
 module atrito_study_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_files, only: file_set_t, begin_files, commit_files, discard_files
+   use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_page, only: page_t, begin_page, add_line, add_rule, add_paragraph, left, right, number
    use atrito_status, only: status_t, is_ok
@@ -212,17 +212,12 @@ contains
       type(status_t), intent(out) :: status
       type(file_set_t) :: set
       type(table_t) :: table
-      type(string_t) :: others(0)
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
       call build_study(study, table)
       call write_table(set, table, origin, digits, status)
-      if (is_ok(status)) then
-         call commit_files(set, others, status)
-      else
-         call discard_files(set)
-      end if
+      call end_files(set, status)
    end subroutine write_study
 
    subroutine build_study(study, table)

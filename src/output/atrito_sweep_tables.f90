@@ -1,6 +1,6 @@
 !> What a sweep writes beside the folders of its runs: sweep.tab, runs.tab, and the closing lines on the screen.
 module atrito_sweep_tables
-   use atrito_files, only: file_set_t, begin_files, commit_files, discard_files
+   use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, plural
    use atrito_plot_files, only: plot_folder
@@ -69,7 +69,6 @@ contains
       type(status_t), intent(out) :: status
       type(file_set_t) :: set
       type(table_t) :: table
-      type(string_t) :: others(0)
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
@@ -79,11 +78,7 @@ contains
          call build_runs(names, runs, table)
          call write_table(set, table, origin, digits_of_tables, status)
       end if
-      if (is_ok(status)) then
-         call commit_files(set, others, status)
-      else
-         call discard_files(set)
-      end if
+      call end_files(set, status)
    end subroutine write_sweep
 
    !> The parameters, then the columns of summary.tab.

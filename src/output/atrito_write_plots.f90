@@ -5,7 +5,7 @@ module atrito_write_plots
    use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, begin_files, commit_files, discard_files
+   use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_messages, only: add_warning
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
@@ -75,11 +75,7 @@ contains
             if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, origin, i, status)
          end do
       end if
-      if (is_ok(status)) then
-         call commit_files(set, [string_t ::], status)
-      else
-         call discard_files(set)
-      end if
+      call end_files(set, status)
    end subroutine write_plot_scripts
 
 end module atrito_write_plots

@@ -2,7 +2,7 @@
 module atrito_write_results
    use atrito_strings, only: string_t
    use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, begin_files, commit_files, discard_files
+   use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
    use atrito_results, only: results_t
@@ -40,11 +40,7 @@ contains
       ! these two tell the time, that of writing the tables included
       if (is_ok(status)) call write_timing(model, results, digits, set, status)
       if (is_ok(status)) call write_listing(model, results, set, status, pictures)
-      if (is_ok(status)) then
-         call commit_files(set, [list_table_files(), list_field_files(model)], status)
-      else
-         call discard_files(set)
-      end if
+      call end_files(set, status, [list_table_files(), list_field_files(model)])
       if (.not. is_ok(status)) return
       written = set%names
       call remove_plots(folder)

@@ -54,12 +54,9 @@ contains
          kind = asked
          result%reason = 'asked for'
       else
-         kind = minloc(cost, dim=1)
-         if (kind == STORAGE_SPARSE) then
-            if (profile%n < LEAST_SPARSE) kind = minloc(cost(:STORAGE_BANDED), dim=1)
-         end if
-         if (kind == STORAGE_SPARSE) then
-            if (.not. has_mumps()) kind = minloc(cost(:STORAGE_BANDED), dim=1)
+         kind = minloc(cost(:STORAGE_BANDED), dim=1)
+         if (profile%n >= LEAST_SPARSE .and. cost(STORAGE_SPARSE) < cost(kind)) then
+            if (has_mumps()) kind = STORAGE_SPARSE   ! the library is looked for only when it is wanted
          end if
          second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)

@@ -1,0 +1,122 @@
+!> The options of the command line: their names, the tasks that know them, and what their values may be.
+module atrito_option_table
+   use atrito_kinds, only: ip
+   use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS
+   use atrito_strings, only: string_t, to_text
+   implicit none (type, external)
+   private
+   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_OPTIONS, TASK_VERSION
+   public :: OPTIONS, SOLVERS, ELEMENT_NAMES, MOST_THREADS, MOST_LEVELS
+   public :: find_option, option_names, string_list, value_text, task_text
+
+   integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
+   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4, TASK_SWEEP = 5, TASK_STUDY = 6
+   integer, parameter :: TASK_OPTIONS = 7           !< --help
+   integer, parameter :: TASK_VERSION = 8           !< --version
+
+   character(len=7), parameter :: SOLVERS(4) = ['auto   ', 'skyline', 'banded ', 'sparse ']
+   integer, parameter :: MOST_THREADS = 1024
+   integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
+   character(len=4), parameter :: ELEMENT_NAMES(4) = ['cpe4', 'cps4', 'cpe9', 'cps9']
+
+   !> An option, and which tasks know it.
+   type :: option_t
+      character(len=11) :: name
+      logical :: has_value
+      logical :: for_task(TASK_STUDY)               !< run, check, compare, help, sweep, study
+   end type option_t
+
+   logical, parameter :: Y = .true., N = .false.
+   type(option_t), parameter :: OPTIONS(16) = [ &
+                                option_t('-o         ', Y, [Y, N, N, N, Y, Y]), &
+                                option_t('--set      ', Y, [Y, Y, N, N, Y, Y]), &
+                                option_t('--solver   ', Y, [Y, Y, N, N, Y, Y]), &
+                                option_t('--threads  ', Y, [Y, Y, N, N, Y, Y]), &
+                                option_t('--digits   ', Y, [Y, N, N, N, Y, Y]), &
+                                option_t('--quiet    ', N, [Y, Y, Y, N, Y, Y]), &
+                                option_t('--rtol     ', Y, [N, N, Y, N, N, N]), &
+                                option_t('--atol     ', Y, [N, N, Y, N, N, N]), &
+                                option_t('--refine   ', Y, [Y, Y, N, N, Y, Y]), &
+                                option_t('--plot     ', N, [Y, N, N, N, Y, Y]), &
+                                option_t('--levels   ', Y, [N, N, N, N, N, Y]), &
+                                option_t('--vary     ', Y, [N, N, N, N, Y, N]), &
+                                option_t('--elements ', Y, [N, N, N, N, N, Y]), &
+                                option_t('--reference', Y, [N, N, N, N, N, Y]), &
+                                option_t('--help     ', N, [Y, Y, Y, Y, Y, Y]), &
+                                option_t('--version  ', N, [Y, Y, Y, Y, Y, Y])]
+
+contains
+
+   !> Place of an option in OPTIONS; 0 when there is none.
+   pure integer function find_option(name) result(i)
+      character(len=*), intent(in) :: name
+
+      do i = 1, size(OPTIONS)
+         if (OPTIONS(i)%name == name) return
+      end do
+      i = 0
+   end function find_option
+
+   pure function option_names() result(names)
+      type(string_t), allocatable :: names(:)
+
+      names = string_list(OPTIONS%name)
+   end function option_names
+
+   pure function string_list(words) result(list)
+      character(len=*), intent(in) :: words(:)
+      type(string_t), allocatable :: list(:)
+      integer :: i
+
+      allocate (list(size(words)))
+      do i = 1, size(words)
+         list(i)%s = trim(words(i))
+      end do
+   end function string_list
+
+   !> A task in the words of a message.
+   pure function task_text(task) result(text)
+      integer, intent(in) :: task
+      character(len=:), allocatable :: text
+      character(len=14), parameter :: NAMES(TASK_STUDY) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ', &
+                                                           'atrito sweep  ', 'atrito study  ']
+
+      text = trim(NAMES(task))
+   end function task_text
+
+   !> What the value of an option may be.
+   pure function value_text(name) result(text)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: text
+
+      select case (name)
+      case ('-o')
+         text = 'a folder; it is made where it is missing'
+      case ('--set')
+         text = 'NAME=VALUE, VALUE an expression of numbers'
+      case ('--vary')
+         text = 'NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'
+      case ('--refine')
+         text = 'a whole number, 0 to '//to_text(int(MOST_LEVELS, ip))//': each element into 4, so many times'
+      case ('--levels')
+         text = 'a whole number, 1 to '//to_text(int(MOST_LEVELS, ip))//': so many meshes, each with four elements for one'
+      case ('--elements')
+         text = 'cpe4, cps4, cpe9, cps9, several with commas between them'
+      case ('--reference')
+         text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
+      case ('--solver')
+         text = 'auto, skyline, banded or sparse'
+      case ('--threads')
+         text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
+      case ('--digits')
+         text = 'a whole number, '//to_text(int(LEAST_DIGITS, ip))//' to '//to_text(int(MOST_DIGITS, ip))
+      case ('--rtol')
+         text = 'a number, 0 to 1'
+      case ('--atol')
+         text = 'a number, not negative'
+      case default
+         text = 'a value'
+      end select
+   end function value_text
+
+end module atrito_option_table
