@@ -24,6 +24,7 @@ module atrito_driver
    use atrito_strings, only: string_t, join, upper_case, nearest_names
    use atrito_study, only: run_study
    use atrito_sweep, only: run_sweep
+   use atrito_threads, only: set_threads
    use atrito_timers, only: reset_timers
    use atrito_usage, only: compose_usage, compose_options
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -46,6 +47,7 @@ contains
       call guard_interrupts()
       call ignore_broken_pipe()
       call set_blas_threads(1_ip)
+      call set_threads(1_ip)
       call clear_messages()
       call reset_timers()
       call fetch_arguments(arguments)

@@ -23,6 +23,7 @@ module atrito_run
    use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
+   use atrito_threads, only: set_threads
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
    use atrito_write_results, only: write_results
@@ -50,6 +51,7 @@ contains
       type(status_t) :: status
       integer(ip) :: told
 
+      call set_threads(command%threads)
       reporter%quiet = command%quiet
       call load_model(command, reporter, model, told, code)
       if (code /= STATUS_OK) return
@@ -195,7 +197,6 @@ contains
       if (command%solver == 'skyline') options%storage_kind = SOLVER_SKYLINE
       if (command%solver == 'banded') options%storage_kind = SOLVER_BANDED
       if (command%solver == 'sparse') options%storage_kind = SOLVER_SPARSE
-      options%threads = command%threads
    end function solve_options
 
 end module atrito_run

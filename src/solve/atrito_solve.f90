@@ -1,7 +1,7 @@
 !> One static step, from the model to the results.
 module atrito_solve
    use atrito_assembly, only: fem_t, body_profile, internal_forces
-   use atrito_blas_info, only: set_blas_threads, is_reference_blas
+   use atrito_blas_info, only: is_reference_blas
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
    use atrito_body_store, only: body_store_t, provide_bodies, take_numbering
    use atrito_condensed_body, only: condensed_body_t, choose_storage, motion_text
@@ -43,7 +43,6 @@ module atrito_solve
 
    type :: solve_options_t
       integer :: storage_kind = SOLVER_AUTO
-      integer :: threads = 1
       integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
    end type solve_options_t
 
@@ -110,7 +109,6 @@ contains
       type(contact_solution_t) :: solution
       type(outer_controls_t) :: controls
 
-      call set_blas_threads(int(options%threads, ip))
       call start_phase('order')
       call prepare(model, store, options, data, status)
       if (is_ok(status)) call describe_scene(model, data, options, results%scene)
