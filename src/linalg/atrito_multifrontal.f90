@@ -107,7 +107,7 @@ contains
       if (self%report%worst_equation > 0) then
          self%report%worst_equation = findloc(self%elimination%place, self%report%worst_equation, dim=1)
       end if
-      call set_pivot_status(self%report, .not. usable, status)
+      call set_pivot_status(self%report,.not. usable, status)
    end subroutine report_pivots
 
    subroutine get_last_front(self, schur)
