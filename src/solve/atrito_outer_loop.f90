@@ -3,7 +3,8 @@ module atrito_outer_loop
    use atrito_accelerator, only: accelerator_t, picard_t, anderson_t
    use atrito_box_problem, only: box_problem_t, FREE
    use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, has_settled, relative_residual
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, &
+                                       may_be_round_off, relative_residual
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_model, only: METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
@@ -198,6 +199,7 @@ contains
             call measure_rate(line%weight/maxval(line%weight), (tau - good)/maxval(tau), (image - good_image)/maxval(tau), &
                               solution%contraction)
          end if
+         if (may_be_round_off(last_residual, solution%residual)) call judge_condition(solution)
          solution%converged = has_settled(controls%tolerance, solution%inner%condition, last_residual, solution%residual)
          last_residual = solution%residual
          if (solution%residual < 0.5_wp*best_residual) then
