@@ -34,17 +34,17 @@ module atrito_kept_factor
    end type preconditioner_t
 
    !> Order over the steps that take about the time of a factor: n^3/3 operations against 4 n^2 that wait for memory.
-   integer(ip), parameter :: ORDER_OVER_STEPS = 100_ip
-   integer(ip), parameter :: FIRST_STEPS = 3_ip     !< before the speed of the steps is judged
+   integer(ip), parameter :: ORDER_OVER_STEPS = 50_ip
+   integer(ip), parameter :: FEW_STEPS = 3_ip       !< that a near set takes
    real(wp), parameter :: ROUND_OFF = 1.0e-15_wp    !< of the terms of the residual
    real(wp), parameter :: WEAKLY_HELD = 1.0e-6_wp   !< a motion that the free set hardly holds asks for a factor of its own
 
 contains
 
-   !> Solves from the present q and a. solved is false where the factor's set is not near, a motion is held weakly, or the steps would
-   !> take longer than a factor: q and a are then as they were.
+   !> Solves from the present q and a. solved is false where the factor's set is not near or has served its time, a motion is held
+   !> weakly, or the steps would take longer than a factor: q and a are then as they were.
    subroutine solve_with_kept(factor, c, system, q, a, solved)
-      type(line_factor_t), intent(in) :: factor
+      type(line_factor_t), intent(inout) :: factor
       real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
       type(free_system_t), intent(in) :: system
       real(wp), intent(inout) :: q(:)            !< (n) scaled
@@ -52,20 +52,22 @@ contains
       logical, intent(out) :: solved
       type(preconditioner_t) :: p
       real(wp) :: x(size(q)), b(size(a)), r(size(q)), terms
-      integer(ip) :: most
+      integer(ip) :: most, steps
 
       solved = .false.
       if (.not. allocated(factor%set)) return
       most = size(q, kind=ip)/ORDER_OVER_STEPS
+      if (factor%steps > most) return
       call relate_sets(factor, size(c, 1, kind=ip), system%set, system%scale, p%relation)
-      if (2*p%relation%differences > most) return
+      if (2*p%relation%differences > size(q)) return
       call prepare_motions(factor, system, p, solved)
       if (.not. solved) return
       x = q
       b = a
       call correct(factor, c, system, p, x, b)
       call true_residual(c, system, x, b, r, terms)
-      call take_steps(factor, c, system, p, most, ROUND_OFF*terms, x, b, r, solved)
+      call take_steps(factor, c, system, p, most, ROUND_OFF*terms, x, b, r, steps, solved)
+      factor%steps = factor%steps + max(steps - FEW_STEPS, 0_ip)
       if (.not. solved) return
       call correct(factor, c, system, p, x, b)
       q = x
@@ -138,7 +140,7 @@ contains
    end subroutine true_residual
 
    !> Conjugate gradients until the largest entry of r is small enough.
-   subroutine take_steps(factor, c, system, p, most, enough, x, b, r, solved)
+   subroutine take_steps(factor, c, system, p, most, enough, x, b, r, step, solved)
       type(line_factor_t), intent(in) :: factor
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
@@ -146,9 +148,9 @@ contains
       integer(ip), intent(in) :: most
       real(wp), intent(in) :: enough
       real(wp), intent(inout) :: x(:), b(:), r(:)
+      integer(ip), intent(out) :: step           !< steps that were made
       logical, intent(out) :: solved
       real(wp) :: z(size(x)), direction(size(x)), product(size(x)), db(size(b)), begin, now, rz, last_rz, curvature
-      integer(ip) :: step
 
       direction = 0.0_wp
       last_rz = 1.0_wp
@@ -157,7 +159,7 @@ contains
          now = maxval(abs(r))
          solved = now <= enough
          if (solved) return
-         if (step >= FIRST_STEPS .and. is_slow(step, most, enough, begin, now)) return
+         if (step >= FEW_STEPS .and. is_slow(step, most, enough, begin, now)) return
          call apply_inverse(factor, p%relation, r, z)
          db = -matmul(p%inverse, matmul(transpose(system%g), z))
          z = z + matmul(p%y, db)

@@ -4,8 +4,8 @@
 !> that are still free, with the diagonal for those that have become free, the factor is the preconditioner for the next set
 !> (atrito_kept_factor).
 module atrito_line_factor
-   use atrito_dense, only: solve_cholesky, estimate_condition
-   use atrito_dense_blocks, only: factor_in_blocks
+   use atrito_dense, only: estimate_condition
+   use atrito_dense_blocks, only: factor_in_blocks, solve_with_triangle
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -15,6 +15,7 @@ module atrito_line_factor
       integer(ip), allocatable :: set(:)         !< (n) unknowns; not allocated: there is no factor
       real(wp), allocatable :: scale(:)          !< (n) of the rows and columns
       real(wp), allocatable :: matrix(:, :)      !< (n, n) factor below and on the diagonal, the scaled matrix above
+      integer(ip) :: steps = 0                   !< more than a near set takes, in all the solves that it served since
    end type line_factor_t
 
    !> How a set of unknowns lies in that of a factor.
@@ -51,6 +52,7 @@ contains
       end if
       if (.not. allocated(factor%matrix)) allocate (factor%matrix(n, n))
       factor%set = set
+      factor%steps = 0
       factor%scale = [(1.0_wp/sqrt(c(set(i), set(i)) + d(set(i))), i=1, n)]
       call gather(c, set, factor%scale, factor%matrix)
       call factor_in_blocks(factor%matrix, failed)
@@ -142,7 +144,7 @@ contains
       do i = 1, size(x, kind=ip)
          if (relation%place(i) > 0) work(relation%place(i)) = x(i)*relation%ratio(i)
       end do
-      call solve_cholesky(factor%matrix, work)
+      call solve_with_triangle(factor%matrix, work)
       do i = 1, size(x, kind=ip)
          y(i) = x(i)
          if (relation%place(i) > 0) y(i) = work(relation%place(i))*relation%ratio(i)

@@ -6,10 +6,10 @@ module atrito_dense_blocks
    use atrito_front, only: eliminate
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, wp
-   use atrito_lapack, only: dgemm, dgemv, dtrsm
+   use atrito_lapack, only: dgemm, dsymv, dtrsm, dtrsv
    implicit none (type, external)
    private
-   public :: factor_in_blocks, multiply_symmetric, add_inverse_form
+   public :: factor_in_blocks, solve_with_triangle, multiply_symmetric, add_inverse_form
 
    integer(ip), parameter :: BLOCK = 96_ip             !< columns of a block
    integer(ip), parameter :: LARGE = 400_ip            !< order from which on work is shared out
@@ -33,32 +33,36 @@ contains
       call restore_halting(halting)
    end subroutine factor_in_blocks
 
-   !> y <- A x, A symmetric with both triangles. The sums run in the order of dgemv by columns.
+   !> x <- A^-1 x with the factor of A, for one x: waits for memory alone (dpotrs packs the factor first).
+   subroutine solve_with_triangle(a, x)
+      real(wp), intent(in), contiguous :: a(:, :)      !< (n, n) factor, lower triangle
+      real(wp), intent(inout), contiguous :: x(:)      !< (n)
+      type(halting_t) :: halting
+      integer(ip) :: n
+
+      n = size(a, 1, kind=ip)
+      if (n == 0) return
+      call suspend_halting(halting)
+      call dtrsv('L', 'N', 'N', n, a, n, x, 1_ip)
+      call dtrsv('L', 'T', 'N', n, a, n, x, 1_ip)
+      call restore_halting(halting)
+   end subroutine solve_with_triangle
+
+   !> y <- A x, A symmetric: reads the lower triangle alone.
    subroutine multiply_symmetric(a, x, y)
       real(wp), intent(in), contiguous :: a(:, :)      !< (n, n)
       real(wp), intent(in), contiguous :: x(:)         !< (n)
       real(wp), intent(out), contiguous :: y(:)        !< (n)
       type(halting_t) :: halting
-      integer(ip) :: n, first
+      integer(ip) :: n
 
       n = size(a, 1, kind=ip)
+      y = 0.0_wp
+      if (n == 0) return
       call suspend_halting(halting)
-      !$omp parallel do schedule(static, 1) default(none) shared(a, x, y, n) if(n > LARGE)
-      do first = 1, n, BLOCK
-         call multiply_columns(n, first, min(first + BLOCK - 1, n), a, x, y)
-      end do
-      !$omp end parallel do
+      call dsymv('L', n, 1.0_wp, a, n, x, 1_ip, 0.0_wp, y, 1_ip)
       call restore_halting(halting)
    end subroutine multiply_symmetric
-
-   !> Some entries of A x, as products with columns.
-   subroutine multiply_columns(n, first, last, a, x, y)
-      integer(ip), intent(in) :: n, first, last
-      real(wp), intent(in) :: a(n, n), x(n)
-      real(wp), intent(inout) :: y(n)
-
-      call dgemv('T', n, last - first + 1, 1.0_wp, a(1, first), n, x, 1_ip, 0.0_wp, y(first), 1_ip)
-   end subroutine multiply_columns
 
    !> C <- C + B F B' for F = (L L')^-1, as X' X with X = L^-1 B'.
    !>

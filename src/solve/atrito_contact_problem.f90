@@ -30,11 +30,12 @@ contains
       integer(ip) :: i, j, first
 
       line%n = rows%n
-      allocate (line%weight(line%n), line%delta(line%n), line%law(line%n))
+      allocate (line%weight(line%n), line%delta(line%n), line%law(line%n), line%pair(line%n))
       allocate (line%known_overlap(line%n), line%known_slip(line%n))
       first = 0
       do i = 1, size(points, kind=ip)
          associate (interaction => model%interactions(model%pairs(i)%interaction), last => first + points(i)%n)
+            line%pair(first + 1:last) = i
             line%weight(first + 1:last) = points(i)%weight
             line%delta(first + 1:last) = interaction%delta
             line%law(first + 1:last) = law_of(interaction)
