@@ -14,7 +14,8 @@ module atrito_active_set
    private
    public :: box_outcome_t, solve_box
 
-   integer(ip), parameter :: MOST_FULL_STEPS = 20
+   !> Full steps, and unknowns for each where they are many: the front of a slip zone may move by a few points a step.
+   integer(ip), parameter :: MOST_FULL_STEPS = 20, UNKNOWNS_A_STEP = 20
    real(wp), parameter :: OPENS = 1.0e-13_wp      !< tension over the largest pressure that opens a point
    real(wp), parameter :: SLIPS = 1.0e-12_wp      !< excess over the friction bound that lets a point slip
 
@@ -40,10 +41,10 @@ contains
       type(status_t), intent(out) :: status
       type(line_factor_t), intent(inout), optional :: kept !< of the solve before, or of the last one: see solve_free_set
       type(equality_solution_t) :: solution
-      integer(lp) :: seen(MOST_FULL_STEPS)
+      integer(lp) :: seen(max(MOST_FULL_STEPS, problem%m/UNKNOWNS_A_STEP))
       integer(ip) :: step, changes
 
-      do step = 1, MOST_FULL_STEPS
+      do step = 1, size(seen, kind=ip)
          seen(step) = state_code(state)
          if (any(seen(:step - 1) == seen(step))) exit
          call put_at_bounds(bounds, state)
