@@ -34,7 +34,7 @@ module atrito_kept_factor
    end type preconditioner_t
 
    !> Steps that take about the time of a factor: n^3/3 operations against n^2 that wait for memory, the more so the larger n is
-   !> (measured for 500 to 4,000 unknowns: 15 to 40).
+   !> (measured for 400 to 3,200 unknowns: 14 to 34).
    integer(ip), parameter :: FACTOR_IN_STEPS = 20_ip, ORDER_OVER_STEPS = 200_ip
    integer(ip), parameter :: FEW_STEPS = 3_ip       !< that a near set takes
    real(wp), parameter :: ROUND_OFF = 1.0e-15_wp    !< of the terms of the residual
