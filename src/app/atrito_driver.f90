@@ -13,6 +13,9 @@ module atrito_driver
    use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
+   use atrito_limit, only: measure_limit
+   use atrito_limit_page, only: compose_limit
+   use atrito_limit_result, only: limit_t
    use atrito_messages, only: message_t, format_message, clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t, print_page
@@ -60,7 +63,11 @@ contains
       end if
       select case (command%task)
       case (TASK_RUN)
-         call run_deck(command, store, code)
+         if (command%bench_limit) then
+            call limit_deck(command, code)
+         else
+            call run_deck(command, store, code)
+         end if
       case (TASK_SWEEP)
          call run_sweep(command, code)
       case (TASK_STUDY)
@@ -108,6 +115,31 @@ contains
          call print_page(page, output_unit)
       end if
    end subroutine check_deck
+
+   !> Measures what one linear solve of a deck's scene costs; solves no contact, writes no file.
+   subroutine limit_deck(command, code)
+      type(command_t), intent(in) :: command
+      integer, intent(out) :: code
+      type(model_t) :: model
+      type(limit_t) :: limit
+      type(reporter_t) :: reporter
+      type(status_t) :: status
+      type(page_t) :: page
+      integer(ip) :: told
+
+      reporter%quiet = command%quiet
+      call load_model(command, reporter, model, told, code)
+      if (code /= STATUS_OK) return
+      call measure_limit(model, limit, status)
+      call print_messages(command%quiet, told + 1)
+      code = status%code
+      if (.not. is_ok(status)) then
+         call print_status(status, model%deck_path)
+         return
+      end if
+      call compose_limit(model, limit, page)
+      call print_page(page, output_unit)
+   end subroutine limit_deck
 
    subroutine compare_tables(command, code)
       type(command_t), intent(in) :: command

@@ -7,7 +7,12 @@ module atrito_mumps
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: sparse_t, has_mumps, mumps_name, mumps_trouble
+   public :: sparse_t, mumps_facts_t, has_mumps, mumps_name, mumps_trouble
+
+   type :: mumps_facts_t
+      integer(lp) :: entries = 0, factor_entries = 0, memory = 0
+      real(wp) :: operations = 0.0_wp
+   end type mumps_facts_t
 
    type, extends(storage_t) :: sparse_t
    contains
@@ -19,6 +24,9 @@ module atrito_mumps
       procedure :: expand => expand_sparse
       procedure :: memory_bytes => sparse_memory
       procedure, nopass :: name => sparse_name
+      procedure :: close => close_sparse
+      procedure :: analyse => analyse_sparse
+      procedure :: facts => sparse_facts
    end type sparse_t
 
 contains
@@ -53,6 +61,14 @@ contains
       real(wp), intent(in) :: matrix(:, :)
    end subroutine add_to_sparse
 
+   subroutine close_sparse(self)
+      class(sparse_t), intent(inout) :: self
+   end subroutine close_sparse
+
+   subroutine analyse_sparse(self)
+      class(sparse_t), intent(inout) :: self
+   end subroutine analyse_sparse
+
    subroutine factor_sparse(self, status)
       class(sparse_t), intent(inout) :: self
       type(status_t), intent(out) :: status
@@ -82,6 +98,12 @@ contains
 
       sparse_memory = 0
    end function sparse_memory
+
+   pure type(mumps_facts_t) function sparse_facts(self) result(facts)
+      class(sparse_t), intent(in) :: self
+
+      facts = mumps_facts_t()
+   end function sparse_facts
 
    pure function sparse_name() result(name)
       character(len=:), allocatable :: name
