@@ -13,6 +13,7 @@ module atrito_driver
    use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
+   use atrito_libraries, only: version_lines
    use atrito_limit, only: measure_limit
    use atrito_limit_page, only: compose_limit
    use atrito_limit_result, only: limit_t
@@ -83,7 +84,7 @@ contains
          call print_page(page, output_unit)
          code = STATUS_OK
       case (TASK_VERSION)
-         call print_lines([string_t(PROGRAM_NAME//' '//PROGRAM_VERSION)], output_unit)
+         call print_version()
          code = STATUS_OK
       case (TASK_USAGE)
          call compose_usage(page)
@@ -155,6 +156,14 @@ contains
       if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME)
       code = status%code
    end subroutine compare_tables
+
+   !> The name and version of the program, then compiler and libraries, a line each.
+   subroutine print_version()
+      type(string_t), allocatable :: lines(:)
+
+      call version_lines(lines)
+      call print_lines([string_t(PROGRAM_NAME//' '//PROGRAM_VERSION), lines], output_unit)
+   end subroutine print_version
 
    subroutine print_help(command, code)
       type(command_t), intent(in) :: command

@@ -1,10 +1,9 @@
 !> What `--bench-limit` prints: the cost of one linear solve of the glued bodies, part by part.
 module atrito_limit_page
-   use atrito_blas_info, only: blas_name
    use atrito_kinds, only: wp
+   use atrito_libraries, only: library_t, list_libraries, USED
    use atrito_limit_result, only: limit_t
    use atrito_model, only: model_t
-   use atrito_mumps, only: mumps_name
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_entry, left, bytes, number
    use atrito_strings, only: to_text
    use atrito_timers, only: peak_memory
@@ -46,6 +45,8 @@ contains
    subroutine add_sizes(page, limit)
       type(page_t), intent(inout) :: page
       type(limit_t), intent(in) :: limit
+      type(library_t), allocatable :: list(:)
+      integer :: i
 
       call add_entry(page, 'nodes glued to others', to_text(limit%n_glued))
       if (limit%n_held > 0) call add_entry(page, 'nodes held by rigid surfaces', to_text(limit%n_held))
@@ -57,8 +58,10 @@ contains
       call add_entry(page, 'peak memory of the process', bytes(peak_memory()))
       call add_entry(page, 'order', 'minimum degree (AMD)')
       if (allocated(limit%order)) call add_entry(page, 'numbered in the nodes'' order', limit%order)
-      call add_entry(page, 'solver', mumps_name()//', one thread')
-      call add_entry(page, 'BLAS', trim(blas_name()))
+      call list_libraries(USED, list)
+      do i = 1, size(list)
+         if (list(i)%name == 'BLAS' .or. list(i)%name == 'MUMPS') call add_entry(page, trim(list(i)%name), list(i)%version)
+      end do
    end subroutine add_sizes
 
    pure function time_line(name, wall, cpu) result(text)

@@ -2,8 +2,8 @@
 !> minimum degree (AMD), solved once. Nothing else: no contact, no stresses, no tables. `--bench-limit` prints it, and a run is
 !> measured by it (docs/performance.md).
 !>
-!> The matrix is a plain sum of element matrices. What minimum degree finds depends on how the equations are numbered, by a factor of
-!> two and more, since ties decide: of the orders of atrito_tied_bodies the one with the fewest operations is taken, so that no
+!> The matrix is a plain sum of element matrices. What minimum degree finds depends on how the equations are numbered, by a factor
+!> of two and more, since ties decide: of the orders of atrito_tied_bodies the one with the fewest operations is taken, so that no
 !> chance of the deck makes the limit easy to meet. Looking for it is not counted, nor is what comes before (reading, pairing,
 !> numbering) and after (going back to the nodes).
 module atrito_limit
@@ -89,11 +89,12 @@ contains
       type(profile_t), intent(in) :: profile
       real(wp), intent(out) :: operations
       type(status_t), intent(out) :: status
-      type(sparse_t) :: matrix
+      class(sparse_t), allocatable :: matrix        ! of class: a build without MUMPS has a twin of it to link with
       type(mumps_facts_t) :: facts
       real(wp), allocatable :: load(:, :)
 
       operations = 0.0_wp
+      allocate (matrix)
       call matrix%create(profile, status)
       if (.not. is_ok(status)) return
       allocate (load(tied%n, 1), source=0.0_wp)
@@ -111,9 +112,10 @@ contains
       real(wp), intent(inout) :: x(:, :)            !< (n, 1): nodal forces in, displacements out
       type(limit_t), intent(inout) :: limit
       type(status_t), intent(out) :: status
-      type(sparse_t) :: matrix
+      class(sparse_t), allocatable :: matrix
       type(mumps_facts_t) :: facts
 
+      allocate (matrix)
       call start_phase(LIMIT_PARTS(1))
       call matrix%create(profile, status)
       if (.not. is_ok(status)) return
@@ -128,7 +130,7 @@ contains
       call stop_phase(LIMIT_PARTS(3))
       if (.not. is_ok(status)) then
          if (status%code == STATUS_SINGULAR) call set_status(status, STATUS_SINGULAR, 'the bodies glued together: '//status%text &
-                                                 //', '//name_tied_equation(fem, tied, matrix%report%worst_equation))
+                                                             //', '//name_tied_equation(fem, tied, matrix%report%worst_equation))
          return
       end if
       call start_phase(LIMIT_PARTS(4))

@@ -33,7 +33,7 @@ module atrito_tied_bodies
 
    !> Orders of the nodes that node_order knows.
    character(len=*), parameter :: NODE_ORDERS(3) = [character(len=28) :: 'the deck''s', 'the deck''s backward', &
-                                                    'the deck''s, last body first']
+                                                                                                     'the deck''s, last body first']
    !> Sine below which two rigid surfaces hold a node along one direction.
    real(wp), parameter :: PARALLEL = 1.0e-10_wp
 
@@ -198,20 +198,20 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: order(:)
       type(tied_t), intent(inout) :: tied
-      logical :: open(mesh%n_nodes)                 !< first nodes that wait for their numbers
+      logical :: waits(mesh%n_nodes)                !< first nodes without numbers so far
       integer(ip) :: e, k, dof
 
-      open = .false.
+      waits = .false.
       do e = 1, mesh%n_elements
-         open(tied%first(mesh%nodes(:mesh%shape(e), e))) = .true.
+         waits(tied%first(mesh%nodes(:mesh%shape(e), e))) = .true.
       end do
       if (allocated(tied%equation)) deallocate (tied%equation)
       allocate (tied%equation(2, mesh%n_nodes), source=0_ip)
       tied%n = 0
       do k = 1, size(order, kind=ip)
          associate (node => tied%first(order(k)))
-            if (.not. open(node)) cycle
-            open(node) = .false.
+            if (.not. waits(node)) cycle
+            waits(node) = .false.
             do dof = 1, 2
                if (tied%held(dof, node)) cycle
                tied%n = tied%n + 1
