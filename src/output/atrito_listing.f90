@@ -65,7 +65,9 @@ contains
       call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
       call describe_bodies(page, results%scene, factored=.true.)
       call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
-      if (is_sparse(results%scene)) call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
+      if (uses(results%scene, 'sparse') .or. uses(results%scene, 'mumps')) then
+         call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
+      end if
       call add_entry(page, 'factorisations', to_text(int(results%factorisations, ip)))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
       call add_libraries(page, results%scene)
@@ -94,23 +96,24 @@ contains
       type(library_t), allocatable :: list(:)
       integer :: i
 
-      call list_libraries(merge(USED, NOT_USED, is_sparse(scene)), list)
+      call list_libraries(merge(USED, NOT_USED, uses(scene, 'mumps')), list)
       do i = 1, size(list)
          call add_entry(page, trim(list(i)%name), list(i)%version)
       end do
    end subroutine add_libraries
 
-   !> Whether any body was given to the sparse solver.
-   pure logical function is_sparse(scene)
+   !> Whether any body has a storage.
+   pure logical function uses(scene, storage)
       type(scene_t), intent(in) :: scene
+      character(len=*), intent(in) :: storage       !< skyline, ...
       integer :: i
 
-      is_sparse = .false.
+      uses = .false.
       do i = 1, size(scene%bodies)
          if (.not. allocated(scene%bodies(i)%storage)) cycle
-         is_sparse = is_sparse .or. scene%bodies(i)%storage == 'sparse'
+         uses = uses .or. scene%bodies(i)%storage == storage
       end do
-   end function is_sparse
+   end function uses
 
    subroutine add_title(page, model, results)
       type(page_t), intent(inout) :: page

@@ -6,13 +6,13 @@
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
-   use atrito_bodies, only: mode_at, elimination_places
+   use atrito_bodies, only: mode_at, order_by_dissection
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
-   use atrito_mumps, only: has_mumps
    use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
+   use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, &
+                                   STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_storage, only: storage_t
    use atrito_strings, only: to_text
@@ -55,16 +55,14 @@ contains
          result%reason = 'asked for'
       else
          kind = minloc(cost(:STORAGE_BANDED), dim=1)
-         if (profile%n >= LEAST_SPARSE .and. cost(STORAGE_SPARSE) < cost(kind)) then
-            if (has_mumps()) kind = STORAGE_SPARSE   ! the library is looked for only when it is wanted
-         end if
+         if (profile%n >= LEAST_SPARSE .and. cost(STORAGE_SPARSE) < cost(kind)) kind = STORAGE_SPARSE
          second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
       end if
       result%storage = storage_name(kind)
       result%half_bandwidth = half_bandwidth(profile)
       result%profile = profile_length(profile)
-      if (kind == STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
+      if (kind >= STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
       result%memory = predict_memory(profile, kind) + 8_lp*int(profile%n_kept, lp)**2
    end subroutine choose_storage
 
@@ -76,6 +74,7 @@ contains
       cost(STORAGE_SKYLINE) = skyline_flops(profile)
       cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED
       cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
+      cost(STORAGE_MUMPS) = cost(STORAGE_SPARSE)
    end function predict_costs
 
    pure integer(lp) function predict_memory(profile, kind) result(bytes)
@@ -117,7 +116,7 @@ contains
       end if
       call body_profile(fem, i_body, profile)
       call choose_storage(profile, asked, kind, result)
-      if (kind == STORAGE_SPARSE) profile%place = elimination_places(fem%mesh, fem%bodies, i_body)
+      if (kind >= STORAGE_SPARSE) call order_by_dissection(fem%mesh, fem%bodies, i_body, profile%elimination)
       call new_storage(kind, body%storage)
       call start_phase('assemble')
       call body%storage%create(profile, status)

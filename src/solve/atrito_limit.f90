@@ -11,7 +11,7 @@ module atrito_limit
    use atrito_kinds, only: ip, lp, wp
    use atrito_limit_result, only: limit_t, LIMIT_PARTS
    use atrito_model, only: model_t
-   use atrito_mumps, only: sparse_t, mumps_facts_t
+   use atrito_mumps, only: mumps_t, mumps_facts_t
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t, sparse_bytes
@@ -89,7 +89,7 @@ contains
       type(profile_t), intent(in) :: profile
       real(wp), intent(out) :: operations
       type(status_t), intent(out) :: status
-      class(sparse_t), allocatable :: matrix        ! of class: a build without MUMPS has a twin of it to link with
+      class(mumps_t), allocatable :: matrix        ! of class: a build without MUMPS has a twin of it to link with
       type(mumps_facts_t) :: facts
       real(wp), allocatable :: load(:, :)
 
@@ -112,7 +112,7 @@ contains
       real(wp), intent(inout) :: x(:, :)            !< (n, 1): nodal forces in, displacements out
       type(limit_t), intent(inout) :: limit
       type(status_t), intent(out) :: status
-      class(sparse_t), allocatable :: matrix
+      class(mumps_t), allocatable :: matrix
       type(mumps_facts_t) :: facts
 
       allocate (matrix)

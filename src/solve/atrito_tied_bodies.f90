@@ -283,7 +283,7 @@ contains
             equations(:n) = reshape(tied%equation(:, nodes), [n])
             if (any(tied%is_turned(nodes))) then
                turned(:n, :n) = cache%k(:n, :n)
-               call turn_matrix(tied, nodes, turned)
+               call turn_matrix(tied, nodes, turned(:n, :n))
                call storage%add(equations(:n), turned(:n, :n))
                call subtract_forces(tied, nodes, turned, equations(:n), load)
             else
