@@ -80,18 +80,15 @@ contains
       end do
       !$omp end parallel do
       next = 1
-      do u = 1, plan%n + 1
-         if (u <= plan%n) then
-            do p = next, plan%first(u) - 1
-               call forward_part(tree, factors, p, x, stack)
-            end do
-            call push(stack, waiting(u)%entries)
-            next = plan%last(u) + 1
-         else
-            do p = next, tree%n_parts
-               call forward_part(tree, factors, p, x, stack)
-            end do
-         end if
+      do u = 1, plan%n
+         do p = next, plan%first(u) - 1
+            call forward_part(tree, factors, p, x, stack)
+         end do
+         call push(stack, waiting(u)%entries)
+         next = plan%last(u) + 1
+      end do
+      do p = next, tree%n_parts
+         call forward_part(tree, factors, p, x, stack)
       end do
    end subroutine forward
 
@@ -153,25 +150,20 @@ contains
       real(wp), intent(inout) :: x(:)            !< (n) by places
       type(waiting_t) :: waiting(plan%n)
       type(stack_t) :: stack
-      integer(ip) :: u, p, next
+      integer(ip) :: u, p, m, next
 
       next = tree%n_parts
-      do u = plan%n, 0, -1
-         if (u > 0) then
-            do p = next, plan%last(u) + 1, -1
-               call backward_part(tree, factors, p, x, stack)
-            end do
-            p = plan%last(u)
-            associate (m => tree%record(tree%start(tree%class_of(p)) + 2))
-               waiting(u)%entries = stack%entries(stack%top - m + 1:stack%top)
-               stack%top = stack%top - m
-            end associate
-            next = plan%first(u) - 1
-         else
-            do p = next, 1, -1
-               call backward_part(tree, factors, p, x, stack)
-            end do
-         end if
+      do u = plan%n, 1, -1
+         do p = next, plan%last(u) + 1, -1
+            call backward_part(tree, factors, p, x, stack)
+         end do
+         m = tree%record(tree%start(tree%class_of(plan%last(u))) + 2)
+         waiting(u)%entries = stack%entries(stack%top - m + 1:stack%top)
+         stack%top = stack%top - m
+         next = plan%first(u) - 1
+      end do
+      do p = next, 1, -1
+         call backward_part(tree, factors, p, x, stack)
       end do
       !$omp parallel do schedule(dynamic, 1) default(none) shared(tree, factors, plan, x, waiting) if(plan%shares_out)
       do u = 1, plan%n

@@ -1,4 +1,5 @@
-!> The twin of src/linalg/atrito_mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). It is not accepted on the command line then, so nothing here is reached; create fails all the same.
+!> The twin of src/linalg/atrito_mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). The command line does not
+!> accept this solver then, so nothing here is reached; create fails all the same.
 module atrito_mumps
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
@@ -7,6 +8,11 @@ module atrito_mumps
    implicit none (type, external)
    private
    public :: mumps_t, mumps_facts_t, has_mumps, mumps_name, mumps_trouble
+
+   type :: mumps_facts_t
+      integer(lp) :: entries = 0, factor_entries = 0, memory = 0
+      real(wp) :: operations = 0.0_wp
+   end type mumps_facts_t
 
    type, extends(storage_t) :: mumps_t
    contains
