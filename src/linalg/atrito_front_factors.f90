@@ -229,7 +229,8 @@ contains
       do i = 1, tree%record(tree%start(c) + 4)
          first = store%matrix_start(tree%record(k + 1))
          m = tree%record(k + 2)
-         call add_element(order, front, m, tree%record(k + 3:k + 2 + m), store%values(first + 1:first + int(m, lp)**2))
+         call add_element(order, front, m, tree%record(k + 3:k + 2 + m), &
+                          store%values(first + 1:first + int(m, lp)*int(m + 1, lp)/2))
          k = k + 2 + m
       end do
    end subroutine assemble_front
