@@ -4,7 +4,7 @@ module atrito_range
    use atrito_kinds, only: ip, wp, HUGE_REAL
    implicit none (type, external)
    private
-   public :: work_of
+   public :: work_of, unit_of
 
 contains
 
@@ -28,5 +28,21 @@ contains
          work = ieee_value(work, ieee_negative_inf)
       end if
    end function work_of
+
+   !> A power of two next to the largest of the values: what they are over it is not above 1, without rounding. 1 of nothing and of
+   !> zeros.
+   pure real(wp) function unit_of(values) result(unit)
+      real(wp), intent(in) :: values(:, :)
+      real(wp) :: largest
+      integer(ip) :: i
+      integer, parameter :: MOST = maxexponent(1.0_wp) - 2 !< 1/unit is a number as well
+
+      largest = 0.0_wp
+      do i = 1, size(values, 2, kind=ip)
+         largest = max(largest, maxval(abs(values(:, i))))
+      end do
+      unit = 1.0_wp
+      if (largest > 0.0_wp) unit = scale(1.0_wp, max(-MOST, min(MOST, exponent(largest))))
+   end function unit_of
 
 end module atrito_range

@@ -1,7 +1,7 @@
 !> From the contact forces back to the bodies: displacements, reactions, stresses, fields at the points.
 module atrito_recovery
    use atrito_assembly, only: fem_t
-   use atrito_bodies, only: mode_at
+   use atrito_bodies, only: body_t, mode_at
    use atrito_box_problem, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
    use atrito_contact_line, only: contact_line_t
@@ -20,6 +20,7 @@ module atrito_recovery
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_shape_functions, only: gauss_count
    use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
@@ -71,28 +72,45 @@ contains
    end subroutine elastic_displacements
 
    !> u = u_e + Z a.
-   pure subroutine add_rigid_motions(fem, a, u)
+   subroutine add_rigid_motions(fem, a, u)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: a(:)
       real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
-      real(wp) :: mode(3)
-      integer(ip) :: b, i, dof, first, node
+      integer(ip) :: b
 
       do b = 1, fem%bodies%n
-         associate (body => fem%bodies%list(b))
-            if (size(body%modes, 2) == 0) cycle
-            first = first_motion(fem, b)
-            mode = matmul(body%modes, a(first:first + size(body%modes, 2, kind=ip) - 1))
-            do i = 1, size(body%nodes, kind=ip)
-               node = body%nodes(i)
-               do dof = 1, 2
-                  if (fem%bodies%equation(dof, node) == 0) cycle
-                  u(dof, node) = u(dof, node) + mode_at(body, mode, fem%mesh%x(:, node), dof)
-               end do
-            end do
-         end associate
+         if (size(fem%bodies%list(b)%modes, 2) > 0) call move_body(fem, fem%bodies%list(b), a(first_motion(fem, b):), u)
       end do
    end subroutine add_rigid_motions
+
+   subroutine move_body(fem, body, a, u)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: a(:)                   !< of its modes and those of later bodies
+      real(wp), intent(inout) :: u(:, :)
+      real(wp) :: mode(3)
+      integer(ip) :: i
+
+      mode = matmul(body%modes, a(:size(body%modes, 2)))
+      !$omp parallel do schedule(static) if (is_shared(size(body%nodes, kind=ip)))
+      do i = 1, size(body%nodes, kind=ip)
+         call move_node(fem, body, mode, body%nodes(i), u(:, body%nodes(i)))
+      end do
+      !$omp end parallel do
+   end subroutine move_body
+
+   pure subroutine move_node(fem, body, mode, node, u)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: mode(3)
+      integer(ip), intent(in) :: node
+      real(wp), intent(inout) :: u(2)
+      integer(ip) :: dof
+
+      do dof = 1, 2
+         if (fem%bodies%equation(dof, node) > 0) u(dof) = u(dof) + mode_at(body, mode, fem%mesh%x(:, node), dof)
+      end do
+   end subroutine move_node
 
    !> The fields of every pair at its points.
    pure subroutine recover_contact(line, rows, points, solution, u, contact)
