@@ -45,7 +45,7 @@ contains
 
    !> Number of the zone's kind for each element: alike are elements of equal elastic section, plane state and shape. (Two parts of
    !> the mesh that do not touch may have the same number: they share no node.)
-   pure function zones_of_elements(fem) result(zone)
+   function zones_of_elements(fem) result(zone)
       type(fem_t), intent(in) :: fem
       integer(ip), allocatable :: zone(:)
       integer(ip) :: like(size(fem%sections)), i, j, e
@@ -57,9 +57,11 @@ contains
          like(i) = j
       end do
       allocate (zone(fem%mesh%n_elements))
+      !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_elements))
       do e = 1, fem%mesh%n_elements
          zone(e) = 4*(like(fem%section_of(e)) - 1) + 2*(fem%mesh%state(e) - 1) + merge(1_ip, 2_ip, fem%mesh%shape(e) == Q1_NODES)
       end do
+      !$omp end parallel do
    end function zones_of_elements
 
    pure logical function same_section(a, b)
@@ -83,7 +85,10 @@ contains
       end do
       !$omp end parallel do
       patches%n = mesh%n_nodes
-      patches%node = [(i, i=1, mesh%n_nodes)]
+      allocate (patches%node(patches%n))
+      do i = 1, patches%n
+         patches%node(i) = i
+      end do
       if (size(zone) == 0) return
       if (minval(zone) /= maxval(zone)) call add_places(mesh, zone, patches)
    end subroutine number_places
@@ -153,10 +158,14 @@ contains
          call fill_corners(part, n_parts, at(:, part), patches)
       end do
       !$omp end parallel do
-      allocate (patches%owner(patches%n), source=0_ip)
+      allocate (patches%owner(patches%n))
+      !$omp parallel do schedule(static) if (is_shared(patches%n))
       do k = 1, patches%n
+         patches%owner(k) = 0
          if (patches%first(k + 1) > patches%first(k)) patches%owner(k) = patches%element(patches%first(k))
       end do
+      !$omp end parallel do
+      if (size(patches%place, 1) == CORNERS) return
       do e = mesh%n_elements, 1, -1
          do k = CORNERS + 1, mesh%shape(e)
             patches%owner(patches%place(k, e)) = e
@@ -252,6 +261,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(inout) :: patches
       integer(ip) :: i, e
+      logical :: found
 
       allocate (patches%kind(patches%n), patches%lends(mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(patches%n))
@@ -259,8 +269,8 @@ contains
          patches%kind(i) = merge(PATCH_INTERIOR, PATCH_NONE, is_interior(patches, i))
       end do
       !$omp end parallel do
-      call patch_the_bare(mesh, 2_ip, PATCH_OUTER, patches)
-      call patch_the_bare(mesh, 1_ip, PATCH_SINGLE, patches)
+      call patch_the_bare(mesh, 2_ip, PATCH_OUTER, patches, found)
+      if (found) call patch_the_bare(mesh, 1_ip, PATCH_SINGLE, patches, found)
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
          patches%lends(e) = mesh%shape(e) > CORNERS .or. patches_at(patches, e) < CORNERS
@@ -281,10 +291,11 @@ contains
    end function patches_at
 
    !> Gives a patch to the corners, of at least `least` elements, of all elements without a patch at any corner.
-   subroutine patch_the_bare(mesh, least, kind, patches)
+   subroutine patch_the_bare(mesh, least, kind, patches, found)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: least, kind
       type(patches_t), intent(inout) :: patches
+      logical, intent(out) :: found                  !< there were such elements
       logical, allocatable :: bare(:)
       integer(ip) :: e, k, i
 
@@ -294,6 +305,7 @@ contains
          bare(e) = patches_at(patches, e) == 0
       end do
       !$omp end parallel do
+      found = any(bare)
       do e = 1, mesh%n_elements
          if (.not. bare(e)) cycle
          do k = 1, CORNERS

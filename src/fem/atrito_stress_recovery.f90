@@ -265,7 +265,7 @@ contains
          if (work%patches%lends(e)) call borrow_in_element(mesh, e, work, stress, asks(e))
       end do
       !$omp end parallel do
-      call borrow_from_all(mesh, pack([(e, e=1, mesh%n_elements)], asks), work, stress)
+      if (any(asks)) call borrow_from_all(mesh, asks, work, stress)
    end subroutine borrow_stresses
 
    !> Rank of the best patches of an element for its node.
@@ -321,19 +321,18 @@ contains
    end subroutine borrow_in_element
 
    !> The nodes of some elements that have no patch of rank 1: the best rank that one of their elements has is taken of all.
-   pure subroutine borrow_from_all(mesh, elements, work, stress)
+   pure subroutine borrow_from_all(mesh, asks, work, stress)
       type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: elements(:)
+      logical, intent(in) :: asks(:)               !< of each element
       type(recovery_t), intent(in) :: work
       real(wp), intent(inout) :: stress(:, :)
       integer(ip), allocatable :: rank(:), count(:)
-      integer(ip) :: j, k, e, at, own
+      integer(ip) :: k, e, at, own
 
-      if (size(elements) == 0) return
       allocate (rank(work%patches%n), source=RANK_NONE)
       allocate (count(work%patches%n), source=0_ip)
-      do j = 1, size(elements, kind=ip)
-         e = elements(j)
+      do e = 1, mesh%n_elements
+         if (.not. asks(e)) cycle
          do k = 1, mesh%shape(e)
             at = work%patches%place(k, e)
             own = best_rank(work%patches, e, k)

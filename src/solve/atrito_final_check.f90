@@ -50,9 +50,13 @@ contains
       type(equilibrium_t), intent(out) :: equilibrium
       type(extremes_t) :: found(run_count(fem%mesh%n_nodes))
       real(wp) :: allowed
-      integer(ip) :: run, first, last
+      integer(ip) :: run, first, last, node
 
-      reaction = 0.0_wp
+      !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
+      do node = 1, fem%mesh%n_nodes
+         reaction(:, node) = 0.0_wp
+      end do
+      !$omp end parallel do
       call internal_forces(fem, u, reaction, equilibrium%energy)
       !$omp parallel do schedule(static) private(first, last) if (is_shared(fem%mesh%n_nodes))
       do run = 1, size(found, kind=ip)
