@@ -14,7 +14,7 @@ module atrito_element_store
       integer(ip), allocatable :: matrix_of(:)   !< (n or more)
       integer(ip) :: n_matrices = 0              !< different ones
       integer(lp), allocatable :: matrix_start(:) !< (n_matrices + 1 or more) matrix m: values(matrix_start(m) + 1:)
-      real(wp), allocatable :: values(:)         !< full matrices by columns
+      real(wp), allocatable :: values(:)         !< lower triangles by columns
    end type element_store_t
 
 contains
@@ -60,10 +60,10 @@ contains
       is_newest = .false.
       if (store%n_matrices == 0) return
       first = store%matrix_start(store%n_matrices)
-      if (store%matrix_start(store%n_matrices + 1) - first /= int(m, lp)**2) return
+      if (store%matrix_start(store%n_matrices + 1) - first /= int(m, lp)*int(m + 1, lp)/2) return
       do j = 1, m
-         if (any(store%values(first + 1:first + m) /= matrix(:, j))) return
-         first = first + m
+         if (any(store%values(first + 1:first + m - j + 1) /= matrix(j:, j))) return
+         first = first + m - j + 1
       end do
       is_newest = .true.
    end function is_newest
@@ -72,16 +72,17 @@ contains
       type(element_store_t), intent(inout) :: store
       integer(ip), intent(in) :: m
       real(wp), intent(in) :: matrix(m, m)
-      integer(lp) :: first
+      integer(lp) :: first, needed
       integer(ip) :: j
 
       if (store%n_matrices + 2 > size(store%matrix_start)) call grow_starts(store%matrix_start)
       first = store%matrix_start(store%n_matrices + 1)
-      if (first + int(m, lp)**2 > size(store%values, kind=lp)) call grow_values(store%values, 2*(first + int(m, lp)**2))
+      needed = first + int(m, lp)*int(m + 1, lp)/2
+      if (needed > size(store%values, kind=lp)) call grow_values(store%values, 2*needed)
       store%n_matrices = store%n_matrices + 1
       do j = 1, m
-         store%values(first + 1:first + m) = matrix(:, j)
-         first = first + m
+         store%values(first + 1:first + m - j + 1) = matrix(j:, j)
+         first = first + m - j + 1
       end do
       store%matrix_start(store%n_matrices + 1) = first
    end subroutine add_values

@@ -7,10 +7,12 @@ module atrito_front
    use atrito_lapack, only: dgemm, dpotrf, dsyrk, dtrsm
    implicit none (type, external)
    private
-   public :: eliminate, add_element, add_update, pack_columns, unpack_update, packed_length
+   public :: clear_front, eliminate, add_element, add_update, pack_columns, unpack_update, packed_length
 
    !> Pivots eliminated at a time, and rows or columns of a tile.
    integer(ip), parameter :: PANEL = 128_ip, TILE = 192_ip
+   !> Columns moved at a time, and the order from which on that is shared out.
+   integer(ip), parameter :: STRIP = 64_ip, LARGE = 512_ip
 
 contains
 
@@ -21,42 +23,75 @@ contains
       packed_length = int(columns, lp)*int(order, lp) - int(columns, lp)*int(columns - 1, lp)/2
    end function packed_length
 
-   !> Adds an element matrix to the lower triangle.
+   !> Adds an element matrix, a packed lower triangle.
    pure subroutine add_element(order, front, m, places, matrix)
       integer(ip), intent(in) :: order, m
       real(wp), intent(inout) :: front(order, order)
       integer(ip), intent(in) :: places(m)       !< in the front; 0: prescribed
-      real(wp), intent(in) :: matrix(m, m)
-      integer(ip) :: a, b, i, j
+      real(wp), intent(in) :: matrix(*)
+      integer(ip) :: a, b, i, j, k
 
+      k = 0
       do b = 1, m
-         j = places(b)
-         if (j == 0) cycle
-         do a = 1, m
-            i = places(a)
-            if (i >= j) front(i, j) = front(i, j) + matrix(a, b)
+         do a = b, m
+            k = k + 1
+            i = max(places(a), places(b))
+            j = min(places(a), places(b))
+            if (j > 0) front(i, j) = front(i, j) + matrix(k)
          end do
       end do
    end subroutine add_element
 
+   !> Zeroes the lower triangle.
+   subroutine clear_front(order, front)
+      integer(ip), intent(in) :: order
+      real(wp), intent(inout) :: front(order, order)
+      integer(ip) :: first, j
+
+      do first = 1, order, STRIP
+         !$omp task default(none) shared(front) firstprivate(first, order) private(j) if(order > LARGE)
+         do j = first, min(first + STRIP - 1, order)
+            front(j:, j) = 0.0_wp
+         end do
+         !$omp end task
+      end do
+      !$omp taskwait
+   end subroutine clear_front
+
    !> Adds what the elimination of a child left, a packed lower triangle.
-   pure subroutine add_update(order, front, m, places, update)
+   subroutine add_update(order, front, m, places, update)
       integer(ip), intent(in) :: order, m
       real(wp), intent(inout) :: front(order, order)
       integer(ip), intent(in) :: places(m)       !< in the front, ascending
       real(wp), intent(in) :: update(*)
+      integer(ip) :: first
+
+      do first = 1, m, STRIP
+         !$omp task default(none) shared(front, places, update) firstprivate(first, order, m) if(m > LARGE)
+         call add_strip(order, front, m, places, update, first, min(first + STRIP - 1, m))
+         !$omp end task
+      end do
+      !$omp taskwait
+   end subroutine add_update
+
+   !> Adds some columns of an update. Each has a column of the front to itself.
+   pure subroutine add_strip(order, front, m, places, update, first, last)
+      integer(ip), intent(in) :: order, m, first, last
+      real(wp), intent(inout) :: front(order, order)
+      integer(ip), intent(in) :: places(m)
+      real(wp), intent(in) :: update(*)
       integer(ip) :: a, b, j
       integer(lp) :: k
 
-      k = 0
-      do b = 1, m
+      k = packed_length(m, first - 1)
+      do b = first, last
          j = places(b)
          do a = b, m
             k = k + 1
             front(places(a), j) = front(places(a), j) + update(k)
          end do
       end do
-   end subroutine add_update
+   end subroutine add_strip
 
    !> Eliminates the first pivots: their columns become those of L, the rest the Schur complement.
    subroutine eliminate(order, n_pivots, front, failed)
@@ -118,10 +153,25 @@ contains
    end subroutine update_columns
 
    !> Columns of a lower triangle one behind the other.
-   pure subroutine pack_columns(order, front, first, last, packed)
+   subroutine pack_columns(order, front, first, last, packed)
       integer(ip), intent(in) :: order, first, last
       real(wp), intent(in) :: front(order, order)
-      real(wp), intent(out) :: packed(*)
+      real(wp), intent(inout) :: packed(*)
+      integer(ip) :: start
+
+      do start = first, last, STRIP
+         !$omp task default(none) shared(front, packed) firstprivate(start, order, first, last) if(order > LARGE)
+         call pack_strip(order, front, start, min(start + STRIP - 1, last), &
+                         packed(packed_length(order, start - 1) - packed_length(order, first - 1) + 1))
+         !$omp end task
+      end do
+      !$omp taskwait
+   end subroutine pack_columns
+
+   pure subroutine pack_strip(order, front, first, last, packed)
+      integer(ip), intent(in) :: order, first, last
+      real(wp), intent(in) :: front(order, order)
+      real(wp), intent(inout) :: packed(*)
       integer(ip) :: j
       integer(lp) :: k
 
@@ -130,7 +180,7 @@ contains
          packed(k + 1:k + order - j + 1) = front(j:order, j)
          k = k + order - j + 1
       end do
-   end subroutine pack_columns
+   end subroutine pack_strip
 
    !> A full symmetric matrix from its packed lower triangle.
    pure subroutine unpack_update(order, packed, matrix)

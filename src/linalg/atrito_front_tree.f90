@@ -18,7 +18,7 @@ module atrito_front_tree
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
-   public :: front_tree_t, build_front_tree, front_record, HEADER
+   public :: front_tree_t, build_front_tree, HEADER
 
    !> Numbers before the children in a record.
    integer(ip), parameter :: HEADER = 4_ip
@@ -28,12 +28,12 @@ module atrito_front_tree
       integer(ip) :: n_parts = 0
       integer(ip), allocatable :: first(:)       !< (n_parts + 1) places of part p: first(p)..first(p + 1) - 1
       integer(ip), allocatable :: class_of(:)    !< (n_parts)
+      integer(ip), allocatable :: parent(:)      !< (n_parts) 0 for the last
+      integer(ip), allocatable :: n_descendants(:) !< (n_parts) they stand just before the part
       integer(ip) :: n_classes = 0               !< numbered so that children come before their parents
       integer(lp), allocatable :: start(:)       !< (n_classes + 1 or more) record of class c: record(start(c) + 1:start(c + 1))
       integer(ip), allocatable :: record(:)
       integer(ip), allocatable :: representative(:) !< (n_classes or more) the first part of the class
-      integer(ip) :: largest = 0                 !< order of the largest front
-      integer(lp) :: widest = 0                  !< entries of borders that wait at a time, at most
    end type front_tree_t
 
    !> What is needed while the tree is built.
@@ -69,30 +69,28 @@ contains
          call collect_border(elimination, store, tree, p, builder)
          call write_record(elimination, store, tree, p, builder)
          call find_class(tree, p, builder)
-         call push_border(tree, p, builder)
+         call push_border(p, builder)
       end do
    end subroutine build_front_tree
-
-   !> The record of a class.
-   pure function front_record(tree, class) result(record)
-      type(front_tree_t), intent(in), target :: tree
-      integer(ip), intent(in) :: class
-      integer(ip) :: record(tree%start(class + 1) - tree%start(class))
-
-      record = tree%record(tree%start(class) + 1:tree%start(class + 1))
-   end function front_record
 
    pure subroutine begin_tree(elimination, n, n_kept, tree)
       type(elimination_t), intent(in) :: elimination
       integer(ip), intent(in) :: n, n_kept
       type(front_tree_t), intent(inout) :: tree
       integer(ip), parameter :: ROOM = 256_ip
+      integer(ip) :: p
 
       allocate (tree%first(tree%n_parts + 1), tree%class_of(tree%n_parts))
       tree%first(1) = 1
       tree%first(2:tree%n_parts) = elimination%last + 1
       tree%first(tree%n_parts) = n - n_kept + 1
       tree%first(tree%n_parts + 1) = n + 1
+      allocate (tree%parent(tree%n_parts), tree%n_descendants(tree%n_parts), source=0_ip)
+      do p = 1, tree%n_parts - 1
+         tree%parent(p) = elimination%parent(p)
+         if (tree%parent(p) == 0) tree%parent(p) = tree%n_parts
+         tree%n_descendants(tree%parent(p)) = tree%n_descendants(tree%parent(p)) + 1 + tree%n_descendants(p)
+      end do
       allocate (tree%start(ROOM), tree%representative(ROOM), tree%record(ROOM))
       tree%start(1) = 0
    end subroutine begin_tree
@@ -109,8 +107,7 @@ contains
       allocate (builder%border(n), builder%buffer(n), builder%stack(1024), builder%waiting(tree%n_parts))
       allocate (builder%first_child(tree%n_parts), builder%next_child(tree%n_parts), source=0_ip)
       do p = tree%n_parts - 1, 1, -1
-         parent = elimination%parent(p)
-         if (parent == 0) parent = tree%n_parts
+         parent = tree%parent(p)
          builder%next_child(p) = builder%first_child(parent)
          builder%first_child(parent) = p
       end do
@@ -352,7 +349,6 @@ contains
          end if
          tree%start(class + 1) = builder%written
          tree%representative(class) = p
-         tree%largest = max(tree%largest, tree%record(first + 1) + tree%record(first + 2))
       end if
       tree%class_of(p) = class
    end subroutine find_class
@@ -372,8 +368,7 @@ contains
    end function hash
 
    !> Takes the borders of the children off the stack and puts that of the part on it.
-   pure subroutine push_border(tree, p, builder)
-      type(front_tree_t), intent(inout) :: tree
+   pure subroutine push_border(p, builder)
       integer(ip), intent(in) :: p
       type(builder_t), intent(inout) :: builder
       integer(ip) :: child, i
@@ -392,7 +387,6 @@ contains
       end do
       builder%top = builder%top + builder%n_border
       builder%waiting(p) = builder%n_border
-      tree%widest = max(tree%widest, builder%top)
    end subroutine push_border
 
    pure subroutine grow(list, length)

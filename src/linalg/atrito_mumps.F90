@@ -448,7 +448,7 @@ contains
       associate (factor => self%instance%mumps%infog(29))
          ! a negative number counts millions
          if (self%n > self%n_kept) mumps_memory = mumps_memory &
-                                                   + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
+                                                  + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
       end associate
    end function mumps_memory
 

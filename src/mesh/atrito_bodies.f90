@@ -125,21 +125,16 @@ contains
    end subroutine body_graph
 
    !> The order of elimination of the sparse solver: nested dissection of the nodes, the kept equations last.
-   pure subroutine order_by_dissection(mesh, bodies, i_body, elimination)
+   subroutine order_by_dissection(mesh, bodies, i_body, elimination)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: i_body
       type(elimination_t), intent(out) :: elimination
-      type(graph_t) :: graph
       type(dissection_t) :: parts
-      integer(ip), allocatable :: local(:), nodes(:)
       integer(ip) :: i, dof, k, p, first, next
 
       associate (body => bodies%list(i_body))
-         call body_graph(mesh, body, local, graph)
-         deallocate (local)
-         nodes = pack([(i, i=1, size(body%nodes, kind=ip))], is_eliminated(bodies, body))
-         call dissect(graph, mesh%x(:, body%nodes), nodes, parts)
+         call dissect(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts)
          allocate (elimination%place(body%n))
          elimination%last = parts%last(:parts%n)
          elimination%parent = parts%parent(:parts%n)
@@ -148,7 +143,7 @@ contains
          do p = 1, parts%n
             do i = first, parts%last(p)
                do dof = 1, 2
-                  k = bodies%equation(dof, body%nodes(nodes(i)))
+                  k = bodies%equation(dof, parts%order(i))
                   if (k == 0) cycle
                   next = next + 1
                   elimination%place(k) = next
@@ -163,16 +158,19 @@ contains
       end associate
    end subroutine order_by_dissection
 
-   !> Which of a body's nodes have equations that are not kept.
-   pure function is_eliminated(bodies, body) result(eliminated)
+   !> Which nodes of the mesh are the body's and have equations that are not kept.
+   pure function is_eliminated(mesh, bodies, body) result(eliminated)
+      type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       type(body_t), intent(in) :: body
-      logical :: eliminated(size(body%nodes))
+      logical, allocatable :: eliminated(:)
       integer(ip) :: i
 
+      allocate (eliminated(mesh%n_nodes), source=.false.)
       do i = 1, size(body%nodes, kind=ip)
-         eliminated(i) = any(bodies%equation(:, body%nodes(i)) > 0) .and. &
-                         all(bodies%equation(:, body%nodes(i)) <= body%n - body%n_kept)
+         associate (node => body%nodes(i))
+            eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_kept)
+         end associate
       end do
    end function is_eliminated
 

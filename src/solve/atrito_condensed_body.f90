@@ -8,7 +8,7 @@ module atrito_condensed_body
    use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
    use atrito_bodies, only: mode_at, order_by_dissection
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
-   use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
+   use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, &
@@ -31,11 +31,11 @@ module atrito_condensed_body
    ! near 4,000 equations for a square, and never for a strip of few elements across (docs/developer/solvers.md).
    !> Floating-point operations that LAPACK's band routines do in the time of one of the skyline's.
    real(wp), parameter :: BAND_SPEED = 2.2_wp
-   !> The same of MUMPS.
-   real(wp), parameter :: SPARSE_SPEED = 1.4_wp
-   !> What MUMPS's analysis, lists and solves take beyond the skyline's: for an equation, and to begin with.
-   real(wp), parameter :: SPARSE_OVERHEAD = 14000.0_wp, SPARSE_START = 8.0e6_wp
-   !> Equations from which on a body is handed to MUMPS unasked. It pays from a sixth of that on: docs/performance.md.
+   !> The same of the fronts of the sparse solver.
+   real(wp), parameter :: SPARSE_SPEED = 2.0_wp
+   !> What its order, tree and solves take beyond the skyline's: for an equation, and to begin with.
+   real(wp), parameter :: SPARSE_OVERHEAD = 1500.0_wp, SPARSE_START = 2.0e6_wp
+   !> Equations from which on a body gets the sparse solver unasked. It pays from a twentieth of that on: docs/performance.md.
    integer(ip), parameter :: LEAST_SPARSE = 32000_ip
 
 contains
@@ -60,6 +60,7 @@ contains
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
       end if
       result%storage = storage_name(kind)
+      result%storage_kind = kind
       result%half_bandwidth = half_bandwidth(profile)
       result%profile = profile_length(profile)
       if (kind >= STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
@@ -98,7 +99,9 @@ contains
       text = to_text(own/max(other, tiny(other)), 2)
    end function ratio_text
 
-   !> Assembles, factors and condenses a body. status: STATUS_SINGULAR with the body, node and motion in words.
+   !> Assembles, factors and condenses a body, by the storage that was chosen for `result` or that is chosen now.
+   !>
+   !> status: STATUS_SINGULAR with the body, node and motion in words.
    subroutine condense_body(fem, i_body, asked, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -114,10 +117,17 @@ contains
                          //'; no support and no contact pair holds it')
          return
       end if
-      call body_profile(fem, i_body, profile)
-      call choose_storage(profile, asked, kind, result)
-      if (kind >= STORAGE_SPARSE) call order_by_dissection(fem%mesh, fem%bodies, i_body, profile%elimination)
-      call new_storage(kind, body%storage)
+      call start_phase('order')
+      if (result%storage_kind < STORAGE_SPARSE) then
+         call body_profile(fem, i_body, profile)
+         if (result%storage_kind == 0) call choose_storage(profile, asked, kind, result)
+      end if
+      if (result%storage_kind >= STORAGE_SPARSE) then
+         call begin_profile(profile, fem%bodies%list(i_body)%n, fem%bodies%list(i_body)%n_kept)
+         call order_by_dissection(fem%mesh, fem%bodies, i_body, profile%elimination)
+      end if
+      call stop_phase('order')
+      call new_storage(result%storage_kind, body%storage)
       call start_phase('assemble')
       call body%storage%create(profile, status)
       if (is_ok(status)) call assemble_body(fem, i_body, body%storage)

@@ -1,4 +1,5 @@
-!> The twin of src/linalg/atrito_mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). It is not accepted on the command line then, so nothing here is reached; create fails all the same.
+!> The twin of src/linalg/atrito_mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). The command line does not
+!> accept this solver then, so nothing here is reached; create fails all the same.
 module atrito_mumps
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
