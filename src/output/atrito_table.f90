@@ -10,7 +10,7 @@ module atrito_table
    use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
    implicit none (type, external)
    private
-   public :: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table
+   public :: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_words, write_table
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE
 
    character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
@@ -23,7 +23,7 @@ module atrito_table
    !> Rows that are made into text at a time: that of a wide table stays in the nearer part of the cache.
    integer(ip), parameter :: PIECE_ROWS = 256
    !> Pieces of a round for each thread: where there are many, a thread that is late matters little.
-   integer(ip), parameter :: PIECES_OF_THREAD = 16
+   integer(ip), parameter :: PIECES_OF_THREAD = 32
 
    type :: column_t
       character(len=:), allocatable :: name, dimension
@@ -32,6 +32,7 @@ module atrito_table
       logical :: on_the_left = .false.             !< within its field
       integer :: first = 0, last = 0               !< its place in a line
       real(wp), allocatable :: reals(:)
+      real(wp), pointer :: field(:) => null()      !< reals that stay where they are; the table knows which of them
       integer(ip), allocatable :: integers(:)
       type(string_t), allocatable :: words(:)
    end type column_t
@@ -41,6 +42,7 @@ module atrito_table
       character(len=:), allocatable :: title       !< what a row is
       type(string_t), allocatable :: remarks(:)    !< further comment lines
       integer(ip) :: n_rows = 0
+      integer(ip), allocatable :: places(:)        !< of each row in the fields of add_field; not allocated: all, in order
       type(column_t), allocatable :: columns(:)
    end type table_t
 
@@ -79,6 +81,20 @@ contains
       column%reals = values
       call add_column(table, name, dimension, column)
    end subroutine add_reals
+
+   !> Adds a column of reals that are not copied but read when the table is written: those at table%places.
+   subroutine add_field(table, name, dimension, field, scale)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: name, dimension
+      real(wp), intent(in), target :: field(:)
+      real(wp), intent(in) :: scale
+      type(column_t) :: column
+
+      column%kind = KIND_REAL
+      column%zero = ZERO_SHARE*scale
+      column%field => field
+      call add_column(table, name, dimension, column)
+   end subroutine add_field
 
    !> Adds a column of integers.
    pure subroutine add_integers(table, name, values)
@@ -131,6 +147,7 @@ contains
       to%kind = from%kind
       to%zero = from%zero
       to%on_the_left = from%on_the_left
+      to%field => from%field
       if (allocated(from%name)) call move_alloc(from%name, to%name)
       if (allocated(from%dimension)) call move_alloc(from%dimension, to%dimension)
       if (allocated(from%reals)) call move_alloc(from%reals, to%reals)
@@ -298,21 +315,24 @@ contains
          lines(row) (len(lines):) = NEW_LINE_CHARACTER
       end do
       do i = 1, size(table%columns)
-         call format_column(table%columns(i), digits, before, lines)
+         call format_column(table, table%columns(i), digits, before, lines)
       end do
    end subroutine format_rows
 
-   subroutine format_column(column, digits, before, lines)
+   subroutine format_column(table, column, digits, before, lines)
+      type(table_t), intent(in) :: table
       type(column_t), intent(in) :: column
       integer, intent(in) :: digits
       integer(ip), intent(in) :: before
-      character(len=*), intent(inout) :: lines(:)
+      character(len=*), intent(inout) :: lines(:)  !< (rows), PIECE_ROWS of them at most
+      real(wp) :: x(PIECE_ROWS)
       integer(ip) :: row, n
 
       n = size(lines, kind=ip)
       select case (column%kind)
       case (KIND_REAL)
-         call put_reals(column%reals(before + 1:before + n), column%zero, digits, column%first, column%last, lines)
+         call fetch_reals(table, column, before, x(:n))
+         call put_reals(x(:n), column%zero, digits, column%first, column%last, lines)
       case (KIND_INTEGER)
          call put_integers(column%integers(before + 1:before + n), column%first, column%last, lines)
       case (KIND_WORD)
@@ -321,6 +341,23 @@ contains
          end do
       end select
    end subroutine format_column
+
+   pure subroutine fetch_reals(table, column, before, x)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer(ip), intent(in) :: before
+      real(wp), intent(out) :: x(:)
+      integer(ip) :: n
+
+      n = size(x, kind=ip)
+      if (.not. associated(column%field)) then
+         x = column%reals(before + 1:before + n)
+      else if (allocated(table%places)) then
+         x = column%field(table%places(before + 1:before + n))
+      else
+         x = column%field(before + 1:before + n)
+      end if
+   end subroutine fetch_reals
 
    pure subroutine put_word(word, on_the_left, field)
       character(len=*), intent(in) :: word
