@@ -5,6 +5,7 @@
 !> run-time library, so that every number is rounded correctly and 17 digits give back the same double.
 module atrito_number_text
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL, is_nan
+   use atrito_powers_of_ten, only: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
    implicit none (type, external)
    private
    public :: put_real, put_reals, put_integer, put_integers, real_width, integer_width, trimmed_real
@@ -12,31 +13,8 @@ module atrito_number_text
 
    integer, parameter :: LEAST_DIGITS = 6, MOST_DIGITS = 17, DEFAULT_DIGITS = 10
 
-   !> Integers of 128 bits: the product of two of 63.
-   integer, parameter :: XP = selected_int_kind(38)
-   !> 10**k = POWER(k) 2**(shift_of_power(k)), 2**62 <= POWER(k) < 2**63, rounded.
-   integer, parameter :: MOST_POWER = 44
-   integer(lp), parameter :: POWER(-MOST_POWER:MOST_POWER) = [ &
-           8227522786606030211_lp, 5142201741628768882_lp, 6427752177035961102_lp, 8034690221294951378_lp, 5021681388309344611_lp, &
-           6277101735386680764_lp, 7846377169233350955_lp, 4903985730770844347_lp, 6129982163463555433_lp, 7662477704329444292_lp, &
-           4789048565205902682_lp, 5986310706507378353_lp, 7482888383134222941_lp, 4676805239458889338_lp, 5846006549323611673_lp, &
-           7307508186654514591_lp, 9134385233318143239_lp, 5708990770823839524_lp, 7136238463529799405_lp, 8920298079412249257_lp, &
-           5575186299632655785_lp, 6968982874540819732_lp, 8711228593176024665_lp, 5444517870735015415_lp, 6805647338418769269_lp, &
-           8507059173023461587_lp, 5316911983139663492_lp, 6646139978924579365_lp, 8307674973655724206_lp, 5192296858534827629_lp, &
-           6490371073168534536_lp, 8112963841460668170_lp, 5070602400912917606_lp, 6338253001141147007_lp, 7922816251426433759_lp, &
-           4951760157141521100_lp, 6189700196426901374_lp, 7737125245533626718_lp, 4835703278458516699_lp, 6044629098073145874_lp, &
-           7555786372591432342_lp, 4722366482869645214_lp, 5902958103587056517_lp, 7378697629483820646_lp, 4611686018427387904_lp, &
-           5764607523034234880_lp, 7205759403792793600_lp, 9007199254740992000_lp, 5629499534213120000_lp, 7036874417766400000_lp, &
-           8796093022208000000_lp, 5497558138880000000_lp, 6871947673600000000_lp, 8589934592000000000_lp, 5368709120000000000_lp, &
-           6710886400000000000_lp, 8388608000000000000_lp, 5242880000000000000_lp, 6553600000000000000_lp, 8192000000000000000_lp, &
-           5120000000000000000_lp, 6400000000000000000_lp, 8000000000000000000_lp, 5000000000000000000_lp, 6250000000000000000_lp, &
-           7812500000000000000_lp, 4882812500000000000_lp, 6103515625000000000_lp, 7629394531250000000_lp, 4768371582031250000_lp, &
-           5960464477539062500_lp, 7450580596923828125_lp, 4656612873077392578_lp, 5820766091346740723_lp, 7275957614183425903_lp, &
-           9094947017729282379_lp, 5684341886080801487_lp, 7105427357601001859_lp, 8881784197001252323_lp, 5551115123125782702_lp, &
-           6938893903907228378_lp, 8673617379884035472_lp, 5421010862427522170_lp, 6776263578034402713_lp, 8470329472543003391_lp, &
-                             5293955920339377119_lp, 6617444900424221399_lp, 8271806125530276749_lp, 5169878828456422968_lp]
    !> Of a double: bits of the fraction with the leading one, that one, exponent of the least normal number.
-   integer, parameter :: POWER_BITS = 62, LOWER_BITS = 63, FRACTION_BITS = 53, BIAS = 1022
+   integer, parameter :: FRACTION_BITS = 53, BIAS = 1022
    integer(lp), parameter :: LAST_BIT = 2_lp**(FRACTION_BITS - 1)
    integer(lp), parameter :: MAGNITUDE = huge(0_lp)              !< all bits but the sign
    integer, parameter :: ZERO = iachar('0'), EIGHT = 8
@@ -212,13 +190,13 @@ contains
       mantissa = 0_lp
       decided = exponent_of_ten + 1 < MOST_POWER .and. digits - 1 - exponent_of_ten <= MOST_POWER
       if (.not. decided) return                              ! zero, denormal, infinite and no numbers are among these
-      significand = shiftl(ior(iand(bits, LAST_BIT - 1_lp), LAST_BIT), LOWER_BITS - FRACTION_BITS)
+      significand = shiftl(ior(iand(bits, LAST_BIT - 1_lp), LAST_BIT), POWER_BITS - FRACTION_BITS)
       k = exponent_of_ten + 1
       ! where this POWER, which is rounded, cannot tell |x| from 10**k, the digits of both are the same
-      if (binary == shift_of_power(k) + LOWER_BITS .and. significand >= POWER(k)) exponent_of_ten = k
+      if (binary == POWER_SHIFT(k) + POWER_BITS .and. significand >= POWER(k)) exponent_of_ten = k
       k = digits - 1 - exponent_of_ten
-      upper = int(shiftr(int(significand, XP)*int(POWER(k), XP), LOWER_BITS), lp)
-      shift = -binary - shift_of_power(k)
+      upper = int(shiftr(int(significand, XP)*int(POWER(k), XP), POWER_BITS), lp)
+      shift = -binary - POWER_SHIFT(k)
       half = shiftl(1_lp, shift - 1)
       decided = abs(iand(upper, 2_lp*half - 1_lp) - half) > DOUBT
       mantissa = shiftr(shiftr(upper, shift - 1) + 1_lp, 1)
@@ -227,13 +205,6 @@ contains
          exponent_of_ten = exponent_of_ten + 1
       end if
    end subroutine find_digits
-
-   !> floor(k log2(10)) - 62.
-   pure integer function shift_of_power(k)
-      integer, intent(in) :: k                     !< -MOST_POWER..MOST_POWER
-
-      shift_of_power = shifta(k*217706, 16) - POWER_BITS
-   end function shift_of_power
 
    !> What put_real leaves over: 0, nan and inf, exponents of three digits, and what takes the run-time library to round.
    pure subroutine put_real_slowly(x, digits, field)
