@@ -88,7 +88,7 @@ contains
       associate (body => bodies%list(i_body))
          call body_graph(mesh, body, local, graph)
          allocate (order(size(body%nodes)))
-         call order_contact_last(graph, local(contact_nodes), order)
+         call order_contact_last(graph, local(contact_nodes), order, connected=.true.)
          body%nodes = body%nodes(order)
          body%n = 0
          body%n_kept = 0
@@ -116,7 +116,7 @@ contains
 
       allocate (local(mesh%n_nodes), source=0_ip)
       local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
-      allocate (connectivity(size(mesh%nodes, 1), size(body%elements)))
+      allocate (connectivity(maxval(mesh%shape(body%elements)), size(body%elements)))
       do i = 1, size(body%elements, kind=ip)
          connectivity(:, i) = 0
          connectivity(:mesh%shape(body%elements(i)), i) = local(mesh%nodes(:mesh%shape(body%elements(i)), body%elements(i)))
@@ -245,9 +245,11 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: element
-      integer(ip) :: equations(2*mesh%shape(element))
+      integer(ip) :: equations(2*mesh%shape(element)), k
 
-      equations = reshape(bodies%equation(:, mesh%nodes(:mesh%shape(element), element)), [2*mesh%shape(element)])
+      do k = 1, mesh%shape(element)
+         equations(2*k - 1:2*k) = bodies%equation(:, mesh%nodes(k, element))
+      end do
    end function element_equations
 
 end module atrito_bodies

@@ -3,8 +3,8 @@ module atrito_solve
    use atrito_assembly, only: fem_t, body_profile
    use atrito_blas_info, only: is_reference_blas
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
-   use atrito_body_store, only: body_store_t, provide_bodies, take_numbering
-   use atrito_condensed_body, only: condensed_body_t, choose_storage, motion_text
+   use atrito_body_store, only: body_store_t, provide_bodies, take_numbering, release_bodies
+   use atrito_condensed_body, only: choose_storage, motion_text
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
    use atrito_contact_rows, only: contact_rows_t, build_rows
@@ -134,7 +134,7 @@ contains
          return
       end if
       call start_phase('recover')
-      call recover(model, data, store%bodies, solution, results)
+      call recover(model, data, store, solution, results)
       call stop_phase('recover')
       call start_phase('estimate')
       call estimate_error(data%fem, results)
@@ -302,10 +302,10 @@ contains
    end subroutine explain_failure
 
    !> Displacements, reactions, stresses, contact fields, energies and balances.
-   subroutine recover(model, data, condensed, solution, results)
+   subroutine recover(model, data, store, solution, results)
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(in) :: data
-      type(condensed_body_t), intent(in) :: condensed(:)
+      type(body_store_t), intent(inout) :: store           !< its factored bodies are not needed after the displacements
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results
       real(wp), allocatable :: contact(:, :)
@@ -316,8 +316,9 @@ contains
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       results%u = data%value
       do b = 1, data%fem%bodies%n
-         call elastic_displacements(data%fem, b, condensed(b), contact, results%u)
+         call elastic_displacements(data%fem, b, store%bodies(b), contact, results%u)
       end do
+      call release_bodies(store)
       allocate (results%reaction, mold=results%u)
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium)
       imbalance = check_balance(data%fem, data%f, contact)
