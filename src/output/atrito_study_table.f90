@@ -99,13 +99,27 @@ contains
       end associate
       call add_rule(page, '-')
       do k = 1, size(study%words)
-         call add_paragraph(page, '- '//study%words(k)%s, 0)
+         call add_item(page, study%words(k)%s)
       end do
       call add_rule(page, '-')
       call add_line(page, left(left('tables in', 13)//folder, WIDTH))
       call add_line(page, left('', 13)//'study, and a folder a run')
       call add_rule(page, '=')
    end subroutine compose_study
+
+   !> A paragraph with a dash before it.
+   subroutine add_item(page, text)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: text
+      type(page_t) :: part
+      integer :: i
+
+      call begin_page(part, WIDTH - 2)
+      call add_paragraph(part, text, 0)
+      do i = 1, part%n
+         call add_line(page, merge('- ', '  ', i == 1)//part%lines(i)%s)
+      end do
+   end subroutine add_item
 
    pure function row_text(element, level, dofs, value, error, order, estimate, seconds) result(text)
       character(len=*), intent(in) :: element, level, dofs, value, error, order, estimate, seconds

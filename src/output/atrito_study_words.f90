@@ -216,7 +216,7 @@ contains
             text = text//'The penalty lets the bodies overlap, by up to '//to_text(study%rows(k)%penetration, 2) &
                    //' [L]; no mesh takes that away, a smaller delta does'
          else
-            text = text//'Friction is regularised and needs slip to develop; no mesh takes that away, a stiffer law (eps) does'
+            text = text//'Friction is regularised and needs slip to develop; no mesh takes that away, a stiffer law does'
          end if
       end associate
    end function reason
