@@ -132,6 +132,7 @@ contains
          if (rows(k)%element /= rows(k - 2)%element) return
          q = [rows(k - 2)%values(i), rows(k - 1)%values(i), rows(k)%values(i)]
       end associate
+      if (any(is_nan(q))) return
       if (all(abs(q - q(3)) <= study%rounding*abs(q(3)))) q = q(3)
       call richardson_limit(q, limit, order)
    end subroutine limit_of_three

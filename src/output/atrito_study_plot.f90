@@ -105,7 +105,10 @@ contains
       type(text_file_t) :: file
       integer :: j, panels
 
-      panels = size(study%quantities) + 2
+      panels = 2
+      do j = 1, size(study%quantities)
+         if (has_panel(study, elements, j)) panels = panels + 1
+      end do
       call open_text(set, STUDY_PLOT//'.gp', file)
       call put_top(file, STUDY_PLOT, 'error against run time, and run time against size')
       call put_line(file, '# Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
@@ -119,6 +122,7 @@ contains
       call put_line(file, 'set multiplot layout '//to_text(int(panels, ip))//',1 title '// &
                     quoted(cleaned(title, LONGEST_TITLE)//'   (slopes are those of the last two levels)')//' noenhanced')
       do j = 1, size(study%quantities)
+         if (.not. has_panel(study, elements, j)) cycle
          call put_labels(file, 'processor time [s]', 'error of '//study%quantities(j)%name//' [%]')
          call put_curves(file, study, elements, 2, 3 + j)
       end do
@@ -131,6 +135,20 @@ contains
       call put_line(file, 'set output')
       call close_text(file, status)
    end subroutine write_script
+
+   !> A quantity without a reference has no errors to show, one that is held has nothing but rounding.
+   pure logical function has_panel(study, elements, j)
+      type(study_t), intent(in) :: study
+      type(string_t), intent(in) :: elements(:)
+      integer, intent(in) :: j                      !< quantity
+      integer :: i
+
+      has_panel = .false.
+      if (study%quantities(j)%is_held) return
+      do i = 1, size(elements)
+         has_panel = has_panel .or. has_points(study, elements(i)%s, 2, 3 + j)
+      end do
+   end function has_panel
 
    !> The label of the ordinate stands at the same place in all panels, however long their numbers are.
    subroutine put_labels(file, x_label, y_label)

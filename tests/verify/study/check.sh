@@ -107,6 +107,11 @@ near 'smooth field, cpe4: order' "$(value_of 4 cpe4 strain_energy_order)" 2 0.1
 near 'smooth field, cpe9: order' "$(value_of 4 cpe9 strain_energy_order)" 4 0.1
 says 'smooth field' out/study.tab '2 (cpe9) at the last level, as for a smooth solution'
 
+# A quantity that the load prescribes tells nothing, and has no panel.
+"$atrito" study "$input/ex1-plate-on-support.inp" --levels 3 -o out --quiet --plot || complain 'held'
+says 'held' out/study.tab '# normal_resultant: 1.5 in every run, but for rounding'
+says 'held' out/plots/study.gp 'multiplot layout 3,1'
+
 # Faults are told before anything is written.
 for fault in '--levels 2 --elements cpe4' '--levels 2 --reference energy' '--levels 2 --reference strain_energy=x' '--elements cps4'; do
    # shellcheck disable=SC2086
