@@ -337,19 +337,19 @@ contains
          error = wrong('unknown solver '//value, expected=value_text('--solver'), &
                        nearest=nearest_names(value, string_list(SOLVERS), 2))
       else if (.not. is_there(value)) then
-         error = wrong('--solver sparse needs MUMPS, and '//mumps_trouble(), expected='auto, skyline or banded')
+         error = wrong('--solver mumps needs MUMPS, and '//mumps_trouble(), expected='auto, skyline, banded or sparse')
       else
          command%solver = value
          ok = .true.
       end if
    end subroutine take_solver
 
-   !> The sparse solver is in a library, which is looked for when it is asked for.
+   !> MUMPS is a library, which is looked for when it is asked for.
    logical function is_there(solver)
       character(len=*), intent(in) :: solver
 
       is_there = .true.
-      if (solver == 'sparse') is_there = has_mumps()
+      if (solver == 'mumps') is_there = has_mumps()
    end function is_there
 
    subroutine take_integer(text, least, most, value, ok)

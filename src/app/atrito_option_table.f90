@@ -14,7 +14,7 @@ module atrito_option_table
    integer, parameter :: TASK_OPTIONS = 7           !< --help
    integer, parameter :: TASK_VERSION = 8           !< --version
 
-   character(len=7), parameter :: SOLVERS(4) = ['auto   ', 'skyline', 'banded ', 'sparse ']
+   character(len=7), parameter :: SOLVERS(5) = ['auto   ', 'skyline', 'banded ', 'sparse ', 'mumps  ']
    integer, parameter :: MOST_THREADS = 1024
    integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
    character(len=4), parameter :: ELEMENT_NAMES(4) = ['cpe4', 'cps4', 'cpe9', 'cps9']
@@ -105,7 +105,7 @@ contains
       case ('--reference')
          text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
       case ('--solver')
-         text = 'auto, skyline, banded or sparse'
+         text = 'auto, skyline, banded, sparse or mumps'
       case ('--threads')
          text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
       case ('--digits')

@@ -20,7 +20,8 @@ module atrito_run
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: results_t, contact_result_t
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
+   use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
+                           SOLVER_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
    use atrito_threads, only: set_threads
@@ -224,6 +225,7 @@ contains
       if (command%solver == 'skyline') options%storage_kind = SOLVER_SKYLINE
       if (command%solver == 'banded') options%storage_kind = SOLVER_BANDED
       if (command%solver == 'sparse') options%storage_kind = SOLVER_SPARSE
+      if (command%solver == 'mumps') options%storage_kind = SOLVER_MUMPS
    end function solve_options
 
 end module atrito_run

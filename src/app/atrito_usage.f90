@@ -53,7 +53,7 @@ contains
       call add_line(page, '  -o DIR             folder of the tables, made if missing; default ./output/<name of the deck>')
       call add_line(page, '  --set NAME=VALUE   value of a *PARAMETER of the deck; may be repeated')
       call add_line(page, '  --refine K         each element into 4, K times; sets, surfaces, loads and supports follow')
-      call add_line(page, '  --solver NAME      auto (default), skyline, banded or sparse')
+      call add_line(page, '  --solver NAME      auto (default), skyline, banded, sparse or mumps')
       call add_line(page, '  --threads N        default 1')
       call add_line(page, '  --digits N         significant digits of the tables, 6 to 17, default 10')
       call add_line(page, '  --plot             pictures by gnuplot: mesh and contact pairs, into DIR/plots')

@@ -9,7 +9,7 @@ module atrito_dissection
    use atrito_ordering, only: graph_t
    implicit none (type, external)
    private
-   public :: dissect
+   public :: dissect, dissection_t
 
    !> Sets so small are not cut any more.
    integer, parameter :: LEAF = 8
@@ -17,6 +17,13 @@ module atrito_dissection
    integer, parameter :: MOST_SAMPLES = 63
    !> Nodes closer to the cut than this share of the extent lie on it: round-off of a regular mesh.
    real(wp), parameter :: ON_CUT = 1.0e-6_wp
+
+   !> The parts of a dissected set, in postorder: each separator after the two parts that it divides.
+   type :: dissection_t
+      integer(ip) :: n = 0                       !< parts
+      integer(ip), allocatable :: last(:)        !< (n or more) last node of each part in the list of the nodes; a part may be empty
+      integer(ip), allocatable :: parent(:)      !< (n or more) 0: none
+   end type dissection_t
 
    type :: work_t
       integer(ip) :: cut = 0                     !< number of the cut being made
@@ -27,34 +34,71 @@ module atrito_dissection
 contains
 
    !> Brings nodes into the order of their elimination.
-   pure subroutine dissect(graph, x, nodes)
+   pure subroutine dissect(graph, x, nodes, parts)
       type(graph_t), intent(in) :: graph
       real(wp), intent(in) :: x(:, :)            !< (2, nodes of the graph) [L]
       integer(ip), intent(inout), contiguous :: nodes(:) !< distinct nodes of the graph, in any order
+      type(dissection_t), intent(out) :: parts
       type(work_t) :: work
+      integer(ip), parameter :: ROOM = 64_ip
 
+      allocate (parts%last(ROOM), parts%parent(ROOM))
       allocate (work%upper_of(graph%n), source=0_ip)
       allocate (work%buffer(size(nodes)))
-      call cut(graph, x, nodes, work)
+      if (size(nodes) > 0) call cut(graph, x, nodes, 0_ip, parts, work)
    end subroutine dissect
 
    !> The depth of the recursion is that of the tree, about log2 of the nodes.
-   pure recursive subroutine cut(graph, x, nodes, work)
+   pure recursive subroutine cut(graph, x, nodes, before, parts, work)
       type(graph_t), intent(in) :: graph
       real(wp), intent(in) :: x(:, :)
       integer(ip), intent(inout), contiguous :: nodes(:)
+      integer(ip), intent(in) :: before          !< nodes that stand before these in the list
+      type(dissection_t), intent(inout) :: parts
       type(work_t), intent(inout) :: work
-      integer(ip) :: n_lower, n_upper
+      integer(ip) :: n_lower, n_upper, lower, upper
       integer :: along
       real(wp) :: place
 
-      if (size(nodes) <= LEAF) return
-      call choose_cut(x, nodes, along, place)
-      call split(graph, x, along, place, nodes, work, n_lower, n_upper)
-      if (n_upper == 0 .or. n_upper == size(nodes)) return
-      call cut(graph, x, nodes(:n_lower), work)
-      call cut(graph, x, nodes(n_lower + 1:n_lower + n_upper), work)
+      n_upper = 0
+      if (size(nodes) > LEAF) then
+         call choose_cut(x, nodes, along, place)
+         call split(graph, x, along, place, nodes, work, n_lower, n_upper)
+      end if
+      if (n_upper == 0 .or. n_upper == size(nodes)) then
+         call add_part(parts, before + size(nodes, kind=ip))
+         return
+      end if
+      lower = 0
+      if (n_lower > 0) then
+         call cut(graph, x, nodes(:n_lower), before, parts, work)
+         lower = parts%n
+      end if
+      call cut(graph, x, nodes(n_lower + 1:n_lower + n_upper), before + n_lower, parts, work)
+      upper = parts%n
+      call add_part(parts, before + size(nodes, kind=ip))
+      if (lower > 0) parts%parent(lower) = parts%n
+      parts%parent(upper) = parts%n
    end subroutine cut
+
+   !> Adds a part without a parent, which ends with a node of the list.
+   pure subroutine add_part(parts, last)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(in) :: last
+      integer(ip), allocatable :: longer(:)
+
+      if (parts%n == size(parts%last)) then
+         allocate (longer(2*parts%n))
+         longer(:parts%n) = parts%last
+         call move_alloc(longer, parts%last)
+         allocate (longer(2*parts%n))
+         longer(:parts%n) = parts%parent
+         call move_alloc(longer, parts%parent)
+      end if
+      parts%n = parts%n + 1
+      parts%last(parts%n) = last
+      parts%parent(parts%n) = 0
+   end subroutine add_part
 
    !> Where to cut: across the longer side, a little above the median of a sample.
    pure subroutine choose_cut(x, nodes, along, place)

@@ -28,7 +28,7 @@ module atrito_solve
    use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_scene_memory, only: check_memory, check_average_memory
    use atrito_solve_history, only: solve_history_t
-   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
+   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
    use atrito_strings, only: to_text, append_string
    use atrito_timers, only: start_phase, stop_phase
@@ -36,10 +36,10 @@ module atrito_solve
    implicit none (type, external)
    private
    public :: solve_options_t, solve_static, survey_scene
-   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
+   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
 
    integer, parameter :: SOLVER_AUTO = 0, SOLVER_SKYLINE = STORAGE_SKYLINE, SOLVER_BANDED = STORAGE_BANDED, &
-                         SOLVER_SPARSE = STORAGE_SPARSE
+                         SOLVER_SPARSE = STORAGE_SPARSE, SOLVER_MUMPS = STORAGE_MUMPS
 
    type :: solve_options_t
       integer :: storage_kind = SOLVER_AUTO
