@@ -51,8 +51,11 @@ contains
                                'supports prescribe it, or the elements hold it exactly; it tells nothing of the mesh')
          else
             text = text//'reference '//to_text(quantity%reference, 8)//', '//quantity%source
-            if (quantity%doubt > study%rounding) text = text//'; other levels and elements have limits up to '// &
-                                                        percent(quantity%doubt)//' away'
+            if (quantity%doubt > study%rounding) then
+               text = text//'; other levels and elements have limits up to '//percent(quantity%doubt)//' away'
+            else if (.not. (quantity%is_given .or. quantity%doubt > 0.0_wp)) then
+               text = text//'; there is no other limit to hold it against'
+            end if
             call append_string(study%words, text)
             if (abs(quantity%reference) > 0.0_wp) call append_string(study%words, soonest(study, i))
             do k = 2, size(study%rows)
@@ -299,8 +302,8 @@ contains
       if (is_smooth) then
          found = found//', as for a smooth solution'
       else
-         found = found//'; a smooth solution has '//smooth(3:)//'. Singular points hold it back (corners, ends of contact, '// &
-                 'ends of a support): a mesh that is finer there gains more than one that is finer everywhere'
+         found = found//'; a smooth solution has '//smooth(3:)//'. Where the meshes are fine enough to tell, singular points do that '// &
+                 '(corners, ends of contact, ends of a support): a mesh that is finer there gains more than one that is finer everywhere'
       end if
       call append_string(study%words, found)
    end subroutine speak_of_estimate
