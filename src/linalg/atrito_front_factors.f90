@@ -259,8 +259,8 @@ contains
       factor%smallest_pivot = huge(pivot)
       most_lost = 0.0_wp
       do i = 1, n_pivots
-         pivot = front(i, i)**2
-         if (i == factor%failed) pivot = front(i, i)
+         pivot = front(i, i)
+         if (i /= factor%failed) pivot = pivot**2   ! the diagonal of L; one that failed is as the elimination left it
          factor%smallest_pivot = min(factor%smallest_pivot, pivot)
          factor%largest_pivot = max(factor%largest_pivot, pivot)
          if (.not. pivot > tolerance*original(i)) factor%failed = i
