@@ -302,9 +302,9 @@ contains
       if (is_smooth) then
          found = found//', as for a smooth solution'
       else
-         found = found//'; a smooth solution has '//smooth(3:)//'. Where the meshes are fine enough to tell, singular points '// &
-                 'do that (corners, ends of contact, ends of a support): a mesh that is finer there gains more than one that is'// &
-                 ' finer everywhere'
+         found = found//'; a smooth solution has '//smooth(3:)//'. Where the meshes are fine enough to tell, '// &
+                 'singular points do that (corners, ends of contact, ends of a support): a mesh that is finer there '// &
+                 'gains more than one that is finer everywhere'
       end if
       call append_string(study%words, found)
    end subroutine speak_of_estimate
