@@ -219,17 +219,19 @@ contains
       integer(ip), intent(in) :: degree              !< not above determined_degree
       type(patch_fit_t), intent(in) :: fit
       type(polynomial_t), intent(out) :: polynomial
+      real(wp) :: right(MOST_TERMS, COMPONENTS)
       integer(ip) :: i, j, n
 
       n = term_count(degree)
       polynomial%n_terms = n
       polynomial%axis = fit%axis
-      polynomial%coefficient = 0.0_wp
+      right = 0.0_wp
       do j = 2, fit%n
-         do i = 1, n
-            polynomial%coefficient(:, i) = polynomial%coefficient(:, i) + (fit%s(:, j) - fit%s(:, 1))*fit%p(i, j)
+         do i = 1, COMPONENTS                        ! all terms: loops of a fixed length are faster
+            right(:, i) = right(:, i) + fit%p(:, j)*(fit%s(i, j) - fit%s(i, 1))
          end do
       end do
+      polynomial%coefficient = transpose(right)
       call solve_moments(n, fit%factor, polynomial%coefficient)
       polynomial%coefficient(:, 1) = polynomial%coefficient(:, 1) + fit%s(:, 1)
    end subroutine fit_polynomial

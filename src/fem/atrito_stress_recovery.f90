@@ -326,19 +326,19 @@ contains
       logical, intent(in) :: asks(:)               !< of each element
       type(recovery_t), intent(in) :: work
       real(wp), intent(inout) :: stress(:, :)
-      integer(ip), allocatable :: rank(:), count(:)
+      integer(ip), allocatable :: best(:), count(:)
       integer(ip) :: k, e, at, own
 
-      allocate (rank(work%patches%n), source=RANK_NONE)
+      allocate (best(work%patches%n), source=RANK_NONE)
       allocate (count(work%patches%n), source=0_ip)
       do e = 1, mesh%n_elements
          if (.not. asks(e)) cycle
          do k = 1, mesh%shape(e)
             at = work%patches%place(k, e)
             own = best_rank(work%patches, e, k)
-            if (own == 1 .or. own > rank(at) .or. work%patches%kind(at) /= PATCH_NONE) cycle
-            if (own < rank(at)) then
-               rank(at) = own
+            if (own == 1 .or. own > best(at) .or. work%patches%kind(at) /= PATCH_NONE) cycle
+            if (own < best(at)) then
+               best(at) = own
                count(at) = 0
                stress(:, at) = 0.0_wp
             end if
