@@ -3,9 +3,9 @@
 # full while they work is told by exit 5, with nothing left behind.
 . "$(dirname "$0")/../lib.sh"
 
-sh "$here/../../bench/scene-p.sh" 60 >large.inp
+sh "$here/../../bench/scene-p.sh" 90 >large.inp
 run 0 large.inp one --threads 1 --quiet
-[ "$(grep -vc '^#' one/stress.tab)" -eq 36000 ] || complain 'the stresses have not 36000 rows'
+[ "$(grep -vc '^#' one/stress.tab)" -eq 81000 ] || complain 'the stresses have not 81000 rows'
 for threads in 2 3 4; do
    run 0 large.inp several --threads $threads --quiet
    for table in nodes stress reactions contact summary iterations; do
@@ -13,9 +13,9 @@ for threads in 2 3 4; do
    done
 done
 
-# 4000 blocks are 2 MB in dash and 4 in bash: less than the stresses, more than what comes before them
+# 8000 blocks are 4 MB in dash and 8 in bash: less than the stresses, more than what comes before them
 rm -rf full
-(ulimit -f 4000; "$atrito" large.inp -o full --threads 4 --quiet) >full.out 2>&1
+(ulimit -f 8000; "$atrito" large.inp -o full --threads 4 --quiet) >full.out 2>&1
 code=$?
 [ "$code" -eq 5 ] || complain "a full disk: exit $code, expected 5"
 says 'a full disk' full.out 'cannot be written completely'
