@@ -14,20 +14,20 @@ module atrito_option_table
    integer, parameter :: TASK_OPTIONS = 7           !< --help
    integer, parameter :: TASK_VERSION = 8           !< --version
 
-   character(len=7), parameter :: SOLVERS(4) = ['auto   ', 'skyline', 'banded ', 'sparse ']
+   character(len=7), parameter :: SOLVERS(5) = ['auto   ', 'skyline', 'banded ', 'sparse ', 'mumps  ']
    integer, parameter :: MOST_THREADS = 1024
    integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
    character(len=4), parameter :: ELEMENT_NAMES(4) = ['cpe4', 'cps4', 'cpe9', 'cps9']
 
    !> An option, and which tasks know it.
    type :: option_t
-      character(len=11) :: name
+      character(len=13) :: name
       logical :: has_value
       logical :: for_task(TASK_STUDY)               !< run, check, compare, help, sweep, study
    end type option_t
 
    logical, parameter :: Y = .true., N = .false.
-   type(option_t), parameter :: OPTIONS(16) = [ &
+   type(option_t), parameter :: OPTIONS(17) = [ &
                                 option_t('-o         ', Y, [Y, N, N, N, Y, Y]), &
                                 option_t('--set      ', Y, [Y, Y, N, N, Y, Y]), &
                                 option_t('--solver   ', Y, [Y, Y, N, N, Y, Y]), &
@@ -38,6 +38,7 @@ module atrito_option_table
                                 option_t('--atol     ', Y, [N, N, Y, N, N, N]), &
                                 option_t('--refine   ', Y, [Y, Y, N, N, Y, Y]), &
                                 option_t('--plot     ', N, [Y, N, N, N, Y, Y]), &
+                                option_t('--bench-limit', N, [Y, N, N, N, N, N]), &
                                 option_t('--levels   ', Y, [N, N, N, N, N, Y]), &
                                 option_t('--vary     ', Y, [N, N, N, N, Y, N]), &
                                 option_t('--elements ', Y, [N, N, N, N, N, Y]), &
@@ -105,7 +106,7 @@ contains
       case ('--reference')
          text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
       case ('--solver')
-         text = 'auto, skyline, banded or sparse'
+         text = 'auto, skyline, banded, sparse or mumps'
       case ('--threads')
          text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
       case ('--digits')

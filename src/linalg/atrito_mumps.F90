@@ -1,4 +1,6 @@
-!> The sparse solver: L D L' by MUMPS (multifrontal, sequential), with the kept equations as its Schur complement.
+!> The solver of the MUMPS library: L D L' by fronts, sequential, with the kept equations as its Schur complement.
+!>
+!> It checks the program's own sparse solver (atrito_multifrontal).
 !>
 !> The library is loaded when the first matrix is created, not with the program: starting would cost a millisecond more for it
 !> and for what it needs, and most scenes do without. CMake says which file that is (ATRITO_MUMPS_LIBRARY, its name with the
@@ -21,7 +23,7 @@ module atrito_mumps
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: sparse_t, has_mumps, mumps_name, mumps_trouble
+   public :: mumps_t, mumps_facts_t, has_mumps, mumps_name, mumps_trouble
 
    include 'dmumps_struc.h'
 
@@ -31,24 +33,37 @@ module atrito_mumps
       type(coordinate_matrix_t) :: matrix        !< until factor
       integer(ip), allocatable :: place(:)       !< (n) of the equations in the elimination; not allocated: MUMPS decides
       real(wp), allocatable :: reduced(:, :)     !< (n_interior, loads) the load whose half-solved part MUMPS holds
+      logical :: is_closed = .false., is_analysed = .false.
+      integer(ip) :: empty = 0                   !< an interior equation without stiffness; once it is closed
    end type instance_t
 
-   type, extends(storage_t) :: sparse_t
+   !> What MUMPS says of a factorisation.
+   type :: mumps_facts_t
+      integer(lp) :: entries = 0                 !< of the lower triangle of the matrix
+      integer(lp) :: factor_entries = 0
+      integer(lp) :: memory = 0                  !< bytes that MUMPS took, the matrix not counted
+      real(wp) :: operations = 0.0_wp            !< floating-point, of the elimination, as the analysis counts them
+   end type mumps_facts_t
+
+   type, extends(storage_t) :: mumps_t
       private
       procedure(call_mumps), pointer, nopass :: mumps => null()
       type(instance_t), pointer :: instance => null()
       real(wp), allocatable :: scale(:)          !< (n) of rows and columns; 1 for the kept ones
    contains
-      procedure :: create => create_sparse
-      procedure :: add => add_to_sparse
-      procedure :: factor => factor_sparse
-      procedure :: get_schur => get_sparse_schur
-      procedure :: reduce => reduce_sparse
-      procedure :: expand => expand_sparse
-      procedure :: memory_bytes => sparse_memory
-      procedure, nopass :: name => sparse_name
-      final :: finish_sparse
-   end type sparse_t
+      procedure :: create => create_mumps
+      procedure :: add => add_to_mumps
+      procedure :: factor => factor_mumps
+      procedure :: get_schur => get_mumps_schur
+      procedure :: reduce => reduce_by_mumps
+      procedure :: expand => expand_by_mumps
+      procedure :: memory_bytes => mumps_memory
+      procedure, nopass :: name => mumps_storage_name
+      procedure :: close => close_mumps
+      procedure :: analyse => analyse_by_mumps
+      procedure :: facts => mumps_facts
+      final :: finish_mumps
+   end type mumps_t
 
    abstract interface
       subroutine call_mumps(instance)
@@ -72,7 +87,7 @@ module atrito_mumps
 
    integer(c_int), parameter :: RTLD_LAZY = 1_c_int
    ! JOB
-   integer, parameter :: BEGIN = -1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
+   integer, parameter :: BEGIN = -1, ANALYSE = 1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
    ! ICNTL(26)
    integer, parameter :: INTERIOR_ALONE = 0, CONDENSE = 1, EXPAND = 2
    ! INFOG(1)
@@ -120,8 +135,8 @@ contains
       if (c_associated(routine)) call c_f_procpointer(routine, mumps)
    end subroutine load_mumps
 
-   subroutine create_sparse(self, profile, status)
-      class(sparse_t), intent(inout) :: self
+   subroutine create_mumps(self, profile, status)
+      class(mumps_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
       type(status_t), intent(out) :: status
       integer :: no_memory
@@ -143,35 +158,56 @@ contains
          call run(self, BEGIN)
          call set_controls(self)
       end associate
-      if (allocated(profile%place)) self%instance%place = profile%place
+      if (allocated(profile%elimination%place)) self%instance%place = profile%elimination%place
       call begin_matrix(self%instance%matrix, self%n, profile%entries, no_memory)
       if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the sparse matrix')
-   end subroutine create_sparse
+   end subroutine create_mumps
 
-   subroutine add_to_sparse(self, equations, matrix)
-      class(sparse_t), intent(inout) :: self
+   subroutine add_to_mumps(self, equations, matrix)
+      class(mumps_t), intent(inout) :: self
       integer(ip), intent(in) :: equations(:)
       real(wp), intent(in) :: matrix(:, :)
 
       call add_element_matrix(self%instance%matrix, equations, matrix)
-   end subroutine add_to_sparse
+   end subroutine add_to_mumps
 
-   subroutine factor_sparse(self, status)
-      class(sparse_t), intent(inout) :: self
+   !> The first step of factor: ends the assembly. To be called only where the steps are to be timed.
+   subroutine close_mumps(self)
+      class(mumps_t), intent(inout) :: self
+
+      call hand_over_matrix(self, self%instance%empty)
+      call prepare_schur(self)
+      self%instance%is_closed = .true.
+   end subroutine close_mumps
+
+   !> The second step of factor: finds the order, where none is given, and the structure of the factor. Like close_mumps.
+   subroutine analyse_by_mumps(self)
+      class(mumps_t), intent(inout) :: self
+
+      if (.not. self%instance%is_closed) call close_mumps(self)
+      if (self%n == self%n_kept .or. self%instance%empty > 0) return
+      call run(self, ANALYSE)
+      self%instance%is_analysed = .true.
+   end subroutine analyse_by_mumps
+
+   subroutine factor_mumps(self, status)
+      class(mumps_t), intent(inout) :: self
       type(status_t), intent(out) :: status
-      integer(ip) :: empty
 
       self%report = pivot_report_t()
-      call hand_over_matrix(self, empty)
-      call prepare_schur(self)
+      if (.not. self%instance%is_closed) call close_mumps(self)
       if (self%n == self%n_kept) then
          call add_kept(self)
-      else if (empty > 0) then
-         self%report%worst_equation = empty
+      else if (self%instance%empty > 0) then
+         self%report%worst_equation = self%instance%empty
          self%report%digits_lost = ALL_DIGITS
-         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: equation '//to_text(empty)//' is empty')
+         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: equation '//to_text(self%instance%empty)//' is empty')
       else
-         call run(self, ANALYSE_AND_FACTOR)
+         if (self%instance%is_analysed) then
+            call run(self, FACTOR_AGAIN)
+         else
+            call run(self, ANALYSE_AND_FACTOR)
+         end if
          if (self%instance%mumps%infog(1) == NO_ROOM) then
             self%instance%mumps%icntl(14) = 200
             call run(self, FACTOR_AGAIN)
@@ -181,12 +217,12 @@ contains
       call drop_matrix(self%instance%matrix)         ! MUMPS wants it no more
       if (allocated(self%instance%place)) deallocate (self%instance%place)
       nullify (self%instance%mumps%irn, self%instance%mumps%jcn, self%instance%mumps%a, self%instance%mumps%perm_in)
-   end subroutine factor_sparse
+   end subroutine factor_mumps
 
    !> Scales the matrix and shows it to MUMPS, with the order of elimination. `empty`: an interior equation without stiffness,
    !> else 0.
    subroutine hand_over_matrix(self, empty)
-      class(sparse_t), intent(inout) :: self
+      class(mumps_t), intent(inout) :: self
       integer(ip), intent(out) :: empty
 
       if (allocated(self%scale)) deallocate (self%scale)
@@ -206,7 +242,7 @@ contains
    end subroutine hand_over_matrix
 
    subroutine prepare_schur(self)
-      class(sparse_t), intent(inout) :: self
+      class(mumps_t), intent(inout) :: self
       integer(ip) :: i
 
       if (self%n_kept == 0) return
@@ -226,7 +262,7 @@ contains
 
    !> The kept block alone: nothing to eliminate.
    pure subroutine add_kept(self)
-      class(sparse_t), intent(inout) :: self
+      class(mumps_t), intent(inout) :: self
       integer(ip) :: k
 
       associate (mumps => self%instance%mumps)
@@ -240,7 +276,7 @@ contains
    end subroutine add_kept
 
    pure subroutine set_controls(self)
-      class(sparse_t), intent(inout) :: self
+      class(mumps_t), intent(inout) :: self
 
       associate (icntl => self%instance%mumps%icntl)
          icntl(1:4) = 0                           ! prints nothing
@@ -253,7 +289,7 @@ contains
 
    !> Fills the report and the status from what MUMPS says.
    subroutine judge_pivots(self, status)
-      class(sparse_t), intent(inout) :: self
+      class(mumps_t), intent(inout) :: self
       type(status_t), intent(out) :: status
       logical :: singular
 
@@ -300,7 +336,7 @@ contains
    !> Puts the equation that moves most in the softest motion of the interior into the report, by inverse iteration. With a
    !> shift the matrix is factored again and lost.
    subroutine find_weakest(self, shift)
-      class(sparse_t), intent(inout) :: self
+      class(mumps_t), intent(inout) :: self
       real(wp), intent(in) :: shift                !< added to the diagonal; 0: the factor is good enough
       integer(ip) :: n_interior, i
       integer(lp) :: k
@@ -330,8 +366,8 @@ contains
       self%report%worst_equation = maxloc(abs(x(:n_interior, 1)), dim=1, kind=ip)
    end subroutine find_weakest
 
-   subroutine get_sparse_schur(self, schur)
-      class(sparse_t), intent(in) :: self
+   subroutine get_mumps_schur(self, schur)
+      class(mumps_t), intent(in) :: self
       real(wp), intent(out) :: schur(:, :)
       integer(ip) :: j
       integer(lp) :: first
@@ -343,11 +379,11 @@ contains
             schur(j, j + 1:) = schur(j + 1:, j)
          end do
       end associate
-   end subroutine get_sparse_schur
+   end subroutine get_mumps_schur
 
    !> f_i stays; MUMPS keeps the half-solved part.
-   subroutine reduce_sparse(self, f)
-      class(sparse_t), intent(in) :: self
+   subroutine reduce_by_mumps(self, f)
+      class(mumps_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: f(:, :)
       integer(ip) :: n_interior
 
@@ -355,11 +391,11 @@ contains
       if (n_interior == 0 .or. self%n_kept == 0 .or. size(f, 2) == 0) return
       self%instance%reduced = f(:n_interior, :)
       call solve_with(self, CONDENSE, f)
-   end subroutine reduce_sparse
+   end subroutine reduce_by_mumps
 
    !> Where MUMPS holds the half-solved part of another load, or has used it up, that is made again.
-   subroutine expand_sparse(self, x)
-      class(sparse_t), intent(in) :: self
+   subroutine expand_by_mumps(self, x)
+      class(mumps_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
       integer(ip) :: n_interior
       real(wp), allocatable :: copy(:, :)
@@ -377,7 +413,7 @@ contains
       end if
       if (allocated(self%instance%reduced)) deallocate (self%instance%reduced)
       call solve_with(self, EXPAND, x)
-   end subroutine expand_sparse
+   end subroutine expand_by_mumps
 
    pure logical function is_reduced(instance, f)
       type(instance_t), intent(in) :: instance
@@ -391,7 +427,7 @@ contains
 
    !> One of MUMPS's solves in the unknowns of the deck. CONDENSE changes x_c alone, EXPAND reads x_c and sets x_i.
    subroutine solve_with(self, mode, x)
-      class(sparse_t), intent(in) :: self
+      class(mumps_t), intent(in) :: self
       integer, intent(in) :: mode
       real(wp), intent(inout), contiguous :: x(:, :)   !< (n, loads)
       integer(ip) :: j, n_interior, loads
@@ -425,7 +461,7 @@ contains
 
    !> One call of MUMPS, which raises harmless floating-point exceptions.
    subroutine run(self, job)
-      class(sparse_t), intent(in) :: self
+      class(mumps_t), intent(in) :: self
       integer, intent(in) :: job
       type(halting_t) :: halting
 
@@ -436,35 +472,50 @@ contains
    end subroutine run
 
    !> The factor as MUMPS counts it, and the rest.
-   pure integer(lp) function sparse_memory(self)
-      class(sparse_t), intent(in) :: self
+   pure integer(lp) function mumps_memory(self)
+      class(mumps_t), intent(in) :: self
       integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
 
-      sparse_memory = 0
+      mumps_memory = 0
       if (.not. associated(self%instance)) return
-      sparse_memory = REAL_BYTES*(int(self%n, lp) + int(self%n_kept, lp)**2)
+      mumps_memory = REAL_BYTES*(int(self%n, lp) + int(self%n_kept, lp)**2)
       associate (factor => self%instance%mumps%infog(29))
          ! a negative number counts millions
-         if (self%n > self%n_kept) sparse_memory = sparse_memory &
-                                                   + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
+         if (self%n > self%n_kept) mumps_memory = mumps_memory &
+                                                  + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
       end associate
-   end function sparse_memory
+   end function mumps_memory
 
-   pure function sparse_name() result(name)
+   !> After factor; entries and operations already after analyse.
+   pure type(mumps_facts_t) function mumps_facts(self) result(facts)
+      class(mumps_t), intent(in) :: self
+      integer(lp), parameter :: MEGABYTE = 1000000_lp
+
+      if (.not. associated(self%instance) .or. self%n == self%n_kept) return
+      associate (mumps => self%instance%mumps)
+         facts%entries = mumps%nnz
+         facts%factor_entries = int(mumps%infog(29), lp)
+         if (mumps%infog(29) < 0) facts%factor_entries = -1000000_lp*int(mumps%infog(29), lp)
+         facts%memory = MEGABYTE*int(mumps%infog(22), lp)
+         facts%operations = mumps%rinfog(1)
+      end associate
+   end function mumps_facts
+
+   pure function mumps_storage_name() result(name)
       character(len=:), allocatable :: name
 
-      name = 'sparse'
-   end function sparse_name
+      name = 'mumps'
+   end function mumps_storage_name
 
-   subroutine finish_sparse(self)
-      type(sparse_t), intent(inout) :: self
+   subroutine finish_mumps(self)
+      type(mumps_t), intent(inout) :: self
 
       call free_instance(self)
-   end subroutine finish_sparse
+   end subroutine finish_mumps
 
    !> Ends the instance and frees what MUMPS does not own.
    subroutine free_instance(self)
-      class(sparse_t), intent(inout) :: self
+      class(mumps_t), intent(inout) :: self
 
       if (.not. associated(self%instance)) return
       associate (mumps => self%instance%mumps)

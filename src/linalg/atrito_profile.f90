@@ -4,6 +4,7 @@
 !> not eliminate and onto which it condenses the rest (the Schur complement). Column j of the upper triangle is stored from row
 !> first(j) down to the diagonal; its height is j - first(j) + 1.
 module atrito_profile
+   use atrito_elimination, only: elimination_t
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
@@ -17,8 +18,7 @@ module atrito_profile
       integer(ip) :: n_kept = 0                 !< the last n_kept equations are kept
       integer(ip), allocatable :: first(:)      !< (n) row of the first entry of column j, 1 <= first(j) <= j
       integer(lp) :: entries = 0                !< of the lower triangles of all element matrices
-      integer(ip), allocatable :: place(:)      !< (n) of each equation in the elimination by the sparse solver, the kept ones
-      !< last in their order; not allocated: it looks for an order itself
+      type(elimination_t) :: elimination        !< for the sparse solver; not allocated within: it takes an order of its own
    end type profile_t
 
    !> Columns that the banded storage eliminates at a time from the kept block; it pads the band by as many rows.

@@ -1,17 +1,19 @@
 !> The solvers for the bodies by kind.
 module atrito_solver_choice
    use atrito_banded, only: banded_t
-   use atrito_mumps, only: sparse_t
+   use atrito_multifrontal, only: multifrontal_t
+   use atrito_mumps, only: mumps_t
    use atrito_skyline, only: skyline_t
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
+   public :: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
 
    integer, parameter :: STORAGE_SKYLINE = 1
    integer, parameter :: STORAGE_BANDED = 2
    integer, parameter :: STORAGE_SPARSE = 3
-   integer, parameter :: N_STORAGES = 3
+   integer, parameter :: STORAGE_MUMPS = 4
+   integer, parameter :: N_STORAGES = 4
 
 contains
 
@@ -26,15 +28,17 @@ contains
       case (STORAGE_BANDED)
          allocate (banded_t :: storage)
       case (STORAGE_SPARSE)
-         allocate (sparse_t :: storage)
+         allocate (multifrontal_t :: storage)
+      case (STORAGE_MUMPS)
+         allocate (mumps_t :: storage)
       end select
    end subroutine new_storage
 
-   !> 'skyline', 'banded' or 'sparse'.
+   !> 'skyline', 'banded', 'sparse' or 'mumps'.
    pure function storage_name(kind) result(name)
       integer, intent(in) :: kind                                !< one of STORAGE_*
       character(len=:), allocatable :: name
-      character(len=7), parameter :: NAMES(N_STORAGES) = ['skyline', 'banded ', 'sparse ']
+      character(len=7), parameter :: NAMES(N_STORAGES) = ['skyline', 'banded ', 'sparse ', 'mumps  ']
 
       name = trim(NAMES(kind))
    end function storage_name

@@ -3,11 +3,12 @@ module atrito_bodies
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_dense, only: null_space
-   use atrito_dissection, only: dissect
+   use atrito_dissection, only: dissect, dissection_t
+   use atrito_elimination, only: elimination_t
    use atrito_ordering, only: graph_t, build_graph, mesh_components, order_contact_last
    implicit none (type, external)
    private
-   public :: body_t, bodies_t, find_bodies, number_equations, elimination_places, find_rigid_modes, element_equations, mode_at
+   public :: body_t, bodies_t, find_bodies, number_equations, order_by_dissection, find_rigid_modes, element_equations, mode_at
 
    type :: body_t
       character(len=:), allocatable :: name
@@ -159,47 +160,53 @@ contains
       call build_graph(size(body%nodes, kind=ip), connectivity, graph)
    end subroutine body_graph
 
-   !> Where in the elimination the sparse solver takes each equation: nested dissection of the nodes, the kept equations last.
-   pure function elimination_places(mesh, bodies, i_body) result(place)
+   !> The order of elimination of the sparse solver: nested dissection of the nodes, the kept equations last.
+   subroutine order_by_dissection(mesh, bodies, i_body, elimination)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: i_body
-      integer(ip), allocatable :: place(:)          !< (n)
-      type(graph_t) :: graph
-      integer(ip), allocatable :: local(:), nodes(:)
-      integer(ip) :: i, dof, k, next
+      type(elimination_t), intent(out) :: elimination
+      type(dissection_t) :: parts
+      integer(ip) :: i, dof, k, p, first, next
 
       associate (body => bodies%list(i_body))
-         call body_graph(mesh, body, local, graph)
-         deallocate (local)
-         nodes = pack([(i, i=1, size(body%nodes, kind=ip))], is_eliminated(bodies, body))
-         call dissect(graph, mesh%x(:, body%nodes), nodes)
-         allocate (place(body%n))
+         call dissect(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts)
+         allocate (elimination%place(body%n))
+         elimination%last = parts%last(:parts%n)
+         elimination%parent = parts%parent(:parts%n)
          next = 0
-         do i = 1, size(nodes, kind=ip)
-            do dof = 1, 2
-               k = bodies%equation(dof, body%nodes(nodes(i)))
-               if (k == 0) cycle
-               next = next + 1
-               place(k) = next
+         first = 1
+         do p = 1, parts%n
+            do i = first, parts%last(p)
+               do dof = 1, 2
+                  k = bodies%equation(dof, parts%order(i))
+                  if (k == 0) cycle
+                  next = next + 1
+                  elimination%place(k) = next
+               end do
             end do
+            first = parts%last(p) + 1
+            elimination%last(p) = next
          end do
          do k = body%n - body%n_kept + 1, body%n
-            place(k) = k
+            elimination%place(k) = k
          end do
       end associate
-   end function elimination_places
+   end subroutine order_by_dissection
 
-   !> Which of a body's nodes have equations that are not kept.
-   pure function is_eliminated(bodies, body) result(eliminated)
+   !> Which nodes of the mesh are the body's and have equations that are not kept.
+   pure function is_eliminated(mesh, bodies, body) result(eliminated)
+      type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       type(body_t), intent(in) :: body
-      logical :: eliminated(size(body%nodes))
+      logical, allocatable :: eliminated(:)
       integer(ip) :: i
 
+      allocate (eliminated(mesh%n_nodes), source=.false.)
       do i = 1, size(body%nodes, kind=ip)
-         eliminated(i) = any(bodies%equation(:, body%nodes(i)) > 0) .and. &
-                         all(bodies%equation(:, body%nodes(i)) <= body%n - body%n_kept)
+         associate (node => body%nodes(i))
+            eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_kept)
+         end associate
       end do
    end function is_eliminated
 

@@ -48,7 +48,8 @@ module atrito_results
       character(len=:), allocatable :: name
       integer(ip) :: n_nodes = 0, n_elements = 0, n_equations = 0, n_contact_equations = 0
       integer(ip) :: n_free_motions = 0             !< rigid motions left by the supports
-      character(len=:), allocatable :: storage      !< skyline, banded
+      integer :: storage_kind = 0                   !< one of STORAGE_*; 0: not chosen yet
+      character(len=:), allocatable :: storage      !< its name
       character(len=:), allocatable :: reason       !< why this storage
       integer(lp) :: profile = 0, memory = 0        !< entries; bytes
       integer(ip) :: half_bandwidth = 0

@@ -85,7 +85,7 @@ contains
          call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most, at node '// &
                             to_text(body%worst_node)//' along '//to_text(body%worst_dof)//'; '// &
                             plural(body%sign_changes, 'sign change', 'sign changes'), 3)
-      else if (text_of(body%storage) == 'sparse' .and. body%n_equations > body%n_contact_equations) then
+      else if (text_of(body%storage) == 'mumps' .and. body%n_equations > body%n_contact_equations) then
          call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most; MUMPS does not' &
                             //' tell where', 3)
       end if

@@ -6,13 +6,13 @@
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
-   use atrito_bodies, only: mode_at, elimination_places
+   use atrito_bodies, only: mode_at, order_by_dissection
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
-   use atrito_mumps, only: has_mumps
-   use atrito_profile, only: profile_t, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
+   use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
+   use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, &
+                                   STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_storage, only: storage_t
    use atrito_strings, only: to_text
@@ -31,11 +31,11 @@ module atrito_condensed_body
    ! near 4,000 equations for a square, and never for a strip of few elements across (docs/developer/solvers.md).
    !> Floating-point operations that LAPACK's band routines do in the time of one of the skyline's.
    real(wp), parameter :: BAND_SPEED = 2.2_wp
-   !> The same of MUMPS.
-   real(wp), parameter :: SPARSE_SPEED = 1.4_wp
-   !> What MUMPS's analysis, lists and solves take beyond the skyline's: for an equation, and to begin with.
-   real(wp), parameter :: SPARSE_OVERHEAD = 14000.0_wp, SPARSE_START = 8.0e6_wp
-   !> Equations from which on a body is handed to MUMPS unasked. It pays from a sixth of that on: docs/performance.md.
+   !> The same of the fronts of the sparse solver.
+   real(wp), parameter :: SPARSE_SPEED = 2.0_wp
+   !> What its order, tree and solves take beyond the skyline's: for an equation, and to begin with.
+   real(wp), parameter :: SPARSE_OVERHEAD = 1500.0_wp, SPARSE_START = 2.0e6_wp
+   !> Equations from which on a body gets the sparse solver unasked. It pays from a twentieth of that on: docs/performance.md.
    integer(ip), parameter :: LEAST_SPARSE = 32000_ip
 
 contains
@@ -55,16 +55,15 @@ contains
          result%reason = 'asked for'
       else
          kind = minloc(cost(:STORAGE_BANDED), dim=1)
-         if (profile%n >= LEAST_SPARSE .and. cost(STORAGE_SPARSE) < cost(kind)) then
-            if (has_mumps()) kind = STORAGE_SPARSE   ! the library is looked for only when it is wanted
-         end if
+         if (profile%n >= LEAST_SPARSE .and. cost(STORAGE_SPARSE) < cost(kind)) kind = STORAGE_SPARSE
          second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
       end if
       result%storage = storage_name(kind)
+      result%storage_kind = kind
       result%half_bandwidth = half_bandwidth(profile)
       result%profile = profile_length(profile)
-      if (kind == STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
+      if (kind >= STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
       result%memory = predict_memory(profile, kind) + 8_lp*int(profile%n_kept, lp)**2
    end subroutine choose_storage
 
@@ -76,6 +75,7 @@ contains
       cost(STORAGE_SKYLINE) = skyline_flops(profile)
       cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED
       cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
+      cost(STORAGE_MUMPS) = cost(STORAGE_SPARSE)
    end function predict_costs
 
    pure integer(lp) function predict_memory(profile, kind) result(bytes)
@@ -99,7 +99,9 @@ contains
       text = to_text(own/max(other, tiny(other)), 2)
    end function ratio_text
 
-   !> Assembles, factors and condenses a body. status: STATUS_SINGULAR with the body, node and motion in words.
+   !> Assembles, factors and condenses a body, by the storage that was chosen for `result` or that is chosen now.
+   !>
+   !> status: STATUS_SINGULAR with the body, node and motion in words.
    subroutine condense_body(fem, i_body, asked, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -115,10 +117,17 @@ contains
                          //'; no support and no contact pair holds it')
          return
       end if
-      call body_profile(fem, i_body, profile)
-      call choose_storage(profile, asked, kind, result)
-      if (kind == STORAGE_SPARSE) profile%place = elimination_places(fem%mesh, fem%bodies, i_body)
-      call new_storage(kind, body%storage)
+      call start_phase('order')
+      if (result%storage_kind < STORAGE_SPARSE) then
+         call body_profile(fem, i_body, profile)
+         if (result%storage_kind == 0) call choose_storage(profile, asked, kind, result)
+      end if
+      if (result%storage_kind >= STORAGE_SPARSE) then
+         call begin_profile(profile, fem%bodies%list(i_body)%n, fem%bodies%list(i_body)%n_kept)
+         call order_by_dissection(fem%mesh, fem%bodies, i_body, profile%elimination)
+      end if
+      call stop_phase('order')
+      call new_storage(result%storage_kind, body%storage)
       call start_phase('assemble')
       call body%storage%create(profile, status)
       if (is_ok(status)) call assemble_body(fem, i_body, body%storage)

@@ -1,6 +1,6 @@
 !> One static step, from the model to the results.
 module atrito_solve
-   use atrito_assembly, only: fem_t, body_profile, internal_forces
+   use atrito_assembly, only: fem_t, body_profile
    use atrito_blas_info, only: is_reference_blas
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
    use atrito_body_store, only: body_store_t, provide_bodies, take_numbering, release_bodies
@@ -11,8 +11,10 @@ module atrito_solve
    use atrito_contact_solution, only: contact_solution_t, outer_controls_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_chatter, only: report_chatter
+   use atrito_force_sums, only: sum_forces
    use atrito_free_motion, only: free_motion_text
    use atrito_friction_law, only: FRICTION_NONE
+   use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: add_warning
    use atrito_model, only: model_t
@@ -20,7 +22,6 @@ module atrito_solve
    use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
-   use atrito_range, only: work_of
    use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
                               estimate_error
    use atrito_reporter, only: reporter_t
@@ -28,7 +29,7 @@ module atrito_solve
    use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_scene_memory, only: check_memory, check_average_memory
    use atrito_solve_history, only: solve_history_t
-   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE
+   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
    use atrito_strings, only: to_text, append_string
    use atrito_timers, only: start_phase, stop_phase
@@ -36,10 +37,10 @@ module atrito_solve
    implicit none (type, external)
    private
    public :: solve_options_t, solve_static, survey_scene
-   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE
+   public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
 
    integer, parameter :: SOLVER_AUTO = 0, SOLVER_SKYLINE = STORAGE_SKYLINE, SOLVER_BANDED = STORAGE_BANDED, &
-                         SOLVER_SPARSE = STORAGE_SPARSE
+                         SOLVER_SPARSE = STORAGE_SPARSE, SOLVER_MUMPS = STORAGE_MUMPS
 
    type :: solve_options_t
       integer :: storage_kind = SOLVER_AUTO
@@ -270,19 +271,15 @@ contains
    !> Applied forces less those of the prescribed displacements.
    function free_load(data) result(load)
       type(scene_data_t), intent(in) :: data
-      real(wp), allocatable :: load(:, :), force(:, :), size_of_force(:, :)
+      real(wp), allocatable :: load(:, :), force(:, :)
       real(wp) :: energy
-      integer(ip) :: b
 
       load = data%f
       if (all(data%value == 0.0_wp)) return
-      allocate (force, size_of_force, mold=load)
+      allocate (force, mold=load)
       force = 0.0_wp
-      size_of_force = 0.0_wp
       energy = 0.0_wp
-      do b = 1, data%fem%bodies%n
-         call internal_forces(data%fem, b, data%value, force, size_of_force, energy)
-      end do
+      call internal_forces(data%fem, data%value, force, energy)
       load = load - force
    end function free_load
 
@@ -335,26 +332,11 @@ contains
                                                      //to_text(imbalance, 3)
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
-      results%external_work = work_of(size(results%u, kind=ip), data%f + results%reaction, results%u)
+      call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call recover_stress(model, data%fem, results)
-      call balance_forces(data, contact, results)
       call copy_history(solution, results)
    end subroutine recover
-
-   pure subroutine balance_forces(data, contact, results)
-      type(scene_data_t), intent(in) :: data
-      real(wp), intent(in) :: contact(:, :)
-      type(results_t), intent(inout) :: results
-
-      associate (x => data%fem%mesh%x, balance => results%balance)
-         balance%applied = sum(data%f, dim=2)
-         balance%reactions = sum(results%reaction, dim=2)
-         balance%applied_moment = sum(x(1, :)*data%f(2, :) - x(2, :)*data%f(1, :))
-         balance%reaction_moment = sum(x(1, :)*results%reaction(2, :) - x(2, :)*results%reaction(1, :))
-         balance%rigid = sum(contact, dim=2)
-      end associate
-   end subroutine balance_forces
 
    pure subroutine copy_history(solution, results)
       type(contact_solution_t), intent(in) :: solution

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A program built without MUMPS solves large bodies all the same, and refuses --solver sparse: exit 1, and why.
+# A program built without MUMPS solves large bodies all the same, and refuses --solver mumps and --bench-limit: exit 1, and why.
 #    without_mumps.sh ATRITO SCENE.sh
 set -u
 atrito=$1
@@ -16,14 +16,20 @@ fail() {
 # a body of 40,000 equations, which the sparse solver would get
 sh "$scene" 100 line >"$work/deck.inp"
 "$atrito" "$work/deck.inp" --quiet -o "$work/out" || fail "automatic choice: exit $?"
-grep -q '  sparse  ' "$work/out/deck.lst" && fail 'a body is sparse'
+grep -q '  sparse  ' "$work/out/deck.lst" || fail 'no body is sparse'
 grep -q 'predicted cost' "$work/out/deck.lst" || fail 'the listing does not say why'
 
 for task in '' check sweep; do
-   "$atrito" $task "$work/deck.inp" --solver sparse >"$work/said" 2>&1
+   "$atrito" $task "$work/deck.inp" --solver mumps >"$work/said" 2>&1
    code=$?
-   [ "$code" -eq 1 ] || fail "$task --solver sparse: exit $code, expected 1"
+   [ "$code" -eq 1 ] || fail "$task --solver mumps: exit $code, expected 1"
    grep -qF 'needs MUMPS, and this build has none' "$work/said" || { fail 'MUMPS is not named'; cat "$work/said"; }
 done
+
+"$atrito" "$work/deck.inp" --bench-limit >"$work/said" 2>&1
+code=$?
+[ "$code" -eq 1 ] || fail "--bench-limit: exit $code, expected 1"
+grep -qF 'E-NOT-BUILT] --bench-limit needs MUMPS, and this build has none' "$work/said" || { fail 'E-NOT-BUILT is not told'; cat "$work/said"; }
+"$atrito" --version | grep -qxF 'MUMPS: not used: this build has none' || fail '--version does not say that there is no MUMPS'
 [ "$failures" -eq 0 ] || exit 1
 echo 'all as expected'

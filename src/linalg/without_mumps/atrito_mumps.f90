@@ -1,5 +1,5 @@
-!> The twin of src/linalg/atrito_mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). The sparse storage is neither
-!> chosen nor accepted on the command line then, so nothing here is reached; create fails all the same.
+!> The twin of src/linalg/atrito_mumps.F90 in a build without MUMPS (ATRITO_MUMPS=OFF, or not found). The command line does not
+!> accept this solver then, so nothing here is reached; create fails all the same.
 module atrito_mumps
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
@@ -7,19 +7,27 @@ module atrito_mumps
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: sparse_t, has_mumps, mumps_name, mumps_trouble
+   public :: mumps_t, mumps_facts_t, has_mumps, mumps_name, mumps_trouble
 
-   type, extends(storage_t) :: sparse_t
+   type :: mumps_facts_t
+      integer(lp) :: entries = 0, factor_entries = 0, memory = 0
+      real(wp) :: operations = 0.0_wp
+   end type mumps_facts_t
+
+   type, extends(storage_t) :: mumps_t
    contains
-      procedure :: create => create_sparse
-      procedure :: add => add_to_sparse
-      procedure :: factor => factor_sparse
-      procedure :: get_schur => get_sparse_schur
-      procedure :: reduce => reduce_sparse
-      procedure :: expand => expand_sparse
-      procedure :: memory_bytes => sparse_memory
-      procedure, nopass :: name => sparse_name
-   end type sparse_t
+      procedure :: create => create_mumps
+      procedure :: add => add_to_mumps
+      procedure :: factor => factor_mumps
+      procedure :: get_schur => get_mumps_schur
+      procedure :: reduce => reduce_by_mumps
+      procedure :: expand => expand_by_mumps
+      procedure :: memory_bytes => mumps_memory
+      procedure, nopass :: name => mumps_storage_name
+      procedure :: close => close_mumps
+      procedure :: analyse => analyse_by_mumps
+      procedure :: facts => mumps_facts
+   end type mumps_t
 
 contains
 
@@ -39,54 +47,68 @@ contains
       text = 'this build has none'
    end function mumps_trouble
 
-   subroutine create_sparse(self, profile, status)
-      class(sparse_t), intent(inout) :: self
+   subroutine create_mumps(self, profile, status)
+      class(mumps_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
       type(status_t), intent(out) :: status
 
-      call set_status(status, STATUS_INTERNAL, 'the sparse solver needs MUMPS, and '//mumps_trouble())
-   end subroutine create_sparse
+      call set_status(status, STATUS_INTERNAL, 'this solver is MUMPS, and '//mumps_trouble())
+   end subroutine create_mumps
 
-   subroutine add_to_sparse(self, equations, matrix)
-      class(sparse_t), intent(inout) :: self
+   subroutine add_to_mumps(self, equations, matrix)
+      class(mumps_t), intent(inout) :: self
       integer(ip), intent(in) :: equations(:)
       real(wp), intent(in) :: matrix(:, :)
-   end subroutine add_to_sparse
+   end subroutine add_to_mumps
 
-   subroutine factor_sparse(self, status)
-      class(sparse_t), intent(inout) :: self
+   subroutine close_mumps(self)
+      class(mumps_t), intent(inout) :: self
+   end subroutine close_mumps
+
+   subroutine analyse_by_mumps(self)
+      class(mumps_t), intent(inout) :: self
+   end subroutine analyse_by_mumps
+
+   subroutine factor_mumps(self, status)
+      class(mumps_t), intent(inout) :: self
       type(status_t), intent(out) :: status
 
-      call set_status(status, STATUS_INTERNAL, 'the sparse solver needs MUMPS, and '//mumps_trouble())
-   end subroutine factor_sparse
+      call set_status(status, STATUS_INTERNAL, 'this solver is MUMPS, and '//mumps_trouble())
+   end subroutine factor_mumps
 
-   subroutine get_sparse_schur(self, schur)
-      class(sparse_t), intent(in) :: self
+   subroutine get_mumps_schur(self, schur)
+      class(mumps_t), intent(in) :: self
       real(wp), intent(out) :: schur(:, :)
 
       schur = 0.0_wp
-   end subroutine get_sparse_schur
+   end subroutine get_mumps_schur
 
-   subroutine reduce_sparse(self, f)
-      class(sparse_t), intent(in) :: self
+   subroutine reduce_by_mumps(self, f)
+      class(mumps_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: f(:, :)
-   end subroutine reduce_sparse
+   end subroutine reduce_by_mumps
 
-   subroutine expand_sparse(self, x)
-      class(sparse_t), intent(in) :: self
+   subroutine expand_by_mumps(self, x)
+      class(mumps_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
-   end subroutine expand_sparse
+   end subroutine expand_by_mumps
 
-   pure integer(lp) function sparse_memory(self)
-      class(sparse_t), intent(in) :: self
+   pure integer(lp) function mumps_memory(self)
+      class(mumps_t), intent(in) :: self
 
-      sparse_memory = 0
-   end function sparse_memory
+      mumps_memory = 0
+   end function mumps_memory
 
-   pure function sparse_name() result(name)
+   pure type(mumps_facts_t) function mumps_facts(self) result(facts)
+      class(mumps_t), intent(in) :: self
+
+      facts = mumps_facts_t()
+   end function mumps_facts
+
+   pure function mumps_storage_name() result(name)
       character(len=:), allocatable :: name
 
-      name = 'sparse'
-   end function sparse_name
+      name = 'mumps'
+   end function mumps_storage_name
 
 end module atrito_mumps

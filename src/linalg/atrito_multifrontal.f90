@@ -1,0 +1,166 @@
+!> The sparse solver: Cholesky's method by fronts (multifrontal), with the kept equations as the last front.
+!>
+!> Equal fronts are factored once (atrito_front_tree). No pivot is chosen: the matrix is positive definite, and the loss of digits
+!> is told by its pivots as in the other storages.
+!>
+!> Reference: I. S. Duff, J. K. Reid, ACM Trans. Math. Software 9 (1983) 302-325.
+module atrito_multifrontal
+   use atrito_element_store, only: element_store_t, begin_store, add_to_store
+   use atrito_elimination, only: elimination_t, chain_elimination
+   use atrito_front, only: unpack_update
+   use atrito_front_factors, only: factor_t, factor_fronts
+   use atrito_front_solves, only: solve_plan_t, plan_solves, forward, backward
+   use atrito_front_tree, only: front_tree_t, build_front_tree
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_profile, only: profile_t
+   use atrito_status, only: status_t
+   use atrito_storage, only: storage_t, pivot_report_t, note_pivot, set_pivot_status
+   implicit none (type, external)
+   private
+   public :: multifrontal_t
+
+   type, extends(storage_t) :: multifrontal_t
+      private
+      type(elimination_t) :: elimination
+      type(element_store_t) :: store             !< until factor
+      real(wp), allocatable :: diagonal(:)       !< (n) of the matrix by places, until factor
+      type(front_tree_t) :: tree
+      type(factor_t), allocatable :: factors(:)  !< (tree%n_classes)
+      type(solve_plan_t) :: plan
+   contains
+      procedure :: create => create_fronts
+      procedure :: add => add_to_fronts
+      procedure :: factor => factor_and_report
+      procedure :: get_schur => get_last_front
+      procedure :: reduce => reduce_by_fronts
+      procedure :: expand => expand_by_fronts
+      procedure :: memory_bytes => fronts_memory
+      procedure, nopass :: name => fronts_name
+   end type multifrontal_t
+
+contains
+
+   subroutine create_fronts(self, profile, status)
+      class(multifrontal_t), intent(inout) :: self
+      type(profile_t), intent(in) :: profile
+      type(status_t), intent(out) :: status
+
+      self%n = profile%n
+      self%n_kept = profile%n_kept
+      self%report = pivot_report_t()
+      if (allocated(profile%elimination%place)) then
+         self%elimination = profile%elimination
+      else
+         self%elimination = chain_elimination(self%n, self%n_kept)
+      end if
+      call begin_store(self%store)
+      if (allocated(self%diagonal)) deallocate (self%diagonal)
+      allocate (self%diagonal(self%n), source=0.0_wp)
+      status = status_t()
+   end subroutine create_fronts
+
+   subroutine add_to_fronts(self, equations, matrix)
+      class(multifrontal_t), intent(inout) :: self
+      integer(ip), intent(in) :: equations(:)
+      real(wp), intent(in) :: matrix(:, :)
+      integer(ip) :: i, place
+
+      call add_to_store(self%store, equations, matrix)
+      do i = 1, size(equations, kind=ip)
+         if (equations(i) == 0) cycle
+         place = self%elimination%place(equations(i))
+         self%diagonal(place) = self%diagonal(place) + matrix(i, i)
+      end do
+   end subroutine add_to_fronts
+
+   subroutine factor_and_report(self, status)
+      class(multifrontal_t), intent(inout) :: self
+      type(status_t), intent(out) :: status
+
+      call build_front_tree(self%elimination, self%n, self%n_kept, self%store, self%tree)
+      call factor_fronts(self%tree, self%store, self%diagonal, self%factors)
+      call report_pivots(self, status)
+      call plan_solves(self%tree, self%plan)
+      call begin_store(self%store)
+      deallocate (self%diagonal)
+   end subroutine factor_and_report
+
+   !> The report of the pivots, class by class; the equation named is that of the first part of its class.
+   subroutine report_pivots(self, status)
+      type(multifrontal_t), intent(inout) :: self
+      type(status_t), intent(out) :: status
+      integer(ip) :: c, place
+      logical :: usable
+
+      self%report = pivot_report_t()
+      usable = .true.
+      do c = 1, self%tree%n_classes
+         associate (factor => self%factors(c))
+            if (factor%worst == 0) cycle
+            place = self%tree%first(self%tree%representative(c)) + factor%worst - 1
+            call note_pivot(self%report, place, self%n, self%diagonal(place), factor%worst_pivot, usable)
+            self%report%smallest_pivot = min(self%report%smallest_pivot, factor%smallest_pivot)
+            self%report%largest_pivot = max(self%report%largest_pivot, factor%largest_pivot)
+            if (factor%failed > 0) exit
+         end associate
+      end do
+      if (self%report%worst_equation > 0) then
+         self%report%worst_equation = findloc(self%elimination%place, self%report%worst_equation, dim=1)
+      end if
+      call set_pivot_status(self%report,.not. usable, status)
+   end subroutine report_pivots
+
+   subroutine get_last_front(self, schur)
+      class(multifrontal_t), intent(in) :: self
+      real(wp), intent(out) :: schur(:, :)
+
+      call unpack_update(self%n_kept, self%factors(self%tree%n_classes)%update, schur)
+   end subroutine get_last_front
+
+   !> The half-solved part is left by places.
+   subroutine reduce_by_fronts(self, f)
+      class(multifrontal_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: f(:, :)
+      real(wp) :: x(self%n)
+      integer(ip) :: load
+
+      do load = 1, size(f, 2, kind=ip)
+         x(self%elimination%place) = f(:, load)
+         call forward(self%tree, self%factors, self%plan, x)
+         f(:, load) = x
+      end do
+   end subroutine reduce_by_fronts
+
+   subroutine expand_by_fronts(self, x)
+      class(multifrontal_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: x(:, :)
+      integer(ip) :: load
+
+      do load = 1, size(x, 2, kind=ip)
+         call backward(self%tree, self%factors, self%plan, x(:, load))
+         x(:, load) = x(self%elimination%place, load)
+      end do
+   end subroutine expand_by_fronts
+
+   !> The factors and what leads through them.
+   pure integer(lp) function fronts_memory(self) result(bytes)
+      class(multifrontal_t), intent(in) :: self
+      integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
+      integer(ip) :: c
+
+      bytes = 0
+      if (.not. allocated(self%factors)) return
+      bytes = INDEX_BYTES*(self%tree%start(self%tree%n_classes + 1) + self%n)
+      do c = 1, self%tree%n_classes
+         if (allocated(self%factors(c)%columns)) bytes = bytes + REAL_BYTES*size(self%factors(c)%columns, kind=lp)
+         if (allocated(self%factors(c)%update)) bytes = bytes + REAL_BYTES*size(self%factors(c)%update, kind=lp)
+      end do
+   end function fronts_memory
+
+   pure function fronts_name() result(name)
+      character(len=:), allocatable :: name
+
+      name = 'sparse'
+   end function fronts_name
+
+end module atrito_multifrontal
