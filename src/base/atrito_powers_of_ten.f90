@@ -1,7 +1,7 @@
 !> Powers of ten in integers of 63 bits, for numbers from and to text.
 !>
-!> Of a product with one of them, int(shiftr(int(a, XP)*int(POWER(k), XP), POWER_BITS), lp), the upper 63 bits are right but for 1 1/2
-!> units: half of one from the rounding of POWER, one from what is cut off.
+!> Of a product with one of them the upper 63 bits, int(shiftr(int(a, XP)*int(POWER(k), XP), POWER_BITS), lp), are right but for one
+!> and a half of their last: a half from the rounding of POWER, one from what is cut off.
 module atrito_powers_of_ten
    use atrito_kinds, only: lp
    implicit none (type, external)

@@ -56,12 +56,48 @@ contains
       bodies%of_node = number(component)
       allocate (bodies%list(bodies%n), bodies%equation(2, mesh%n_nodes))
       bodies%equation = 0
+      call list_members(bodies)
       do i = 1, bodies%n
-         bodies%list(i)%elements = pack([(e, e=1, mesh%n_elements)], bodies%of_element == i)
-         bodies%list(i)%nodes = pack([(e, e=1, mesh%n_nodes)], bodies%of_node == i)
          call measure_body(mesh, bodies%list(i))
       end do
    end subroutine find_bodies
+
+   !> The elements and nodes of each body, in their order, in linear time for any number of bodies.
+   pure subroutine list_members(bodies)
+      type(bodies_t), intent(inout) :: bodies
+      integer(ip) :: n_elements(bodies%n), n_nodes(bodies%n), e, i
+
+      n_elements = counts(bodies%of_element, bodies%n)
+      n_nodes = counts(bodies%of_node, bodies%n)
+      do i = 1, bodies%n
+         allocate (bodies%list(i)%elements(n_elements(i)), bodies%list(i)%nodes(n_nodes(i)))
+      end do
+      n_elements = 0
+      do e = 1, size(bodies%of_element, kind=ip)
+         i = bodies%of_element(e)
+         n_elements(i) = n_elements(i) + 1
+         bodies%list(i)%elements(n_elements(i)) = e
+      end do
+      n_nodes = 0
+      do e = 1, size(bodies%of_node, kind=ip)
+         i = bodies%of_node(e)
+         if (i == 0) cycle
+         n_nodes(i) = n_nodes(i) + 1
+         bodies%list(i)%nodes(n_nodes(i)) = e
+      end do
+   end subroutine list_members
+
+   !> How often 1 .. n stand in a list.
+   pure function counts(list, n)
+      integer(ip), intent(in) :: list(:)            !< 0 .. n
+      integer(ip), intent(in) :: n
+      integer(ip) :: counts(n), i
+
+      counts = 0
+      do i = 1, size(list, kind=ip)
+         if (list(i) > 0) counts(list(i)) = counts(list(i)) + 1
+      end do
+   end function counts
 
    pure subroutine measure_body(mesh, body)
       type(mesh_t), intent(in) :: mesh
@@ -183,7 +219,10 @@ contains
       real(wp) :: unit_mode(3)
       integer(ip) :: i, j, dof, k, n_held, info
 
-      n_held = count(held(:, body%nodes), kind=ip)
+      n_held = 0
+      do i = 1, size(body%nodes, kind=ip)
+         n_held = n_held + count(held(:, body%nodes(i)), kind=ip)
+      end do
       allocate (rows(n_held, 3))
       k = 0
       do i = 1, size(body%nodes, kind=ip)

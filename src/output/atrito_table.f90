@@ -23,7 +23,7 @@ module atrito_table
    !> Rows that are made into text at a time: that of a wide table stays in the nearer part of the cache.
    integer(ip), parameter :: PIECE_ROWS = 256
    !> Pieces of a round for each thread: where there are many, a thread that is late matters little.
-   integer(ip), parameter :: PIECES_OF_THREAD = 32
+   integer(ip), parameter :: PIECES_OF_THREAD = 64
 
    type :: column_t
       character(len=:), allocatable :: name, dimension
