@@ -8,6 +8,7 @@ module atrito_condensed_body
    use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
    use atrito_bodies, only: mode_at, order_by_dissection
    use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
+   use atrito_dense_blocks, only: add_inverse_form
    use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
@@ -19,7 +20,8 @@ module atrito_condensed_body
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, expand_body, motion_text
+   public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, add_flexibilities, expand_body, &
+             motion_text
 
    type :: condensed_body_t
       class(storage_t), allocatable :: storage
@@ -281,6 +283,17 @@ contains
 
       call solve_cholesky(body%factor, x)
    end subroutine contact_response
+
+   !> Adds B F B' to C for rows B on the contact dofs.
+   subroutine add_flexibilities(body, forces, first, place, c)
+      type(condensed_body_t), intent(in) :: body
+      real(wp), intent(inout), contiguous :: forces(:, :) !< (n_kept, rows) B'; destroyed
+      integer(ip), intent(in) :: first(:)          !< (rows) first entry of each that is not zero, ascending
+      integer(ip), intent(in) :: place(:)          !< (rows) of each in C
+      real(wp), intent(inout), contiguous :: c(:, :) !< [L/F]
+
+      call add_inverse_form(body%factor, forces, first, place, c)
+   end subroutine add_flexibilities
 
    !> Displacements of all free dofs from those of the contact dofs; without any, the plain solution.
    subroutine expand_body(fem, i_body, body, u_contact, u)
