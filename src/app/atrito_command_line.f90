@@ -40,6 +40,7 @@ module atrito_command_line
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: quiet = .false.
       logical :: plot = .false.                     !< pictures by gnuplot
+      logical :: bench_limit = .false.              !< measure one linear solve, and do nothing else
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
    end type command_t
 
@@ -84,6 +85,7 @@ contains
       do i = 1, size(given)
          if (ok) call take_option(given(i), command, ok, error)
       end do
+      if (ok .and. command%bench_limit) call check_limit(given, ok, error)
       if (.not. ok) return
       ok = .false.
       if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
@@ -94,6 +96,27 @@ contains
          ok = .true.
       end if
    end subroutine parse_command
+
+   !> The limit is measured with one solver and one thread, and writes nothing; it needs MUMPS.
+   subroutine check_limit(given, ok, error)
+      type(given_t), intent(in) :: given(:)
+      logical, intent(out) :: ok
+      type(message_t), intent(inout) :: error
+      character(len=*), parameter :: KNOWN(4) = [character(len=13) :: '--bench-limit', '--set', '--refine', '--quiet']
+      integer :: i
+
+      ok = .false.
+      do i = 1, size(given)
+         if (any(KNOWN == OPTIONS(given(i)%option)%name)) cycle
+         error = wrong(trim(OPTIONS(given(i)%option)%name)//' does nothing with --bench-limit', &
+                       expected='atrito DECK.inp --bench-limit [--set NAME=VALUE] [--refine K] [--quiet]')
+         return
+      end do
+      ok = has_mumps()
+      if (ok) return
+      error = wrong('--bench-limit needs MUMPS, and '//mumps_trouble())
+      error%id = 'E-NOT-BUILT'
+   end subroutine check_limit
 
    !> Sorts arguments into names and options with their values.
    subroutine sort_arguments(arguments, names, given, ok, error)
@@ -298,6 +321,8 @@ contains
          call take_real(given%value, huge(1.0_wp), command%atol, ok)
       case ('--plot')
          command%plot = .true.
+      case ('--bench-limit')
+         command%bench_limit = .true.
       case ('--quiet')
          command%quiet = .true.
       end select

@@ -13,6 +13,10 @@ module atrito_driver
    use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
+   use atrito_libraries, only: version_lines
+   use atrito_limit, only: measure_limit
+   use atrito_limit_page, only: compose_limit
+   use atrito_limit_result, only: limit_t
    use atrito_messages, only: message_t, format_message, clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t, print_page
@@ -60,7 +64,11 @@ contains
       end if
       select case (command%task)
       case (TASK_RUN)
-         call run_deck(command, store, code)
+         if (command%bench_limit) then
+            call limit_deck(command, code)
+         else
+            call run_deck(command, store, code)
+         end if
       case (TASK_SWEEP)
          call run_sweep(command, code)
       case (TASK_STUDY)
@@ -76,7 +84,7 @@ contains
          call print_page(page, output_unit)
          code = STATUS_OK
       case (TASK_VERSION)
-         call print_lines([string_t(PROGRAM_NAME//' '//PROGRAM_VERSION)], output_unit)
+         call print_version()
          code = STATUS_OK
       case (TASK_USAGE)
          call compose_usage(page)
@@ -109,6 +117,31 @@ contains
       end if
    end subroutine check_deck
 
+   !> Measures what one linear solve of a deck's scene costs; solves no contact, writes no file.
+   subroutine limit_deck(command, code)
+      type(command_t), intent(in) :: command
+      integer, intent(out) :: code
+      type(model_t) :: model
+      type(limit_t) :: limit
+      type(reporter_t) :: reporter
+      type(status_t) :: status
+      type(page_t) :: page
+      integer(ip) :: told
+
+      reporter%quiet = command%quiet
+      call load_model(command, reporter, model, told, code)
+      if (code /= STATUS_OK) return
+      call measure_limit(model, limit, status)
+      call print_messages(command%quiet, told + 1)
+      code = status%code
+      if (.not. is_ok(status)) then
+         call print_status(status, model%deck_path)
+         return
+      end if
+      call compose_limit(model, limit, page)
+      call print_page(page, output_unit)
+   end subroutine limit_deck
+
    subroutine compare_tables(command, code)
       type(command_t), intent(in) :: command
       integer, intent(out) :: code
@@ -123,6 +156,14 @@ contains
       if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME)
       code = status%code
    end subroutine compare_tables
+
+   !> The name and version of the program, then compiler and libraries, a line each.
+   subroutine print_version()
+      type(string_t), allocatable :: lines(:)
+
+      call version_lines(lines)
+      call print_lines([string_t(PROGRAM_NAME//' '//PROGRAM_VERSION), lines], output_unit)
+   end subroutine print_version
 
    subroutine print_help(command, code)
       type(command_t), intent(in) :: command

@@ -21,13 +21,13 @@ module atrito_option_table
 
    !> An option, and which tasks know it.
    type :: option_t
-      character(len=11) :: name
+      character(len=13) :: name
       logical :: has_value
       logical :: for_task(TASK_STUDY)               !< run, check, compare, help, sweep, study
    end type option_t
 
    logical, parameter :: Y = .true., N = .false.
-   type(option_t), parameter :: OPTIONS(16) = [ &
+   type(option_t), parameter :: OPTIONS(17) = [ &
                                 option_t('-o         ', Y, [Y, N, N, N, Y, Y]), &
                                 option_t('--set      ', Y, [Y, Y, N, N, Y, Y]), &
                                 option_t('--solver   ', Y, [Y, Y, N, N, Y, Y]), &
@@ -38,6 +38,7 @@ module atrito_option_table
                                 option_t('--atol     ', Y, [N, N, Y, N, N, N]), &
                                 option_t('--refine   ', Y, [Y, Y, N, N, Y, Y]), &
                                 option_t('--plot     ', N, [Y, N, N, N, Y, Y]), &
+                                option_t('--bench-limit', N, [Y, N, N, N, N, N]), &
                                 option_t('--levels   ', Y, [N, N, N, N, N, Y]), &
                                 option_t('--vary     ', Y, [N, N, N, N, Y, N]), &
                                 option_t('--elements ', Y, [N, N, N, N, N, Y]), &

@@ -11,14 +11,14 @@ module atrito_run
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_hdf5, only: has_hdf5
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: signed_area, PLANE_STRAIN, PLANE_STRESS
+   use atrito_mesh, only: signed_area, PLANE_STRAIN, PLANE_STRESS, Q1_NODES, Q2_NODES
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_page, only: page_t, print_page
    use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: results_t
+   use atrito_results, only: results_t, contact_result_t
    use atrito_screen, only: compose_summary
    use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
                            SOLVER_MUMPS
@@ -30,12 +30,16 @@ module atrito_run
    use atrito_write_results, only: write_results
    implicit none (type, external)
    private
-   public :: run_deck, load_model, solve_options, run_facts_t
+   public :: run_deck, load_model, solve_options, agree_on_outcome, run_facts_t
 
    !> What a study wants to know of a run besides its tables.
    type :: run_facts_t
       integer(ip) :: n_dofs = 0, n_points = 0
       real(wp) :: h = 0.0_wp                        !< [L] side of a square of the mean area of the elements
+      integer(ip) :: degree = 0                     !< of the shape functions, 1 or 2; 0: elements of both kinds
+      real(wp) :: peak(2) = 0.0_wp                  !< [L] place of the largest pressure of the first pair
+      logical :: peak_is_end = .false.              !< it is the first or the last point of the slave surface
+      logical :: has_delta = .false., has_eps = .false., has_stick_slope = .false.   !< regularisations of contact and friction
    end type run_facts_t
 
 contains
@@ -77,6 +81,7 @@ contains
       type(results_t), intent(in) :: results
       real(wp) :: area
       integer(ip) :: e
+      integer :: i
 
       facts%n_dofs = results%scene%n_dofs
       facts%n_points = sum(results%scene%pairs%n_points)
@@ -85,7 +90,29 @@ contains
          area = area + signed_area(model%mesh, e)
       end do
       facts%h = sqrt(area/real(model%mesh%n_elements, wp))
+      if (all(model%mesh%shape == Q1_NODES)) facts%degree = 1
+      if (all(model%mesh%shape == Q2_NODES)) facts%degree = 2
+      if (size(model%pairs) == 0) return
+      do i = 1, size(model%pairs)
+         associate (law => model%interactions(model%pairs(i)%interaction))
+            facts%has_delta = facts%has_delta .or. law%delta > 0.0_wp
+            facts%has_eps = facts%has_eps .or. (law%nu > 0.0_wp .and. law%eps > 0.0_wp)
+            facts%has_stick_slope = facts%has_stick_slope .or. (law%nu > 0.0_wp .and. law%stick_slope > 0.0_wp)
+         end associate
+      end do
+      call find_peak(results%contact(1), facts)
    end function facts_of
+
+   pure subroutine find_peak(contact, facts)
+      type(contact_result_t), intent(in) :: contact
+      type(run_facts_t), intent(inout) :: facts
+      integer :: j
+
+      if (contact%n == 0) return
+      j = maxloc(contact%pressure(:contact%n), dim=1)
+      facts%peak = contact%x(:, j)
+      facts%peak_is_end = j == 1 .or. j == contact%n
+   end subroutine find_peak
 
    !> The status and the results say the same of a run: solved, or not converged and why.
    subroutine agree_on_outcome(status, results)

@@ -18,16 +18,22 @@ module atrito_study
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, append_string, join, nearest_names, to_text
    use atrito_summary, only: quantity_names
+   use atrito_study_errors, only: study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
    use atrito_study_plot, only: write_study_plot
-   use atrito_study_table, only: study_t, study_row_t, study_quantity_t, judge_study, write_study, compose_study
+   use atrito_study_probe, only: probe_deck
+   use atrito_study_table, only: write_study, compose_study
+   use atrito_study_words, only: judge_study
    use atrito_sweep_tables, only: sweep_run_t, read_summary
    use atrito_table, only: origin_t
-   use atrito_timers, only: reset_timers, get_phases
+   use atrito_timers, only: phase_time_t, reset_timers, get_phases
    implicit none (type, external)
    private
    public :: run_study
 
    character(len=*), parameter :: DECK_ELEMENTS = 'deck'   !< instead of a kind of element: as in the deck
+   real(wp), parameter :: SHORT = 0.1_wp             !< [s] shorter runs are made three times, for the clock
+   integer, parameter :: REPEATS = 2                 !< times that a short run is made again
+   integer(ip), parameter :: COARSER = 2             !< levels from the finest one to the one at which regularisations are probed
 
 contains
 
@@ -68,17 +74,88 @@ contains
             call report_progress(reporter, 'run '//to_text(int(k, ip))//' of '//to_text(size(study%rows, kind=ip))//'  ' &
                                  //row%element//', level '//to_text(row%level))
             call make_run(command, study, row, status)
-            ! the first run of a process pays for loading it: once more for the clock
-            if (k == 1 .and. is_ok(status) .and. .not. has_failed(row)) call make_run(command, study, row, status)
+            if (is_ok(status) .and. .not. has_failed(row)) call time_again(command, study, row, k == 1, status)
             code = max(code, status%code, int(row%code))
             ! a fault of the command line or the deck is the same at every level
             if (.not. is_ok(status) .or. row%code == STATUS_USAGE .or. (k == 1 .and. has_failed(row))) exit
          end associate
       end do
-      if (is_ok(status) .and. k > size(study%rows)) call finish(command, study, status)
+      if (is_ok(status) .and. k > size(study%rows)) then
+         call make_probes(command, study, reporter)
+         call finish(command, study, status)
+      end if
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
       code = max(code, status%code)
    end subroutine make_runs
+
+   !> Makes a short run again and keeps the times of the fastest; the first run of a process pays for loading it, and is made
+   !> again however long it takes.
+   subroutine time_again(command, study, row, is_first, status)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(in) :: study
+      type(study_row_t), intent(inout) :: row
+      logical, intent(in) :: is_first
+      type(status_t), intent(out) :: status
+      type(phase_time_t), allocatable :: best(:)
+      integer :: i
+
+      best = row%phases
+      do i = 1, REPEATS
+         if (sum(best%cpu) > SHORT .and. .not. (is_first .and. i == 1)) exit
+         call make_run(command, study, row, status)
+         if (.not. is_ok(status)) return
+         if (total_seconds(row, PROCESSOR) < sum(best%cpu)) best = row%phases
+      end do
+      row%phases = best
+   end subroutine time_again
+
+   !> What half of delta and half of eps do to the quantities, at a level of the last element that costs little.
+   subroutine make_probes(command, study, reporter)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(inout) :: study
+      type(reporter_t), intent(in) :: reporter
+      integer :: k
+
+      k = size(study%rows) - int(min(COARSER, command%levels - 1_ip))
+      allocate (study%probes(0))
+      associate (row => study%rows(k))
+         if (row%code /= STATUS_OK) return
+         if (row%has_delta .or. row%has_eps .or. row%has_stick_slope) call report_progress(reporter, 'half of delta, half of eps')
+         if (row%has_delta) call add_probe(command, 'half the delta', .true., k, study)
+         if (row%has_eps) call add_probe(command, 'half the eps', .false., k, study)
+         if (row%has_stick_slope .and. .not. row%has_eps) call add_probe(command, 'twice the stick slope', .false., k, study)
+      end associate
+   end subroutine make_probes
+
+   subroutine add_probe(command, what, is_penalty, k, study)
+      type(command_t), intent(in) :: command
+      character(len=*), intent(in) :: what
+      logical, intent(in) :: is_penalty
+      integer, intent(in) :: k                      !< row
+      type(study_t), intent(inout) :: study
+      type(command_t) :: one
+      type(study_probe_t), allocatable :: probes(:)
+      type(string_t), allocatable :: names(:)
+      real(wp) :: factors(2)
+      integer :: i, n
+
+      factors = merge([0.5_wp, 1.0_wp], [1.0_wp, 0.5_wp], is_penalty)
+      n = size(study%probes) + 1
+      allocate (probes(n), names(size(study%quantities)))
+      do i = 1, n - 1
+         probes(i) = study%probes(i)
+      end do
+      do i = 1, size(names)
+         names(i)%s = study%quantities(i)%name
+      end do
+      probes(n)%what = what
+      probes(n)%is_penalty = is_penalty
+      probes(n)%row = k
+      allocate (probes(n)%values(size(names)))
+      call make_command(command, study%rows(k), one)
+      call probe_deck(one, factors(1), factors(2), names, probes(n)%values)
+      call move_alloc(probes, study%probes)
+   end subroutine add_probe
 
    !> Every element at every level.
    pure subroutine list_runs(command, rows)
@@ -158,13 +235,7 @@ contains
       type(sweep_run_t) :: summary
       integer :: i, code
 
-      one = command
-      one%quiet = .true.
-      one%plot = .false.
-      one%refine = command%refine + row%level
-      if (row%element /= DECK_ELEMENTS) one%element = row%element
-      one%shape = shape_of(one%element)
-      one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
+      call make_command(command, row, one)
       call clear_messages()
       call reset_timers()
       call run_deck(one, store, code, facts)
@@ -172,15 +243,35 @@ contains
       row%h = facts%h
       row%n_dofs = facts%n_dofs
       row%n_points = facts%n_points
+      row%degree = facts%degree
+      row%peak = facts%peak
+      row%peak_is_end = facts%peak_is_end
+      row%has_delta = facts%has_delta
+      row%has_eps = facts%has_eps
+      row%has_stick_slope = facts%has_stick_slope
       row%phases = get_phases()
       summary%code = code
       call read_summary(one%folder, summary, status)
       row%values = [(amount(summary, study%quantities(i)%name), i=1, size(study%quantities))]
       row%estimate = amount(summary, 'error_estimate_percent')
       row%penetration = amount_or_0(summary, 'max_penetration')
-      row%slip = amount_or_0(summary, 'max_abs_slip')
       row%pressure = amount_or_0(summary, 'max_pressure')
    end subroutine make_run
+
+   !> The command of one run.
+   pure subroutine make_command(command, row, one)
+      type(command_t), intent(in) :: command
+      type(study_row_t), intent(in) :: row
+      type(command_t), intent(out) :: one
+
+      one = command
+      one%quiet = .true.
+      one%plot = .false.
+      one%refine = command%refine + row%level
+      if (row%element /= DECK_ELEMENTS) one%element = row%element
+      one%shape = shape_of(one%element)
+      one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
+   end subroutine make_command
 
    pure integer(ip) function shape_of(element)
       character(len=*), intent(in) :: element
@@ -219,6 +310,7 @@ contains
       type(page_t) :: page
       type(string_t), allocatable :: drawn(:)
 
+      study%rounding = max(study%rounding, 10.0_wp**(1 - command%digits))
       call judge_study(study)
       associate (deck => command%names(1)%s)
          origin%deck = deck(index(deck, '/', back=.true.) + 1:)
@@ -228,7 +320,7 @@ contains
          if (.not. is_ok(status)) return
          call clear_messages()
          if (command%plot) then
-            call write_study_plot(output_folder(command), origin%deck, study, drawn)
+            call write_study_plot(output_folder(command), deck_title(origin%deck, command%settings), study, drawn)
          else
             call remove_plots(output_folder(command))
          end if
@@ -238,5 +330,18 @@ contains
          call print_page(page, output_unit)
       end associate
    end subroutine finish
+
+   !> The deck and what --set changed of it.
+   pure function deck_title(deck, settings) result(title)
+      character(len=*), intent(in) :: deck
+      type(string_t), intent(in) :: settings(:)
+      character(len=:), allocatable :: title
+      integer :: i
+
+      title = deck
+      do i = 1, size(settings)
+         title = title//', '//settings(i)%s
+      end do
+   end function deck_title
 
 end module atrito_study

@@ -57,6 +57,7 @@ contains
       call add_line(page, '  --threads N        default 1')
       call add_line(page, '  --digits N         significant digits of the tables, 6 to 17, default 10')
       call add_line(page, '  --plot             pictures by gnuplot: mesh and contact pairs, into DIR/plots')
+      call add_line(page, '  --bench-limit      a run alone: time one linear solve of the glued bodies, nothing else')
       call add_line(page, '  --quiet            no progress, no notes, no summary; only warnings and errors')
       call add_line(page, 'options of a sweep')
       call add_line(page, '  --vary NAME=v1,..  values of a *PARAMETER; several --vary: every combination')

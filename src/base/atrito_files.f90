@@ -15,7 +15,7 @@ module atrito_files
    private
    public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
              remove_empty_folder, check_folder, ignore_broken_pipe
-   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, close_text
+   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, close_text, NEW_LINE_CHARACTER
    public :: end_files, commit_files, discard_files
 
    !> A set of files that appear together or not at all.
@@ -262,6 +262,19 @@ contains
          file%used = file%used + length
       end if
    end subroutine put_line
+
+   !> Writes some lines, each of which ends with NEW_LINE_CHARACTER.
+   subroutine put_lines(file, lines)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), contiguous, intent(in) :: lines(:)
+      integer(c_size_t) :: written, length
+
+      call flush_buffer(file)
+      length = len(lines, kind=c_size_t)*size(lines, kind=c_size_t)
+      if (.not. is_ok(file%status) .or. length == 0) return
+      written = c_fwrite(lines, 1_c_size_t, length, file%stream)
+      if (written /= length) call fail_to_write(file)
+   end subroutine put_lines
 
    subroutine flush_buffer(file)
       type(text_file_t), intent(inout) :: file

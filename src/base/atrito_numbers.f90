@@ -4,6 +4,7 @@
 !> number (1,5  3*2  2/3  1+5  nan  inf) is refused, and so is what does not fit into a double (1e999).
 module atrito_numbers
    use atrito_kinds, only: ip, lp, wp
+   use atrito_powers_of_ten, only: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
    implicit none (type, external)
    private
    public :: read_real, read_integer, NUMBER_OK, NUMBER_MALFORMED, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
@@ -15,10 +16,14 @@ module atrito_numbers
 
    !> Powers of ten that a double holds exactly.
    integer, parameter :: EXACT_POWERS = 22
-   real(wp), parameter :: POWER(0:EXACT_POWERS) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, 1e8_wp, &
+   real(wp), parameter :: EXACT_POWER(0:EXACT_POWERS) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, 1e8_wp, &
         1e9_wp, 1e10_wp, 1e11_wp, 1e12_wp, 1e13_wp, 1e14_wp, 1e15_wp, 1e16_wp, 1e17_wp, 1e18_wp, 1e19_wp, 1e20_wp, 1e21_wp, 1e22_wp]
    !> Largest count of digits whose integer a double holds exactly.
    integer, parameter :: EXACT_DIGITS = 15
+   !> Largest count of digits that are kept.
+   integer, parameter :: KEPT_DIGITS = 18
+   !> Bits of a double.
+   integer, parameter :: FRACTION_BITS = 53
    !> A number with more digits before its point overflows for certain.
    integer, parameter :: LARGEST_POWER = 309
    !> First 17 digits of the largest double, 1.7976931348623157e308; a number that begins so does not overflow yet.
@@ -33,18 +38,18 @@ contains
       integer, intent(out) :: outcome
       integer(lp) :: mantissa
       integer :: digits, exponent
-      logical :: negative
+      logical :: negative, whole, decided
 
       value = 0.0_wp
-      call scan_number(text, negative, mantissa, digits, exponent, outcome)
+      call scan_number(text, negative, mantissa, digits, exponent, whole, outcome)
       if (outcome /= NUMBER_OK) return
-      if (mantissa == 0_lp .and. digits <= EXACT_DIGITS) return
+      if (mantissa == 0_lp) return
       if (digits <= EXACT_DIGITS .and. abs(exponent) <= EXACT_POWERS) then
          ! one correctly rounded operation on two exact numbers
          if (exponent >= 0) then
-            value = real(mantissa, wp)*POWER(exponent)
+            value = real(mantissa, wp)*EXACT_POWER(exponent)
          else
-            value = real(mantissa, wp)/POWER(-exponent)
+            value = real(mantissa, wp)/EXACT_POWER(-exponent)
          end if
          if (negative) value = -value
       else if (digits + exponent > LARGEST_POWER) then
@@ -52,16 +57,42 @@ contains
       else if (digits + exponent == LARGEST_POWER .and. first_digits(text) > LARGEST_DIGITS) then
          outcome = NUMBER_TOO_LARGE      ! known before it is read: reading would raise the exception
       else
-         call read_long_real(text, value, outcome)
+         call nearest_real(mantissa, digits, exponent, value, decided)
+         if (negative) value = -value
+         if (.not. decided) call read_long_real(text, value, outcome)
       end if
    end subroutine read_real
 
+   !> The double nearest to mantissa 10**exponent: of the product, in integers of 63 bits, the upper bits are rounded to those of a
+   !> double. decided is false where the rest of it, with what is wrong with it, could change the outcome.
+   pure subroutine nearest_real(mantissa, digits, exponent, value, decided)
+      integer(lp), intent(in) :: mantissa                !< > 0
+      integer, intent(in) :: digits, exponent
+      real(wp), intent(out) :: value
+      logical, intent(out) :: decided
+      integer(lp), parameter :: DOUBT = 2_lp             !< of the upper bits
+      integer(lp) :: upper, half
+      integer :: up, down
+
+      value = 0.0_wp
+      decided = digits <= KEPT_DIGITS .and. abs(exponent) <= MOST_POWER
+      if (.not. decided) return
+      up = leadz(mantissa) - 1
+      upper = int(shiftr(int(shiftl(mantissa, up), XP)*int(POWER(exponent), XP), POWER_BITS), lp)
+      down = POWER_BITS - FRACTION_BITS - (leadz(upper) - 1)
+      half = shiftl(1_lp, down - 1)
+      decided = abs(iand(upper, 2_lp*half - 1_lp) - half) > DOUBT
+      value = scale(real(shiftr(shiftr(upper, down - 1) + 1_lp, 1), wp), down + POWER_BITS + POWER_SHIFT(exponent) - up)
+   end subroutine nearest_real
+
    !> Takes a number apart. `exponent` is that of the mantissa read as an integer; digits counts without leading zeros.
-   pure subroutine scan_number(text, negative, mantissa, digits, exponent, outcome)
+   pure subroutine scan_number(text, negative, mantissa, digits, exponent, whole, outcome)
       character(len=*), intent(in) :: text
       logical, intent(out) :: negative
-      integer(lp), intent(out) :: mantissa
-      integer, intent(out) :: digits, exponent, outcome
+      integer(lp), intent(out) :: mantissa               !< of more than KEPT_DIGITS their first ones
+      integer, intent(out) :: digits, exponent
+      logical, intent(out) :: whole                      !< neither point nor exponent
+      integer, intent(out) :: outcome
       integer :: i, seen, power_of_ten, d
 
       mantissa = 0_lp
@@ -71,12 +102,14 @@ contains
       outcome = NUMBER_MALFORMED
       i = 1
       negative = .false.
+      whole = .false.
       if (len(text) == 0) return
       if (text(1:1) == '+' .or. text(1:1) == '-') then
          negative = text(1:1) == '-'
          i = 2
       end if
       call take_digits(text, i, mantissa, digits, seen)
+      whole = i > len(text)
       if (i <= len(text)) then
          if (text(i:i) == '.') then
             i = i + 1
@@ -105,7 +138,7 @@ contains
          d = iachar(text(i:i)) - iachar('0')
          if (d < 0 .or. d > 9) exit
          if (digits > 0 .or. d > 0) digits = digits + 1
-         if (digits <= EXACT_DIGITS) mantissa = 10_lp*mantissa + int(d, lp)
+         if (digits <= KEPT_DIGITS) mantissa = 10_lp*mantissa + int(d, lp)
          seen = seen + 1
          i = i + 1
       end do
@@ -174,12 +207,12 @@ contains
       integer, intent(out) :: outcome
       integer(lp) :: mantissa
       integer :: digits, exponent
-      logical :: negative
+      logical :: negative, whole
 
       value = 0_ip
-      call scan_number(text, negative, mantissa, digits, exponent, outcome)
+      call scan_number(text, negative, mantissa, digits, exponent, whole, outcome)
       if (outcome /= NUMBER_OK) return
-      if (scan(text, '.eEdD') > 0) then
+      if (.not. whole) then
          outcome = NUMBER_NOT_INTEGER
       else if (digits > 10 .or. mantissa > int(huge(value), lp)) then
          outcome = NUMBER_TOO_LARGE

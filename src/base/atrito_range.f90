@@ -2,9 +2,10 @@
 module atrito_range
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf
    use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
-   public :: work_of
+   public :: work_of, unit_of
 
 contains
 
@@ -28,5 +29,36 @@ contains
          work = ieee_value(work, ieee_negative_inf)
       end if
    end function work_of
+
+   !> A power of two next to the largest of the values: what they are over it is not above 1, without rounding. 1 of nothing and of
+   !> zeros.
+   real(wp) function unit_of(values) result(unit)
+      real(wp), intent(in) :: values(:, :)
+      integer, parameter :: MOST = maxexponent(1.0_wp) - 2 !< 1/unit is a number as well
+      real(wp) :: largest(run_count(size(values, 2, kind=ip)))
+      integer(ip) :: run, first, last
+
+      unit = 1.0_wp
+      if (size(largest) == 0) return
+      !$omp parallel do schedule(static) private(first, last) if (is_shared(size(values, 2, kind=ip)))
+      do run = 1, size(largest, kind=ip)
+         call find_run(run, size(values, 2, kind=ip), first, last)
+         largest(run) = largest_of(values(:, first:last))
+      end do
+      !$omp end parallel do
+      if (maxval(largest) > 0.0_wp) unit = scale(1.0_wp, max(-MOST, min(MOST, exponent(maxval(largest)))))
+   end function unit_of
+
+   pure real(wp) function largest_of(values) result(largest)
+      real(wp), intent(in) :: values(:, :)
+      integer(ip) :: i, j
+
+      largest = 0.0_wp
+      do j = 1, size(values, 2, kind=ip)
+         do i = 1, size(values, 1, kind=ip)
+            if (abs(values(i, j)) > largest) largest = abs(values(i, j))
+         end do
+      end do
+   end function largest_of
 
 end module atrito_range

@@ -4,7 +4,7 @@ module atrito_strings
    implicit none (type, external)
    private
    public :: string_t, lower_case, upper_case, to_text, join, nearest_names, edit_distance, same_name, append_string, &
-             deck_name
+             deck_name, count_symbol
 
    !> A string of its own length, for lists of strings.
    type :: string_t
@@ -42,6 +42,23 @@ contains
          if (text(i:i) >= 'a' .and. text(i:i) <= 'z') upper(i:i) = achar(iachar(text(i:i)) - 32)
       end do
    end function upper_case
+
+   !> How often a symbol stands in a text; quick for long ones.
+   pure integer(lp) function count_symbol(text, symbol) result(n)
+      character(len=*), intent(in) :: text
+      character(len=1), intent(in) :: symbol
+      integer, parameter :: PIECE = 4096
+      integer :: first, i, found
+
+      n = 0_lp
+      do first = 1, len(text), PIECE
+         found = 0
+         do i = first, min(len(text), first + PIECE - 1)   ! without an exit: the compiler takes many symbols at a time
+            found = found + merge(1, 0, text(i:i) == symbol)
+         end do
+         n = n + int(found, lp)
+      end do
+   end function count_symbol
 
    !> Names are without case.
    pure logical function same_name(a, b)

@@ -3,12 +3,19 @@
 !> A region shares out independent pieces of work, and what they give is summed in an order that does not depend on who did them:
 !> results are the same to the last bit for any number of threads. The number is OpenMP's own setting of the calling thread; the
 !> program sets it at its start, so that no variable of the environment decides.
+!>
+!> Long lists are shared out in runs of a fixed length. Whatever depends on how far a piece of work reaches - a sum, an element that
+!> is compared with the one before - begins anew with each run, whoever does it.
 module atrito_threads
-   use omp_lib, only: omp_get_max_threads, omp_set_num_threads
+   use omp_lib, only: omp_get_max_threads, omp_get_thread_num, omp_set_num_threads
    use atrito_kinds, only: ip
    implicit none (type, external)
    private
-   public :: set_threads, n_threads
+   public :: set_threads, n_threads, this_thread, is_shared, run_count, find_run, RUN_LENGTH
+
+   integer(ip), parameter :: RUN_LENGTH = 1024
+   !> Fewer pieces than this are done by one thread: to wake others takes as long.
+   integer(ip), parameter :: LEAST_SHARED = 4*RUN_LENGTH
 
 contains
 
@@ -23,5 +30,34 @@ contains
    integer(ip) function n_threads()
       n_threads = int(omp_get_max_threads(), ip)
    end function n_threads
+
+   !> Number of the thread that asks, 1 .. n_threads(), in a parallel region.
+   integer(ip) function this_thread()
+      this_thread = int(omp_get_thread_num(), ip) + 1
+   end function this_thread
+
+   !> Whether a list is long enough for more than one thread: the `if` of the parallel regions.
+   pure logical function is_shared(n)
+      integer(ip), intent(in) :: n              !< pieces of work, each some hundred operations or more
+
+      is_shared = n >= LEAST_SHARED
+   end function is_shared
+
+   !> Runs in a list.
+   pure integer(ip) function run_count(n)
+      integer(ip), intent(in) :: n              !< length of the list
+
+      run_count = (n + RUN_LENGTH - 1)/RUN_LENGTH
+   end function run_count
+
+   !> Bounds of a run.
+   pure subroutine find_run(run, n, first, last)
+      integer(ip), intent(in) :: run            !< 1 .. run_count(n)
+      integer(ip), intent(in) :: n              !< length of the list
+      integer(ip), intent(out) :: first, last
+
+      first = (run - 1)*RUN_LENGTH + 1
+      last = min(run*RUN_LENGTH, n)
+   end subroutine find_run
 
 end module atrito_threads

@@ -4,7 +4,7 @@ module atrito_deck_memory
    use atrito_diagnostics, only: report_deck_error
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory, memory_text
-   use atrito_strings, only: to_text
+   use atrito_strings, only: to_text, count_symbol
    implicit none (type, external)
    private
    public :: fits_memory
@@ -21,16 +21,10 @@ contains
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: source
       integer(lp) :: items, memory
-      integer(ip) :: i
 
       fits = len(deck%sources(source)%text) <= SMALL_FILE
       if (fits) return
-      items = 0_lp
-      associate (text => deck%sources(source)%text)
-         do i = 1, len(text, kind=ip)
-            if (text(i:i) == ',' .or. text(i:i) == achar(10)) items = items + 1_lp
-         end do
-      end associate
+      items = count_symbol(deck%sources(source)%text, ',') + count_symbol(deck%sources(source)%text, achar(10))
       memory = available_memory()
       fits = ITEM_BYTES*items <= memory
       if (.not. fits) call report_deck_error(deck, 'E-MEMORY', 'a file of '//to_text(items)//' items and lines needs about '// &

@@ -15,7 +15,7 @@ module atrito_reader
    use atrito_lexer, only: line_t, items_t, take_line, split_items, LINE_KEYWORD, LINE_DATA
    use atrito_parameters, only: settings_t, read_settings, define_parameter, check_settings
    use atrito_status, only: status_t, is_ok
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t, to_text, count_symbol
    implicit none (type, external)
    private
    public :: read_deck
@@ -150,7 +150,7 @@ contains
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: source
 
-      is_binary = index(deck%sources(source)%text, achar(0)) > 0
+      is_binary = count_symbol(deck%sources(source)%text, achar(0)) > 0_lp
       if (is_binary) call report_deck_error(deck, 'E-BINARY', 'not a text file', expected='a deck', source=source)
    end function is_binary
 

@@ -1,16 +1,15 @@
-!> Sums over the elements of a body: matrix, profile, nodal forces of a displacement field.
+!> Sums over the elements of a body: matrix and profile.
 module atrito_assembly
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_range, only: work_of
-   use atrito_mesh, only: mesh_t, element_coordinates, Q2_NODES
+   use atrito_mesh, only: mesh_t, Q2_NODES
    use atrito_bodies, only: body_t, bodies_t, element_equations
    use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
-   use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile
+   use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: fem_t, stiffness_cache_t, body_profile, assemble_body, kept_diagonal, internal_forces, cached_stiffness
+   public :: fem_t, stiffness_cache_t, body_profile, assemble_body, kept_diagonal, cached_stiffness, is_like_before
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -29,7 +28,8 @@ module atrito_assembly
 
 contains
 
-   !> Column heights of a body's matrix.
+   !> Column heights of a body's matrix; where it is not numbered for its profile, those that are to be expected if it were: a
+   !> column reaches over two rows of nodes across the shorter side of the box round the body.
    subroutine body_profile(fem, i_body, profile)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -37,6 +37,11 @@ contains
       integer(ip) :: i
 
       associate (body => fem%bodies%list(i_body))
+         if (.not. body%by_profile) then
+            call expect_profile(profile, body%n, body%n_kept, 4_ip + &
+                                int(2.0_wp*sqrt(real(size(body%nodes), wp)*body%slenderness), ip))
+            return
+         end if
          call begin_profile(profile, body%n, body%n_kept)
          do i = 1, size(body%elements, kind=ip)
             call add_to_profile(profile, element_equations(fem%mesh, fem%bodies, body%elements(i)))
@@ -92,60 +97,56 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
       type(stiffness_cache_t), intent(inout) :: cache
-      real(wp) :: x(2, fem%mesh%shape(element)), origin(2), size_of_element, tolerance
       integer(ip) :: n, section, state
 
-      n = fem%mesh%shape(element)
       section = fem%section_of(element)
       state = fem%mesh%state(element)
-      x = element_coordinates(fem%mesh, element)
-      origin = x(:, 1)
-      ! Equal within the rounding of the coordinates, and never coarser than 1e-12 of the element.
-      tolerance = 2*EPS_MACH*maxval(abs(x))
-      x(1, :) = x(1, :) - origin(1)
-      x(2, :) = x(2, :) - origin(2)
-      size_of_element = maxval(abs(x))
-      tolerance = min(tolerance, 1.0e-12_wp*size_of_element)
-      if (cache%section == section .and. cache%state == state .and. cache%shape == n) then
-         if (maxval(abs(cache%x(:, :n) - x)) <= tolerance) return
+      if (cache%section == section .and. cache%state == state) then
+         if (is_like_before(fem%mesh, element, cache%shape, cache%x)) return
       end if
+      n = fem%mesh%shape(element)
       cache%section = section
       cache%state = state
       cache%shape = n
-      cache%x(:, :n) = x
-      call element_stiffness(x, fem%sections(section), state, cache%k(:2*n, :2*n))
+      call relative_coordinates(fem%mesh, element, cache%x)
+      call element_stiffness(cache%x(:, :n), fem%sections(section), state, cache%k(:2*n, :2*n))
    end subroutine cached_stiffness
 
-   !> Nodal forces K u of a body's elements, added to `force`; with `size`, the sums |K||u| that measure their round-off are added
-   !> to it; with `energy`, u K u / 2 is added to it.
-   subroutine internal_forces(fem, i_body, u, force, size_of_force, energy)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
-      real(wp), intent(inout) :: force(:, :)       !< (2, n_nodes) [F]
-      real(wp), intent(inout) :: size_of_force(:, :) !< (2, n_nodes) [F]
-      real(wp), intent(inout) :: energy            !< [F L]
-      type(stiffness_cache_t) :: cache
-      real(wp) :: ue(2*Q2_NODES), fe(2*Q2_NODES), se(2*Q2_NODES)
-      integer(ip) :: i, k, e, n, node
+   pure subroutine relative_coordinates(mesh, element, x)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      real(wp), intent(inout) :: x(2, Q2_NODES)    !< less those of the first node [L]
+      integer(ip) :: k
 
-      associate (body => fem%bodies%list(i_body))
-         do i = 1, size(body%elements, kind=ip)
-            e = body%elements(i)
-            n = fem%mesh%shape(e)
-            ue(:2*n) = reshape(u(:, fem%mesh%nodes(:n, e)), [2*n])
-            if (all(ue(:2*n) == 0.0_wp)) cycle    ! of prescribed displacements most elements know nothing
-            call cached_stiffness(fem, e, cache)
-            fe(:2*n) = matmul(cache%k(:2*n, :2*n), ue(:2*n))
-            se(:2*n) = matmul(abs(cache%k(:2*n, :2*n)), abs(ue(:2*n)))
-            energy = energy + 0.5_wp*work_of(2*n, fe, ue)
-            do k = 1, n
-               node = fem%mesh%nodes(k, e)
-               force(:, node) = force(:, node) + fe(2*k - 1:2*k)
-               size_of_force(:, node) = size_of_force(:, node) + se(2*k - 1:2*k)
-            end do
-         end do
-      end associate
-   end subroutine internal_forces
+      do k = 1, mesh%shape(element)
+         x(:, k) = mesh%x(:, mesh%nodes(k, element)) - mesh%x(:, mesh%nodes(1, element))
+      end do
+   end subroutine relative_coordinates
+
+   !> Whether an element has the shape of another one, within the rounding of the coordinates and never coarser than 1e-12 of the
+   !> element.
+   pure logical function is_like_before(mesh, element, shape, x) result(alike)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      integer(ip), intent(in) :: shape             !< of the other one; 0: there is none
+      real(wp), intent(in) :: x(2, Q2_NODES)       !< of the other one, less those of its first node [L]
+      real(wp) :: first(2), here(2), way(2), largest, size_of_element, difference
+      integer(ip) :: k
+
+      alike = .false.
+      if (shape /= mesh%shape(element)) return
+      first = mesh%x(:, mesh%nodes(1, element))
+      largest = max(abs(first(1)), abs(first(2)))
+      size_of_element = 0.0_wp
+      difference = 0.0_wp
+      do k = 2, shape
+         here = mesh%x(:, mesh%nodes(k, element))
+         way = here - first
+         largest = max(largest, abs(here(1)), abs(here(2)))
+         size_of_element = max(size_of_element, abs(way(1)), abs(way(2)))
+         difference = max(difference, abs(way(1) - x(1, k)), abs(way(2) - x(2, k)))
+      end do
+      alike = difference <= min(2*EPS_MACH*largest, 1.0e-12_wp*size_of_element)
+   end function is_like_before
 
 end module atrito_assembly

@@ -87,12 +87,19 @@ contains
    !> Von Mises' equivalent stress.
    pure real(wp) function von_mises(s, s33)
       real(wp), intent(in) :: s(3), s33    !< s11, s22, s12 and s33 [F/L^2]
-      real(wp) :: scale
+      real(wp), parameter :: SMALL = 1.0e-140_wp, LARGE = 1.0e140_wp !< between them squares stay in the range of numbers
+      real(wp) :: scale, squares
 
-      scale = max(maxval(abs(s)), abs(s33))
-      von_mises = 0.0_wp
-      if (scale > 0.0_wp) von_mises = scale*sqrt(0.5_wp*(((s(1) - s(2))/scale)**2 + ((s(2) - s33)/scale)**2 &
-                                                         + ((s33 - s(1))/scale)**2) + 3*(s(3)/scale)**2)
+      scale = max(abs(s(1)), abs(s(2)), abs(s(3)), abs(s33))
+      if (scale > SMALL .and. scale < LARGE) then
+         squares = 0.5_wp*((s(1) - s(2))**2 + (s(2) - s33)**2 + (s33 - s(1))**2) + 3*s(3)**2
+         von_mises = sqrt(squares)
+      else if (scale > 0.0_wp) then
+         squares = 0.5_wp*(((s(1) - s(2))/scale)**2 + ((s(2) - s33)/scale)**2 + ((s33 - s(1))/scale)**2) + 3*(s(3)/scale)**2
+         von_mises = scale*sqrt(squares)
+      else
+         von_mises = 0.0_wp
+      end if
    end function von_mises
 
 end module atrito_elasticity

@@ -5,39 +5,149 @@
 module atrito_element
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_elasticity, only: elastic_t, elasticity_matrix, has_mean_dilatation
-   use atrito_mesh, only: Q1_NODES
+   use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
-                                     gauss_point, gauss_count
+                                     gauss_point, gauss_count, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, &
+                                     Q2_WEIGHTS
    implicit none (type, external)
    private
    public :: element_stiffness, mean_gradients, pressure_load, body_load
 
    !> Bits of the largest entry of a stiffness that are kept: four fewer than a double has, room for exact sums.
    integer, parameter :: KEPT_BITS = digits(1.0_wp) - 4
+   !> Dofs of the largest element.
+   integer, parameter :: MOST_DOFS = 2*Q2_NODES
 
 contains
 
    !> Stiffness [F/L] of an element, full Gauss integration; with FORMULATION=BBAR of the strains with the mean dilatation.
+   !>
+   !> Of isotropic elasticity B'DB of two nodes is, with g the gradients of their shape functions,
+   !>
+   !>     (lambda + G) ga gb' + G [ga.gb, -(ga x gb); ga x gb, ga.gb]
+   !>
+   !> the work of the dilatation and that of the rest, so that the integrals of ga gb' are all that is wanted of the Gauss points.
+   !> The mean dilatation changes the first part alone. Only pairs a < b are computed: the blocks of the diagonal follow from them.
    pure subroutine element_stiffness(x, section, state, k)
       real(wp), intent(in) :: x(:, :)              !< coordinates [L], (2, n)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state             !< PLANE_STRAIN or PLANE_STRESS
       real(wp), intent(out) :: k(:, :)             !< (2n, 2n)
-      real(wp) :: b(3, size(k, 1)), d(3, 3), xi(2), weight, jacobian
-      integer(ip) :: n, point
+      real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, Q2_NODES), d(3, 3), bulk, shear
+      integer(ip) :: n, i, j
 
       n = size(x, 2, kind=ip)
-      d = elasticity_matrix(section, state)
-      k = 0.0_wp
-      do point = 1, gauss_count(n)**2
-         call gauss_point(n, point, xi, weight)
-         call strain_matrix(x, xi, b, jacobian)
-         if (has_mean_dilatation(section, state, n)) call average_dilatation(x, b)
-         k = k + matmul(transpose(b), matmul(d, b))*(weight*jacobian*section%thickness)
+      do i = 1, n
+         relative(:, i) = x(:, i) - x(:, 1)
       end do
-      k = 0.5_wp*(k + transpose(k))
-      call balance_stiffness(k)
+      call integrate_products(n, relative, upper)
+      d = elasticity_matrix(section, state)
+      bulk = (d(1, 2) + d(3, 3))*section%thickness
+      shear = d(3, 3)*section%thickness
+      if (has_mean_dilatation(section, state, n)) then
+         call combine_products(n, 0.0_wp, shear, upper)
+         call add_mean_dilatation(relative, bulk, upper)
+      else
+         call combine_products(n, bulk, shear, upper)
+      end if
+      call balance_stiffness(n, upper)
+      do j = 1, 2*n
+         do i = 1, j
+            k(i, j) = upper(i, j)
+            k(j, i) = upper(i, j)
+         end do
+      end do
    end subroutine element_stiffness
+
+   !> The integrals over the element of ga gb', a < b.
+   pure subroutine integrate_products(n, x, products)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: x(2, Q2_NODES)       !< less those of the first node [L]
+      real(wp), intent(out) :: products(MOST_DOFS, MOST_DOFS) !< blocks a < b; others are undefined
+      integer(ip) :: i
+
+      products(:2*n, :2*n) = 0.0_wp
+      if (n == Q1_NODES) then
+         do i = 1, size(Q1_XI_SLOPES, 2, kind=ip)
+            call add_products(n, x, Q1_XI_SLOPES(:, i), Q1_ETA_SLOPES(:, i), 1.0_wp, products)
+         end do
+      else
+         do i = 1, size(Q2_XI_SLOPES, 2, kind=ip)
+            call add_products(n, x, Q2_XI_SLOPES(:, i), Q2_ETA_SLOPES(:, i), Q2_WEIGHTS(i), products)
+         end do
+      end if
+   end subroutine integrate_products
+
+   !> What a Gauss point gives to the integrals. Arrays of a fixed length, since the compiler makes more of them.
+   pure subroutine add_products(n, x, dxi, deta, weight, products)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: x(2, n)
+      real(wp), intent(in) :: dxi(n), deta(n)      !< derivatives of the shape functions
+      real(wp), intent(in) :: weight
+      real(wp), intent(inout) :: products(MOST_DOFS, MOST_DOFS)
+      real(wp) :: along_xi(2), along_eta(2), factor
+      real(wp) :: g(MOST_DOFS), h(MOST_DOFS)       ! gradients times the Jacobian [L]; g weight/Jacobian
+      integer(ip) :: a, b, i
+
+      along_xi = 0.0_wp
+      along_eta = 0.0_wp
+      do a = 2, n                                  ! x(:, 1) is 0
+         along_xi = along_xi + x(:, a)*dxi(a)
+         along_eta = along_eta + x(:, a)*deta(a)
+      end do
+      factor = weight/(along_xi(1)*along_eta(2) - along_eta(1)*along_xi(2))
+      do a = 1, n
+         g(2*a - 1) = along_eta(2)*dxi(a) - along_xi(2)*deta(a)
+         g(2*a) = along_xi(1)*deta(a) - along_eta(1)*dxi(a)
+      end do
+      h(:2*n) = g(:2*n)*factor
+      do b = 2, n
+         do i = 1, 2*b - 2
+            products(i, 2*b - 1) = products(i, 2*b - 1) + g(i)*h(2*b - 1)
+            products(i, 2*b) = products(i, 2*b) + g(i)*h(2*b)
+         end do
+      end do
+   end subroutine add_products
+
+   !> From the integrals of ga gb' to the blocks of the stiffness, in place.
+   pure subroutine combine_products(n, bulk, shear, k)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: bulk, shear          !< lambda + G and G times the thickness [F/L]
+      real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
+      real(wp) :: dot, cross
+      integer(ip) :: a, b
+
+      do b = 2, n
+         do a = 1, b - 1
+            dot = shear*(k(2*a - 1, 2*b - 1) + k(2*a, 2*b))
+            cross = shear*(k(2*a - 1, 2*b) - k(2*a, 2*b - 1))
+            k(2*a - 1, 2*b - 1) = bulk*k(2*a - 1, 2*b - 1) + dot
+            k(2*a, 2*b - 1) = bulk*k(2*a, 2*b - 1) + cross
+            k(2*a - 1, 2*b) = bulk*k(2*a - 1, 2*b) - cross
+            k(2*a, 2*b) = bulk*k(2*a, 2*b) + dot
+         end do
+      end do
+   end subroutine combine_products
+
+   !> The work of the mean dilatation (T. J. R. Hughes, Int. J. Numer. Methods Eng. 15, 1980, for the plane: half of it in either
+   !> direction; e33 stays 0, and s33 = mu (s11 + s22)).
+   pure subroutine add_mean_dilatation(x, bulk, k)
+      real(wp), intent(in) :: x(2, Q2_NODES)       !< of Q1_NODES nodes [L]
+      real(wp), intent(in) :: bulk
+      real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
+      real(wp) :: mean(2*Q1_NODES), d(2), e(2), area
+      integer(ip) :: b
+
+      mean = reshape(mean_gradients(x(:, :Q1_NODES)), [2*Q1_NODES])
+      d = x(:, 3) - x(:, 1)
+      e = x(:, 4) - x(:, 2)
+      area = 0.5_wp*(d(1)*e(2) - d(2)*e(1))
+      do b = 3, 2*Q1_NODES
+         associate (last => 2*((b - 1)/2))         ! dofs of the nodes before
+            k(:last, b) = k(:last, b) + mean(:last)*(bulk*area*mean(b))
+         end associate
+      end do
+   end subroutine add_mean_dilatation
 
    !> Makes the forces of a translation vanish to the last bit, K_aa = -sum_b K_ab for the 2 x 2 blocks of the nodes.
    !>
@@ -45,53 +155,76 @@ contains
    !> have the same error, as equal elements have, that costs three digits of the answer. Off-diagonal blocks are rounded to a
    !> common grid, so that their sums are exact; the diagonal blocks come out symmetric because the antisymmetric parts of the
    !> others are made to cancel round each node.
-   pure subroutine balance_stiffness(k)
-      real(wp), intent(inout) :: k(:, :)           !< (2n, 2n), symmetric
-      real(wp) :: spacing, defect
-      integer(ip) :: n, a, b
+   pure subroutine balance_stiffness(n, k)
+      integer(ip), intent(in) :: n
+      real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS) !< blocks a < b; those of the diagonal on return, their upper triangles
+      real(wp) :: defect
+      integer(ip) :: a, b
 
-      n = size(k, 1, kind=ip)/2
-      spacing = set_exponent(1.0_wp, exponent(maxval(abs(k))) - KEPT_BITS)
-      if (maxval(abs(k)) < 1.0_wp/huge(1.0_wp)/EPS_MACH) return
-      k = anint(k/spacing)*spacing
+      call sum_diagonal_blocks(n, k)
+      call round_to_grid(n, k)
       do a = 1, n - 1
          defect = 0.0_wp
-         do b = 1, n
-            if (b /= a) defect = defect + (k(2*a - 1, 2*b) - k(2*a, 2*b - 1))
+         do b = 1, a - 1
+            defect = defect + (k(2*b, 2*a - 1) - k(2*b - 1, 2*a))
+         end do
+         do b = a + 1, n
+            defect = defect + (k(2*a - 1, 2*b) - k(2*a, 2*b - 1))
          end do
          k(2*a - 1, 2*a + 2) = k(2*a - 1, 2*a + 2) - defect
-         k(2*a + 2, 2*a - 1) = k(2*a - 1, 2*a + 2)
       end do
-      do a = 1, n
-         k(2*a - 1:2*a, 2*a - 1:2*a) = 0.0_wp
-         do b = 1, n
-            if (b /= a) k(2*a - 1:2*a, 2*a - 1:2*a) = k(2*a - 1:2*a, 2*a - 1:2*a) - k(2*a - 1:2*a, 2*b - 1:2*b)
-         end do
-      end do
+      call sum_diagonal_blocks(n, k)
    end subroutine balance_stiffness
 
-   !> Strain = b * displacements at a place, and the Jacobian [L^2].
-   pure subroutine strain_matrix(x, xi, b, jacobian)
-      real(wp), intent(in) :: x(:, :), xi(2)
-      real(wp), intent(out) :: b(:, :)             !< (3, 2n) [1/L]
-      real(wp), intent(out) :: jacobian
-      real(wp) :: dn(size(x, 2), 2), dx(size(x, 2), 2), j(2, 2), inverse(2, 2)
-      integer(ip) :: n, i
+   !> Rounds the blocks a < b to a grid that has KEPT_BITS digits of the largest entry, which stands on the diagonal. When 1.5/eps
+   !> of its spacings are added, no digits are left for anything finer.
+   pure subroutine round_to_grid(n, k)
+      integer(ip), intent(in) :: n
+      real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
+      real(wp) :: largest, spacing, shift
+      integer(ip) :: i, b
 
-      n = size(x, 2, kind=ip)
-      dn = shape_gradients(n, xi)
-      j = matmul(from_first(x), dn)
-      jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-      inverse = reshape([j(2, 2), -j(2, 1), -j(1, 2), j(1, 1)], [2, 2])/jacobian
-      dx = matmul(dn, inverse)
-      b = 0.0_wp
-      do i = 1, n
-         b(1, 2*i - 1) = dx(i, 1)
-         b(2, 2*i) = dx(i, 2)
-         b(3, 2*i - 1) = dx(i, 2)
-         b(3, 2*i) = dx(i, 1)
+      largest = 0.0_wp
+      do i = 1, 2*n
+         largest = max(largest, abs(k(i, i)))
       end do
-   end subroutine strain_matrix
+      if (largest < 1.0_wp/huge(1.0_wp)/EPS_MACH) return
+      spacing = set_exponent(1.0_wp, exponent(largest) - KEPT_BITS)
+      shift = 1.5_wp/EPS_MACH*spacing
+      do b = 2, n
+         do i = 1, 2*b - 2
+            k(i, 2*b - 1) = (k(i, 2*b - 1) + shift) - shift
+            k(i, 2*b) = (k(i, 2*b) + shift) - shift
+         end do
+      end do
+   end subroutine round_to_grid
+
+   !> The upper triangles of the diagonal blocks, less the sums of the others in their rows.
+   pure subroutine sum_diagonal_blocks(n, k)
+      integer(ip), intent(in) :: n
+      real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
+      real(wp) :: k11, k12, k22
+      integer(ip) :: a, b
+
+      do a = 1, n
+         k11 = 0.0_wp
+         k12 = 0.0_wp
+         k22 = 0.0_wp
+         do b = 1, a - 1
+            k11 = k11 - k(2*b - 1, 2*a - 1)
+            k12 = k12 - k(2*b, 2*a - 1)
+            k22 = k22 - k(2*b, 2*a)
+         end do
+         do b = a + 1, n
+            k11 = k11 - k(2*a - 1, 2*b - 1)
+            k12 = k12 - k(2*a - 1, 2*b)
+            k22 = k22 - k(2*a, 2*b)
+         end do
+         k(2*a - 1, 2*a - 1) = k11
+         k(2*a - 1, 2*a) = k12
+         k(2*a, 2*a) = k22
+      end do
+   end subroutine sum_diagonal_blocks
 
    !> Coordinates less those of the first node [L].
    pure function from_first(x) result(relative)
@@ -101,18 +234,6 @@ contains
       relative(1, :) = x(1, :) - x(1, 1)
       relative(2, :) = x(2, :) - x(2, 1)
    end function from_first
-
-   !> Replaces the dilatation of the strains at a place by the mean of the element, half of it in either direction (T. J. R.
-   !> Hughes, Int. J. Numer. Methods Eng. 15, 1980, for the plane: e33 stays 0, and s33 = mu (s11 + s22)).
-   pure subroutine average_dilatation(x, b)
-      real(wp), intent(in) :: x(:, :)              !< (2, Q1_NODES) [L]
-      real(wp), intent(inout) :: b(:, :)           !< (3, 2 Q1_NODES) [1/L]
-      real(wp) :: shift(2*Q1_NODES)
-
-      shift = 0.5_wp*(reshape(mean_gradients(x), [2*Q1_NODES]) - (b(1, :) + b(2, :)))
-      b(1, :) = b(1, :) + shift
-      b(2, :) = b(2, :) + shift
-   end subroutine average_dilatation
 
    !> Means over an element of four nodes of the derivatives of its shape functions [1/L], by Gauss' theorem: the integral of
    !> dN_a/dx1 is half the height of the diagonal from the node before a to the node behind it. sum(mean_gradients*u) is the mean
@@ -160,14 +281,15 @@ contains
       real(wp), intent(in) :: density(2)           !< [F/L^3]
       real(wp), intent(in) :: thickness            !< [L]
       real(wp), intent(out) :: f(:, :)             !< (2, n)
-      real(wp) :: xi(2), weight, jacobian, b(3, 2*size(x, 2)), n(size(x, 2))
+      real(wp) :: xi(2), weight, j(2, 2), jacobian, n(size(x, 2))
       integer(ip) :: point, n_nodes
 
       n_nodes = size(x, 2, kind=ip)
       f = 0.0_wp
       do point = 1, gauss_count(n_nodes)**2
          call gauss_point(n_nodes, point, xi, weight)
-         call strain_matrix(x, xi, b, jacobian)
+         j = matmul(from_first(x), shape_gradients(n_nodes, xi))
+         jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
          n = shape_values(n_nodes, xi)*(weight*jacobian*thickness)
          f(1, :) = f(1, :) + n*density(1)
          f(2, :) = f(2, :) + n*density(2)

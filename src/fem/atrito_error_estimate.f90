@@ -5,10 +5,10 @@ module atrito_error_estimate
    use atrito_elasticity, only: compliance_matrix
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: Q1_NODES, Q2_NODES
-   use atrito_point_stress, only: point_rule_t, element_data_t, point_values_t, MOST_POINTS, make_point_rule, fetch_element, &
-                                  point_stresses
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
    use atrito_shape_functions, only: gauss_count
    use atrito_stress_recovery, only: stress_field_t
+   use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
    public :: energies_t, measure_error, relative_error
@@ -27,60 +27,98 @@ module atrito_error_estimate
 contains
 
    !> Integrates (s* - s) C (s* - s) and s C s, C the compliance, by the Gauss rule of the stiffness.
-   pure subroutine measure_error(fem, u, field, energies)
+   subroutine measure_error(fem, u, field, energies, unit)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(stress_field_t), intent(in) :: field     !< recovered from u
       type(energies_t), intent(out) :: energies
+      real(wp), intent(in), optional :: unit        !< displacements and stresses are divided by it first: a power of two, so that
+      !< squares of very large or small ones stay in the range of numbers
       type(point_rule_t) :: rules(2)
-      integer(ip) :: e
+      type(energies_t) :: parts(run_count(fem%mesh%n_elements))
+      real(wp) :: per_unit
+      integer(ip) :: run
 
+      per_unit = 1.0_wp
+      if (present(unit)) per_unit = 1/unit
       call make_point_rule(Q1_NODES, gauss_count(Q1_NODES), rules(1))
       call make_point_rule(Q2_NODES, gauss_count(Q2_NODES), rules(2))
-      do e = 1, fem%mesh%n_elements
-         call add_element(fem, e, u, field, rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)), energies)
+      !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
+      do run = 1, size(parts, kind=ip)
+         call measure_run(fem, u, field, per_unit, rules, run, parts(run))
       end do
+      !$omp end parallel do
+      energies%solution = sum(parts%solution)
+      energies%error = sum(parts%error)
+      energies%round_off = sum(parts%round_off)
    end subroutine measure_error
 
-   pure subroutine add_element(fem, e, u, field, rule, energies)
+   pure subroutine measure_run(fem, u, field, per_unit, rules, run, energies)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)
+      type(stress_field_t), intent(in) :: field
+      real(wp), intent(in) :: per_unit
+      type(point_rule_t), intent(in) :: rules(2)
+      integer(ip), intent(in) :: run
+      type(energies_t), intent(out) :: energies
+      type(point_geometry_t) :: geometry
+      integer(ip) :: e, first, last
+
+      call find_run(run, fem%mesh%n_elements, first, last)
+      do e = first, last
+         associate (rule => rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)))
+            call fetch_geometry(fem, e, rule, geometry)
+            call add_element(fem, e, u, field, per_unit, rule, geometry, energies)
+         end associate
+      end do
+   end subroutine measure_run
+
+   pure subroutine add_element(fem, e, u, field, per_unit, rule, geometry, energies)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: u(:, :)
       type(stress_field_t), intent(in) :: field
+      real(wp), intent(in) :: per_unit
       type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry
       type(energies_t), intent(inout) :: energies
-      type(element_data_t) :: data
-      type(point_values_t) :: at
-      real(wp) :: s(3), d(MOST_POINTS, 3), c(3, 3), at_node(3), weight, largest
-      integer(ip) :: i, k, j
+      real(wp) :: s(MOST_POINTS, 3), d(MOST_POINTS, 3), c(3, 3), weight(MOST_POINTS), largest
+      integer(ip) :: k, n
 
-      call fetch_element(fem, e, u, data)
-      c = compliance_matrix(fem%sections(fem%section_of(e)), fem%mesh%state(e))
-      call point_stresses(data, rule, at)
-      d(:rule%n, :) = -at%s(:rule%n, :)
+      n = rule%n
+      c = compliance_matrix(fem%sections(geometry%section), geometry%state)
+      call point_stresses(fem, e, u, rule, geometry, s)
+      s(:n, :) = s(:n, :)*per_unit
+      d(:n, :) = -s(:n, :)
       largest = 0.0_wp
-      do k = 1, data%n
-         at_node = field%stress(:, field%place(k, e))
-         largest = max(largest, maxval(abs(u(:, fem%mesh%nodes(k, e)))))
-         do j = 1, 3
-            d(:rule%n, j) = d(:rule%n, j) + rule%value(:rule%n, k)*at_node(j)
-         end do
+      do k = 1, geometry%shape
+         largest = max(largest, abs(u(1, fem%mesh%nodes(k, e))), abs(u(2, fem%mesh%nodes(k, e))))
+         associate (at_node => field%stress(:, field%place(k, e)), value => rule%value(:n, k))
+            d(:n, 1) = d(:n, 1) + value*(at_node(1)*per_unit)
+            d(:n, 2) = d(:n, 2) + value*(at_node(2)*per_unit)
+            d(:n, 3) = d(:n, 3) + value*(at_node(3)*per_unit)
+         end associate
       end do
-      do i = 1, rule%n
-         weight = rule%weight(i)*at%jacobian(i)*fem%sections(fem%section_of(e))%thickness
-         s = at%s(i, :)
-         energies%solution = energies%solution + weight*density(c, s)
-         energies%error = energies%error + weight*density(c, d(i, :))
-         energies%round_off = energies%round_off + weight*data%d(1, 1)*at%steepness(i)*(EPS_MACH*largest)**2
-      end do
+      weight(:n) = rule%weight(:n)*geometry%jacobian(:n)*fem%sections(geometry%section)%thickness
+      energies%solution = energies%solution + integral(n, c, s, weight)
+      energies%error = energies%error + integral(n, c, d, weight)
+      energies%round_off = energies%round_off + (geometry%d(1, 1)*(EPS_MACH*(largest*per_unit))**2) &
+                           *sum(weight(:n)*geometry%steepness(:n))
    end subroutine add_element
 
-   !> s C s [F/L^2].
-   pure real(wp) function density(c, s)
-      real(wp), intent(in) :: c(3, 3), s(3)
+   !> Sum over the points of weight s C s [F L].
+   pure real(wp) function integral(n, c, s, weight)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: c(3, 3), s(MOST_POINTS, 3), weight(MOST_POINTS)
+      real(wp) :: density
+      integer(ip) :: i
 
-      density = c(1, 1)*(s(1)*s(1) + s(2)*s(2)) + 2*c(1, 2)*s(1)*s(2) + c(3, 3)*s(3)*s(3)
-   end function density
+      integral = 0.0_wp
+      do i = 1, n
+         density = c(1, 1)*(s(i, 1)*s(i, 1) + s(i, 2)*s(i, 2)) + 2*c(1, 2)*s(i, 1)*s(i, 2) + c(3, 3)*s(i, 3)*s(i, 3)
+         integral = integral + weight(i)*density
+      end do
+   end function integral
 
    !> 100 ||e|| / sqrt(||u||^2 + ||e||^2) [%]; 0 where the error is not more than the round-off of the displacements, which holds
    !> for a body at rest or in rigid motion, too.

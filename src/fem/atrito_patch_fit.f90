@@ -8,7 +8,8 @@ module atrito_patch_fit
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: patch_fit_t, COMPONENTS, begin_fit, clear_fit, add_sample, solve_fit, fitted_value
+   public :: patch_fit_t, polynomial_t, COMPONENTS, clear_samples, add_sample, is_laid, lay_patch, determined_degree, fit_node, &
+             fit_polynomial, fitted_value
 
    integer(ip), parameter :: COMPONENTS = 3          !< s11, s22, s12
    integer(ip), parameter :: MOST_TERMS = 6
@@ -16,24 +17,108 @@ module atrito_patch_fit
    !> 0.06 and more for equal elements round a node, however stretched; the samples of one row of elements give round-off.
    real(wp), parameter :: INDEPENDENT_SHARE = 1.0e-4_wp
 
-   !> Terms 1, xi, eta, xi^2, xi eta, eta^2 of the patch's coordinates.
-   type :: patch_fit_t
+   !> Polynomial in the terms 1, xi, eta, xi^2, xi eta, eta^2 of the patch's coordinates. (No default values: of an array of
+   !> them the unused ones take no memory.)
+   type :: polynomial_t
       integer(ip) :: n_terms                         !< 1, 3 or 6
-      integer(ip) :: n_samples
       real(wp) :: axis(2, 2)                         !< xi = axis(:, 1) . x, eta with axis(:, 2) [1/L]
-      real(wp) :: moments(MOST_TERMS, MOST_TERMS)    !< lower triangle of the normal equations
-      real(wp) :: right(COMPONENTS, MOST_TERMS)
-      real(wp) :: reference(COMPONENTS)              !< the first sample
-      real(wp) :: coefficient(COMPONENTS, MOST_TERMS)
+      real(wp) :: coefficient(COMPONENTS, MOST_TERMS) !< [F/L^2]
+   end type polynomial_t
+
+   !> Samples, and the patch that was laid last: another one with its samples at the same places takes its coordinates and factor.
+   type :: patch_fit_t
+      integer(ip) :: n = 0                           !< samples
+      real(wp), allocatable :: x(:, :)               !< (2, n or more) their places less the patch's node [L]
+      real(wp), allocatable :: s(:, :)               !< (COMPONENTS, n or more) [F/L^2]
+      integer(ip) :: n_laid = 0, degree = -1         !< samples of the patch laid last, degree of its terms
+      real(wp), allocatable :: laid(:, :)            !< their places
+      real(wp), allocatable :: p(:, :)               !< (MOST_TERMS, n_laid) terms at the samples
+      real(wp) :: axis(2, 2) = 0.0_wp
+      real(wp) :: factor(MOST_TERMS, MOST_TERMS) = 0.0_wp !< lower Cholesky factor of the normal equations
+      integer(ip) :: n_good = 0                      !< leading terms that the samples determine
+      integer(ip) :: n_weighted = 0                  !< terms that the weights are made of
+      real(wp), allocatable :: weight(:)             !< (n_laid) of the samples in the value at the patch's node
    end type patch_fit_t
 
 contains
 
-   !> Lays the coordinates into a patch: xi along the line from its node to the farthest corner, eta across, each as long as the
-   !> patch.
-   pure subroutine begin_fit(corners, fit)
-      real(wp), intent(in) :: corners(:, :)          !< corners of the elements less the patch's node (2, n) [L]
+   !> Forgets the samples.
+   pure subroutine clear_samples(fit)
       type(patch_fit_t), intent(inout) :: fit
+
+      fit%n = 0
+   end subroutine clear_samples
+
+   pure subroutine add_sample(x, s, fit)
+      real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
+      real(wp), intent(in) :: s(COMPONENTS)          !< [F/L^2]
+      type(patch_fit_t), intent(inout) :: fit
+
+      if (.not. allocated(fit%x)) allocate (fit%x(2, 64), fit%s(COMPONENTS, 64))
+      if (fit%n == size(fit%x, 2)) then
+         call grow(fit%x)
+         call grow(fit%s)
+      end if
+      fit%n = fit%n + 1
+      fit%x(:, fit%n) = x
+      fit%s(:, fit%n) = s
+   end subroutine add_sample
+
+   pure subroutine grow(list)
+      real(wp), allocatable, intent(inout) :: list(:, :)
+      real(wp), allocatable :: longer(:, :)
+
+      allocate (longer(size(list, 1), 2*size(list, 2)))
+      longer(:, :size(list, 2)) = list
+      call move_alloc(longer, list)
+   end subroutine grow
+
+   !> Whether the samples lie where those of the patch laid last were.
+   pure logical function is_laid(degree, slack, fit)
+      integer(ip), intent(in) :: degree              !< 1 or 2
+      real(wp), intent(in) :: slack                  !< [L], the rounding of the coordinates
+      type(patch_fit_t), intent(in) :: fit
+      integer(ip) :: i
+
+      is_laid = .false.
+      if (fit%n /= fit%n_laid .or. fit%degree /= degree) return
+      do i = 1, fit%n
+         if (abs(fit%x(1, i) - fit%laid(1, i)) > slack) return
+         if (abs(fit%x(2, i) - fit%laid(2, i)) > slack) return
+      end do
+      is_laid = .true.
+   end function is_laid
+
+   !> Lays coordinates into the patch of the samples: xi along the line from its node to the farthest corner, eta across, each as
+   !> long as the patch. Forms and factors the normal equations for polynomials up to a degree.
+   pure subroutine lay_patch(corners, degree, fit)
+      real(wp), intent(in) :: corners(:, :)          !< corners of the elements less the patch's node (2, n) [L]
+      integer(ip), intent(in) :: degree              !< 1 or 2
+      type(patch_fit_t), intent(inout) :: fit
+      real(wp) :: moments(MOST_TERMS, MOST_TERMS)
+      integer(ip) :: i, j, n
+
+      fit%axis = axes_of(corners)
+      fit%degree = degree
+      fit%n_laid = fit%n
+      fit%n_weighted = 0
+      fit%laid = fit%x(:, :fit%n)
+      if (allocated(fit%p)) deallocate (fit%p)
+      allocate (fit%p(MOST_TERMS, fit%n))
+      n = term_count(degree)
+      moments = 0.0_wp
+      do j = 1, fit%n
+         fit%p(:, j) = terms(fit%x(:, j), fit%axis)
+         do i = 1, n
+            moments(i:n, i) = moments(i:n, i) + fit%p(i:n, j)*fit%p(i, j)
+         end do
+      end do
+      call factor_moments(n, moments, fit)
+   end subroutine lay_patch
+
+   pure function axes_of(corners) result(axis)
+      real(wp), intent(in) :: corners(:, :)
+      real(wp) :: axis(2, 2)
       real(wp) :: far(2), distance, longest, across
       integer(ip) :: i
 
@@ -52,38 +137,32 @@ contains
          longest = max(longest, abs(far(1)*corners(1, i) + far(2)*corners(2, i)))
          across = max(across, abs(far(1)*corners(2, i) - far(2)*corners(1, i)))
       end do
-      fit%axis(:, 1) = far/longest
-      fit%axis(:, 2) = [-far(2), far(1)]/across
-      call clear_fit(fit)
-   end subroutine begin_fit
+      axis(:, 1) = far/longest
+      axis(:, 2) = [-far(2), far(1)]/across
+   end function axes_of
 
-   !> Forgets the samples.
-   pure subroutine clear_fit(fit)
+   !> Cholesky, as far as the terms are determined.
+   pure subroutine factor_moments(n, moments, fit)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: moments(MOST_TERMS, MOST_TERMS)
       type(patch_fit_t), intent(inout) :: fit
+      real(wp) :: pivot
+      integer(ip) :: i, j
 
-      fit%n_samples = 0
-      fit%moments = 0.0_wp
-      fit%right = 0.0_wp
-   end subroutine clear_fit
-
-   !> Adds a sample for polynomials up to a degree.
-   pure subroutine add_sample(x, s, degree, fit)
-      real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
-      real(wp), intent(in) :: s(COMPONENTS)          !< [F/L^2]
-      integer(ip), intent(in) :: degree              !< 1 or 2
-      type(patch_fit_t), intent(inout) :: fit
-      real(wp) :: p(MOST_TERMS)
-      integer(ip) :: i, n
-
-      if (fit%n_samples == 0) fit%reference = s
-      fit%n_samples = fit%n_samples + 1
-      n = term_count(degree)
-      p = terms(x, fit)
-      do i = 1, n
-         fit%moments(i:n, i) = fit%moments(i:n, i) + p(i:n)*p(i)
-         fit%right(:, i) = fit%right(:, i) + (s - fit%reference)*p(i)
-      end do
-   end subroutine add_sample
+      associate (l => fit%factor)
+         l = moments
+         fit%n_good = 0
+         do j = 1, n
+            pivot = l(j, j)
+            if (.not. pivot > INDEPENDENT_SHARE*moments(j, j)) return
+            l(j:n, j) = l(j:n, j)/sqrt(pivot)
+            do i = j + 1, n
+               l(i:n, i) = l(i:n, i) - l(i:n, j)*l(i, j)
+            end do
+            fit%n_good = j
+         end do
+      end associate
+   end subroutine factor_moments
 
    pure integer(ip) function term_count(degree)
       integer(ip), intent(in) :: degree              !< 0, 1 or 2
@@ -91,65 +170,105 @@ contains
       term_count = ((degree + 1)*(degree + 2))/2
    end function term_count
 
-   pure function terms(x, fit) result(p)
-      real(wp), intent(in) :: x(2)
-      type(patch_fit_t), intent(in) :: fit
+   pure function terms(x, axis) result(p)
+      real(wp), intent(in) :: x(2), axis(2, 2)
       real(wp) :: p(MOST_TERMS)
       real(wp) :: xi, eta
 
-      xi = fit%axis(1, 1)*x(1) + fit%axis(2, 1)*x(2)
-      eta = fit%axis(1, 2)*x(1) + fit%axis(2, 2)*x(2)
+      xi = axis(1, 1)*x(1) + axis(2, 1)*x(2)
+      eta = axis(1, 2)*x(1) + axis(2, 2)*x(2)
       p = [1.0_wp, xi, eta, xi*xi, xi*eta, eta*eta]
    end function terms
 
-   !> Solves for the polynomial of a degree, not more than that of the samples, by Cholesky. determined: the samples are enough.
-   pure subroutine solve_fit(degree, fit, determined)
-      integer(ip), intent(in) :: degree              !< 0, 1 or 2
+   !> The highest degree, up to the given one, that the samples of the patch determine.
+   pure integer(ip) function determined_degree(degree, fit)
+      integer(ip), intent(in) :: degree              !< not above that of lay_patch
+      type(patch_fit_t), intent(in) :: fit
+
+      determined_degree = degree
+      do while (determined_degree > 0 .and. term_count(determined_degree) > fit%n_good)
+         determined_degree = determined_degree - 1
+      end do
+   end function determined_degree
+
+   !> Value of the polynomial of a degree at the patch's node [F/L^2].
+   pure subroutine fit_node(degree, fit, s)
+      integer(ip), intent(in) :: degree              !< not above determined_degree
       type(patch_fit_t), intent(inout) :: fit
-      logical, intent(out) :: determined
-      real(wp) :: l(MOST_TERMS, MOST_TERMS), pivot
+      real(wp), intent(out) :: s(COMPONENTS)
+      real(wp) :: y(1, MOST_TERMS)
+      integer(ip) :: j, n
+
+      n = term_count(degree)
+      if (fit%n_weighted /= n) then
+         y = 0.0_wp
+         y(1, 1) = 1.0_wp                            ! the terms at the node
+         call solve_moments(n, fit%factor, y)
+         fit%weight = matmul(y(1, :n), fit%p(:n, :))
+         fit%n_weighted = n
+      end if
+      s = 0.0_wp
+      do j = 2, fit%n
+         s = s + fit%weight(j)*(fit%s(:, j) - fit%s(:, 1))
+      end do
+      s = fit%s(:, 1) + s
+   end subroutine fit_node
+
+   !> The polynomial of a degree.
+   pure subroutine fit_polynomial(degree, fit, polynomial)
+      integer(ip), intent(in) :: degree              !< not above determined_degree
+      type(patch_fit_t), intent(in) :: fit
+      type(polynomial_t), intent(out) :: polynomial
+      real(wp) :: right(MOST_TERMS, COMPONENTS)
       integer(ip) :: i, j, n
 
       n = term_count(degree)
-      fit%n_terms = n
-      determined = .false.
-      l = fit%moments
-      do j = 1, n
-         pivot = l(j, j)
-         if (.not. pivot > INDEPENDENT_SHARE*fit%moments(j, j)) return
-         l(j:n, j) = l(j:n, j)/sqrt(pivot)
-         do i = j + 1, n
-            l(i:n, i) = l(i:n, i) - l(i:n, j)*l(i, j)
+      polynomial%n_terms = n
+      polynomial%axis = fit%axis
+      right = 0.0_wp
+      do j = 2, fit%n
+         do i = 1, COMPONENTS                        ! all terms: loops of a fixed length are faster
+            right(:, i) = right(:, i) + fit%p(:, j)*(fit%s(i, j) - fit%s(i, 1))
          end do
       end do
-      fit%coefficient = fit%right
+      polynomial%coefficient = transpose(right)
+      call solve_moments(n, fit%factor, polynomial%coefficient)
+      polynomial%coefficient(:, 1) = polynomial%coefficient(:, 1) + fit%s(:, 1)
+   end subroutine fit_polynomial
+
+   !> Solves the normal equations for right sides in rows.
+   pure subroutine solve_moments(n, l, x)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: l(MOST_TERMS, MOST_TERMS)
+      real(wp), intent(inout) :: x(:, :)             !< (right sides, n or more)
+      integer(ip) :: i, j
+
       do i = 1, n
          do j = 1, i - 1
-            fit%coefficient(:, i) = fit%coefficient(:, i) - l(i, j)*fit%coefficient(:, j)
+            x(:, i) = x(:, i) - l(i, j)*x(:, j)
          end do
-         fit%coefficient(:, i) = fit%coefficient(:, i)/l(i, i)
+         x(:, i) = x(:, i)/l(i, i)
       end do
       do i = n, 1, -1
          do j = i + 1, n
-            fit%coefficient(:, i) = fit%coefficient(:, i) - l(j, i)*fit%coefficient(:, j)
+            x(:, i) = x(:, i) - l(j, i)*x(:, j)
          end do
-         fit%coefficient(:, i) = fit%coefficient(:, i)/l(i, i)
+         x(:, i) = x(:, i)/l(i, i)
       end do
-      determined = .true.
-   end subroutine solve_fit
+   end subroutine solve_moments
 
-   !> Value of the polynomial [F/L^2].
-   pure function fitted_value(x, fit) result(s)
+   !> Value of a polynomial [F/L^2].
+   pure function fitted_value(x, polynomial) result(s)
       real(wp), intent(in) :: x(2)                   !< less the patch's node [L]
-      type(patch_fit_t), intent(in) :: fit
+      type(polynomial_t), intent(in) :: polynomial
       real(wp) :: s(COMPONENTS)
       real(wp) :: p(MOST_TERMS)
       integer(ip) :: i
 
-      p = terms(x, fit)
-      s = fit%reference
-      do i = 1, fit%n_terms
-         s = s + fit%coefficient(:, i)*p(i)
+      p = terms(x, polynomial%axis)
+      s = polynomial%coefficient(:, 1)
+      do i = 2, polynomial%n_terms
+         s = s + polynomial%coefficient(:, i)*p(i)
       end do
    end function fitted_value
 

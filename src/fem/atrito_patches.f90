@@ -5,8 +5,9 @@
 module atrito_patches
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: elastic_t
-   use atrito_kinds, only: ip
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
+   use atrito_kinds, only: ip, lp
+   use atrito_mesh, only: mesh_t, Q1_NODES
+   use atrito_threads, only: n_threads, is_shared, run_count, find_run
    implicit none (type, external)
    private
    public :: patches_t, build_patches
@@ -20,12 +21,14 @@ module atrito_patches
    integer(ip), parameter :: CORNERS = Q1_NODES
 
    type :: patches_t
-      integer(ip) :: n = 0                        !< places: pairs of a node and a zone
+      integer(ip) :: n = 0                        !< places: pairs of a node and a zone; the first zone of node i has place i
       integer(ip), allocatable :: node(:)         !< (n) the node of a place
-      integer(ip), allocatable :: place(:, :)     !< (Q2_NODES, n_elements): places of an element's nodes
+      integer(ip), allocatable :: place(:, :)     !< (most nodes of an element, n_elements): places of an element's nodes
       integer(ip), allocatable :: kind(:)         !< (n) PATCH_*
       integer(ip), allocatable :: first(:)        !< (n + 1): element(first(i):first(i+1)-1) have place i as a corner
       integer(ip), allocatable :: element(:), corner(:)
+      integer(ip), allocatable :: owner(:)        !< (n) the first element that a place belongs to; 0: none
+      logical, allocatable :: lends(:)            !< (n_elements) a node of the element takes its stress from patches of other nodes
    end type patches_t
 
 contains
@@ -35,16 +38,16 @@ contains
       type(fem_t), intent(in) :: fem
       type(patches_t), intent(out) :: patches
 
-      call number_places(fem, zones_of_elements(fem), patches)
-      call list_elements_at_corners(fem, patches)
-      call choose_patches(fem, patches)
+      call number_places(fem%mesh, zones_of_elements(fem), patches)
+      call list_elements_at_corners(fem%mesh, patches)
+      call choose_patches(fem%mesh, patches)
    end subroutine build_patches
 
    !> Number of the zone's kind for each element: alike are elements of equal elastic section, plane state and shape. (Two parts of
    !> the mesh that do not touch may have the same number: they share no node.)
-   pure function zones_of_elements(fem) result(zone)
+   function zones_of_elements(fem) result(zone)
       type(fem_t), intent(in) :: fem
-      integer(ip) :: zone(fem%mesh%n_elements)
+      integer(ip), allocatable :: zone(:)
       integer(ip) :: like(size(fem%sections)), i, j, e
 
       do i = 1, size(fem%sections, kind=ip)
@@ -53,9 +56,12 @@ contains
          end do
          like(i) = j
       end do
+      allocate (zone(fem%mesh%n_elements))
+      !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_elements))
       do e = 1, fem%mesh%n_elements
          zone(e) = 4*(like(fem%section_of(e)) - 1) + 2*(fem%mesh%state(e) - 1) + merge(1_ip, 2_ip, fem%mesh%shape(e) == Q1_NODES)
       end do
+      !$omp end parallel do
    end function zones_of_elements
 
    pure logical function same_section(a, b)
@@ -64,116 +70,243 @@ contains
       same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness
    end function same_section
 
-   !> Gives every pair of a node and a zone its place, zone by zone.
-   pure subroutine number_places(fem, zone, patches)
-      type(fem_t), intent(in) :: fem
+   !> Gives every pair of a node and a zone its place.
+   subroutine number_places(mesh, zone, patches)
+      type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: zone(:)
       type(patches_t), intent(inout) :: patches
-      integer(ip), allocatable :: first(:), order(:), zone_at(:), place_at(:), node(:)
-      integer(ip) :: i, k, e, at
+      integer(ip) :: e, i, most
 
-      call sort_by_key(zone, first, order)
-      allocate (zone_at(fem%mesh%n_nodes), place_at(fem%mesh%n_nodes), source=0_ip)
-      allocate (patches%place(Q2_NODES, fem%mesh%n_elements), source=0_ip)
-      allocate (node(size(fem%mesh%nodes)))
-      do i = 1, fem%mesh%n_elements
-         e = order(i)
-         do k = 1, fem%mesh%shape(e)
-            at = fem%mesh%nodes(k, e)
-            if (zone_at(at) /= zone(e)) then
-               zone_at(at) = zone(e)
-               patches%n = patches%n + 1
-               place_at(at) = patches%n
-               node(patches%n) = at
-            end if
-            patches%place(k, e) = place_at(at)
-         end do
+      most = maxval([mesh%shape(:mesh%n_elements), CORNERS])
+      allocate (patches%place(most, mesh%n_elements))
+      !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
+      do e = 1, mesh%n_elements
+         patches%place(:, e) = mesh%nodes(:most, e)
       end do
-      patches%node = node(:patches%n)
+      !$omp end parallel do
+      patches%n = mesh%n_nodes
+      allocate (patches%node(patches%n))
+      do i = 1, patches%n
+         patches%node(i) = i
+      end do
+      if (size(zone) == 0) return
+      if (minval(zone) /= maxval(zone)) call add_places(mesh, zone, patches)
    end subroutine number_places
 
-   !> Numbers 1, 2, ... in the order of their keys: those of key j are order(first(j):first(j+1)-1), rising.
-   pure subroutine sort_by_key(key, first, order)
-      integer(ip), intent(in) :: key(:)              !< positive
-      integer(ip), allocatable, intent(out) :: first(:), order(:)
-      integer(ip) :: i, n
-
-      n = 0
-      if (size(key) > 0) n = maxval(key)
-      allocate (first(n + 1), order(size(key)))
-      first = 0
-      do i = 1, size(key, kind=ip)
-         first(key(i)) = first(key(i)) + 1
-      end do
-      call counts_to_ends(first)
-      do i = size(key, kind=ip), 1, -1
-         first(key(i)) = first(key(i)) - 1
-         order(first(key(i))) = i
-      end do
-   end subroutine sort_by_key
-
-   !> From the lengths of the lists (the last entry is 0) to the places behind their ends; filling backwards makes these the starts.
-   pure subroutine counts_to_ends(first)
-      integer(ip), intent(inout) :: first(:)
-      integer(ip) :: i
-
-      first(1) = first(1) + 1
-      do i = 2, size(first, kind=ip)
-         first(i) = first(i - 1) + first(i)
-      end do
-   end subroutine counts_to_ends
-
-   pure subroutine list_elements_at_corners(fem, patches)
-      type(fem_t), intent(in) :: fem
+   !> Adds the places of the second zone at a node, of the third, ...
+   pure subroutine add_places(mesh, zone, patches)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: zone(:)
       type(patches_t), intent(inout) :: patches
-      integer(ip) :: e, k, i
+      integer(ip), allocatable :: zone_at(:), next(:)
+      integer(ip) :: e, k, at
 
-      allocate (patches%first(patches%n + 1), source=0_ip)
-      do e = 1, fem%mesh%n_elements
-         do k = 1, CORNERS
-            i = patches%place(k, e)
-            patches%first(i) = patches%first(i) + 1
+      allocate (zone_at(patches%n), next(patches%n), source=0_ip)
+      do e = 1, mesh%n_elements
+         do k = 1, mesh%shape(e)
+            at = mesh%nodes(k, e)
+            if (zone_at(at) == 0) zone_at(at) = zone(e)
+            do while (zone_at(at) /= zone(e))
+               if (next(at) == 0) then
+                  if (patches%n == size(zone_at)) then
+                     call grow(zone_at)
+                     call grow(next)
+                     call grow(patches%node)
+                  end if
+                  patches%n = patches%n + 1
+                  zone_at(patches%n) = zone(e)
+                  patches%node(patches%n) = mesh%nodes(k, e)
+                  next(at) = patches%n
+               end if
+               at = next(at)
+            end do
+            patches%place(k, e) = at
          end do
       end do
-      call counts_to_ends(patches%first)
+      patches%node = patches%node(:patches%n)
+   end subroutine add_places
+
+   !> Longer by half, the new ones 0.
+   pure subroutine grow(list)
+      integer(ip), allocatable, intent(inout) :: list(:)
+      integer(ip), allocatable :: longer(:)
+
+      allocate (longer(size(list) + size(list)/2 + 64), source=0_ip)
+      longer(:size(list)) = list
+      call move_alloc(longer, list)
+   end subroutine grow
+
+   !> The elements round each corner, rising: counted and filled by parts of the elements, part by part at each place.
+   subroutine list_elements_at_corners(mesh, patches)
+      type(mesh_t), intent(in) :: mesh
+      type(patches_t), intent(inout) :: patches
+      integer(ip), allocatable :: at(:, :)           !< (n, n_parts): counts, then where the part's next element goes
+      integer(ip) :: part, n_parts, e, k
+
+      n_parts = 1
+      if (is_shared(mesh%n_elements)) n_parts = n_threads()
+      allocate (at(patches%n, n_parts), patches%first(patches%n + 1))
+      !$omp parallel do schedule(static, 1)
+      do part = 1, n_parts
+         call count_at_corners(patches%place, part, n_parts, at(:, part))
+      end do
+      !$omp end parallel do
+      call counts_to_starts(at, patches%first)
       allocate (patches%element(patches%first(patches%n + 1) - 1), patches%corner(patches%first(patches%n + 1) - 1))
-      do e = fem%mesh%n_elements, 1, -1
-         do k = CORNERS, 1, -1
-            i = patches%place(k, e)
-            patches%first(i) = patches%first(i) - 1
-            patches%element(patches%first(i)) = e
-            patches%corner(patches%first(i)) = k
+      !$omp parallel do schedule(static, 1)
+      do part = 1, n_parts
+         call fill_corners(part, n_parts, at(:, part), patches)
+      end do
+      !$omp end parallel do
+      allocate (patches%owner(patches%n))
+      !$omp parallel do schedule(static) if (is_shared(patches%n))
+      do k = 1, patches%n
+         patches%owner(k) = 0
+         if (patches%first(k + 1) > patches%first(k)) patches%owner(k) = patches%element(patches%first(k))
+      end do
+      !$omp end parallel do
+      if (size(patches%place, 1) == CORNERS) return
+      do e = mesh%n_elements, 1, -1
+         do k = CORNERS + 1, mesh%shape(e)
+            patches%owner(patches%place(k, e)) = e
          end do
       end do
    end subroutine list_elements_at_corners
 
+   !> The last element of a part; that of part 0 is 0.
+   pure integer(ip) function part_end(part, n_parts, n)
+      integer(ip), intent(in) :: part, n_parts, n
+
+      part_end = int((int(n, lp)*part)/n_parts, ip)
+   end function part_end
+
+   pure subroutine count_at_corners(place, part, n_parts, count)
+      integer(ip), intent(in) :: place(:, :), part, n_parts
+      integer(ip), intent(out) :: count(:)
+      integer(ip) :: e, k, n
+
+      n = size(place, 2, kind=ip)
+      count = 0
+      do e = part_end(part - 1, n_parts, n) + 1, part_end(part, n_parts, n)
+         do k = 1, CORNERS
+            count(place(k, e)) = count(place(k, e)) + 1
+         end do
+      end do
+   end subroutine count_at_corners
+
+   !> From the lengths of the lists, by parts, to their starts; run by run of the places.
+   subroutine counts_to_starts(at, first)
+      integer(ip), intent(inout) :: at(:, :)         !< (n, n_parts)
+      integer(ip), intent(out) :: first(:)           !< (n + 1)
+      integer(ip) :: start(run_count(size(at, 1, kind=ip)) + 1)
+      integer(ip) :: run, low, high, n
+
+      n = size(at, 1, kind=ip)
+      start(1) = 1
+      !$omp parallel do schedule(static) private(low, high) if (is_shared(n))
+      do run = 1, run_count(n)
+         call find_run(run, n, low, high)
+         start(run + 1) = sum(at(low:high, :))
+      end do
+      !$omp end parallel do
+      do run = 2, size(start, kind=ip)
+         start(run) = start(run) + start(run - 1)
+      end do
+      !$omp parallel do schedule(static) private(low, high) if (is_shared(n))
+      do run = 1, run_count(n)
+         call find_run(run, n, low, high)
+         call starts_in_run(start(run), at(low:high, :), first(low:high))
+      end do
+      !$omp end parallel do
+      first(n + 1) = start(size(start))
+   end subroutine counts_to_starts
+
+   pure subroutine starts_in_run(start, at, first)
+      integer(ip), intent(in) :: start
+      integer(ip), intent(inout) :: at(:, :)
+      integer(ip), intent(out) :: first(:)
+      integer(ip) :: i, part, next, count
+
+      next = start
+      do i = 1, size(first, kind=ip)
+         first(i) = next
+         do part = 1, size(at, 2, kind=ip)
+            count = at(i, part)
+            at(i, part) = next
+            next = next + count
+         end do
+      end do
+   end subroutine starts_in_run
+
+   pure subroutine fill_corners(part, n_parts, at, patches)
+      integer(ip), intent(in) :: part, n_parts
+      integer(ip), intent(inout) :: at(:)
+      type(patches_t), intent(inout) :: patches      !< the places of this part's corners in element and corner
+      integer(ip) :: e, k, n, i
+
+      n = size(patches%place, 2, kind=ip)
+      do e = part_end(part - 1, n_parts, n) + 1, part_end(part, n_parts, n)
+         do k = 1, CORNERS
+            i = patches%place(k, e)
+            patches%element(at(i)) = e
+            patches%corner(at(i)) = k
+            at(i) = at(i) + 1
+         end do
+      end do
+   end subroutine fill_corners
+
    !> Interior nodes have patches. Elements that touch none (a zone one or two elements wide) get patches at their nodes that
    !> have a neighbour; those that still have none are alone.
-   pure subroutine choose_patches(fem, patches)
-      type(fem_t), intent(in) :: fem
+   subroutine choose_patches(mesh, patches)
+      type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(inout) :: patches
-      integer(ip) :: i
+      integer(ip) :: i, e
+      logical :: found
 
-      allocate (patches%kind(patches%n), source=PATCH_NONE)
+      allocate (patches%kind(patches%n), patches%lends(mesh%n_elements))
+      !$omp parallel do schedule(static) if (is_shared(patches%n))
       do i = 1, patches%n
-         if (is_interior(patches, i)) patches%kind(i) = PATCH_INTERIOR
+         patches%kind(i) = merge(PATCH_INTERIOR, PATCH_NONE, is_interior(patches, i))
       end do
-      call patch_the_bare(fem, 2_ip, PATCH_OUTER, patches)
-      call patch_the_bare(fem, 1_ip, PATCH_SINGLE, patches)
+      !$omp end parallel do
+      call patch_the_bare(mesh, 2_ip, PATCH_OUTER, patches, found)
+      if (found) call patch_the_bare(mesh, 1_ip, PATCH_SINGLE, patches, found)
+      !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
+      do e = 1, mesh%n_elements
+         patches%lends(e) = mesh%shape(e) > CORNERS .or. patches_at(patches, e) < CORNERS
+      end do
+      !$omp end parallel do
    end subroutine choose_patches
 
+   !> Corners of an element with a patch.
+   pure integer(ip) function patches_at(patches, e)
+      type(patches_t), intent(in) :: patches
+      integer(ip), intent(in) :: e
+      integer(ip) :: k
+
+      patches_at = 0
+      do k = 1, CORNERS
+         if (patches%kind(patches%place(k, e)) /= PATCH_NONE) patches_at = patches_at + 1
+      end do
+   end function patches_at
+
    !> Gives a patch to the corners, of at least `least` elements, of all elements without a patch at any corner.
-   pure subroutine patch_the_bare(fem, least, kind, patches)
-      type(fem_t), intent(in) :: fem
+   subroutine patch_the_bare(mesh, least, kind, patches, found)
+      type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: least, kind
       type(patches_t), intent(inout) :: patches
-      logical :: bare(fem%mesh%n_elements)
+      logical, intent(out) :: found                  !< there were such elements
+      logical, allocatable :: bare(:)
       integer(ip) :: e, k, i
 
-      do e = 1, fem%mesh%n_elements
-         bare(e) = all(patches%kind(patches%place(:CORNERS, e)) == PATCH_NONE)
+      allocate (bare(mesh%n_elements))
+      !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
+      do e = 1, mesh%n_elements
+         bare(e) = patches_at(patches, e) == 0
       end do
-      do e = 1, fem%mesh%n_elements
+      !$omp end parallel do
+      found = any(bare)
+      do e = 1, mesh%n_elements
          if (.not. bare(e)) cycle
          do k = 1, CORNERS
             i = patches%place(k, e)

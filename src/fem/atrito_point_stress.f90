@@ -1,7 +1,7 @@
-!> Stresses at given points of many elements, fast: shape functions are evaluated once for each kind of element, and the
-!> innermost loops run over the points of an element.
+!> Stresses at given points of many elements, fast: shape functions are evaluated once for each kind of element, their gradients
+!> once for neighbours that are equal, and the innermost loops run over the points of an element.
 module atrito_point_stress
-   use atrito_assembly, only: fem_t
+   use atrito_assembly, only: fem_t, is_like_before
    use atrito_elasticity, only: elasticity_matrix, has_mean_dilatation
    use atrito_element, only: mean_gradients
    use atrito_kinds, only: ip, wp
@@ -9,7 +9,7 @@ module atrito_point_stress
    use atrito_shape_functions, only: shape_values, shape_gradients, gauss_rule
    implicit none (type, external)
    private
-   public :: point_rule_t, element_data_t, point_values_t, MOST_POINTS, make_point_rule, fetch_element, point_stresses
+   public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
 
    integer(ip), parameter :: MOST_POINTS = 9
 
@@ -21,23 +21,20 @@ module atrito_point_stress
       real(wp) :: slope(MOST_POINTS, 2, Q2_NODES) = 0.0_wp    !< their derivatives along xi and eta
    end type point_rule_t
 
-   !> What the points of an element share. Coordinates and displacements are relative to its first node, so that neither the
-   !> place of the origin nor a rigid translation costs digits.
-   type :: element_data_t
-      integer(ip) :: n                           !< nodes
-      real(wp) :: x(2, Q2_NODES), u(2, Q2_NODES) !< [L]
-      real(wp) :: d(3, 3)                        !< elasticity matrix [F/L^2]
-      logical :: averages                        !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
-      real(wp) :: dilatation                     !< which
-   end type element_data_t
-
-   !> What the points of a rule have in an element.
-   type :: point_values_t
-      real(wp) :: x(MOST_POINTS, 2)              !< place less the element's first node [L]
-      real(wp) :: s(MOST_POINTS, 3)              !< s11, s22, s12 [F/L^2]
-      real(wp) :: jacobian(MOST_POINTS)          !< [L^2]
-      real(wp) :: steepness(MOST_POINTS)         !< sum of the squares of dxi/dx [1/L^2]
-   end type point_values_t
+   !> An element at the points of a rule, without its displacements. Coordinates are relative to its first node, so that the place
+   !> of the origin costs no digits.
+   type :: point_geometry_t
+      integer(ip) :: section = 0, state = 0
+      integer(ip) :: shape = 0                   !< nodes; 0: nothing yet
+      real(wp) :: x(2, Q2_NODES) = 0.0_wp        !< [L]
+      real(wp) :: d(3, 3) = 0.0_wp               !< elasticity matrix [F/L^2]
+      logical :: averages = .false.              !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
+      real(wp) :: mean(2, Q1_NODES) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]
+      real(wp) :: place(MOST_POINTS, 2) = 0.0_wp !< less the element's first node [L]
+      real(wp) :: jacobian(MOST_POINTS) = 0.0_wp !< [L^2]
+      real(wp) :: steepness(MOST_POINTS) = 0.0_wp           !< sum of the squares of dxi/dx [1/L^2]
+      real(wp) :: gradient(MOST_POINTS, 2, Q2_NODES) = 0.0_wp !< dN/dx of all nodes but the first [1/L]
+   end type point_geometry_t
 
 contains
 
@@ -63,72 +60,123 @@ contains
       end do
    end subroutine make_point_rule
 
-   pure subroutine fetch_element(fem, e, u, data)
+   !> An element at the points of a rule; nothing is done when it is like the element that is there.
+   pure subroutine fetch_geometry(fem, e, rule, geometry)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(inout) :: geometry  !< of another element by the same rule, or nothing
+      integer(ip) :: k, first
+
+      if (geometry%section == fem%section_of(e) .and. geometry%state == fem%mesh%state(e)) then
+         if (is_like_before(fem%mesh, e, geometry%shape, geometry%x)) return
+      end if
+      geometry%section = fem%section_of(e)
+      geometry%state = fem%mesh%state(e)
+      geometry%shape = fem%mesh%shape(e)
+      first = fem%mesh%nodes(1, e)
+      do k = 1, geometry%shape
+         geometry%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, e)) - fem%mesh%x(:, first)
+      end do
+      associate (section => fem%sections(geometry%section))
+         geometry%d = elasticity_matrix(section, geometry%state)
+         geometry%averages = has_mean_dilatation(section, geometry%state, geometry%shape)
+      end associate
+      if (geometry%averages) geometry%mean = mean_gradients(geometry%x(:, :Q1_NODES))
+      call map_points(rule, geometry)
+   end subroutine fetch_geometry
+
+   !> Places, Jacobians and gradients at the points.
+   pure subroutine map_points(rule, geometry)
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(inout) :: geometry
+      real(wp), dimension(MOST_POINTS, 2) :: dx, dy  !< derivatives along xi and eta
+      real(wp), dimension(MOST_POINTS) :: h11, h12, h21, h22 !< d(xi, eta)/d(x, y)
+      integer(ip) :: k, direction, n
+
+      n = rule%n
+      dx = 0.0_wp
+      dy = 0.0_wp
+      geometry%place(:n, :) = 0.0_wp
+      do k = 2, geometry%shape                   ! the first node is the origin
+         do direction = 1, 2
+            dx(:n, direction) = dx(:n, direction) + geometry%x(1, k)*rule%slope(:n, direction, k)
+            dy(:n, direction) = dy(:n, direction) + geometry%x(2, k)*rule%slope(:n, direction, k)
+            geometry%place(:n, direction) = geometry%place(:n, direction) + geometry%x(direction, k)*rule%value(:n, k)
+         end do
+      end do
+      geometry%jacobian(:n) = dx(:n, 1)*dy(:n, 2) - dx(:n, 2)*dy(:n, 1)
+      h11(:n) = dy(:n, 2)/geometry%jacobian(:n)
+      h12(:n) = -dx(:n, 2)/geometry%jacobian(:n)
+      h21(:n) = -dy(:n, 1)/geometry%jacobian(:n)
+      h22(:n) = dx(:n, 1)/geometry%jacobian(:n)
+      geometry%steepness(:n) = h11(:n)**2 + h12(:n)**2 + h21(:n)**2 + h22(:n)**2
+      do k = 2, geometry%shape
+         geometry%gradient(:n, 1, k) = rule%slope(:n, 1, k)*h11(:n) + rule%slope(:n, 2, k)*h21(:n)
+         geometry%gradient(:n, 2, k) = rule%slope(:n, 1, k)*h12(:n) + rule%slope(:n, 2, k)*h22(:n)
+      end do
+   end subroutine map_points
+
+   !> s11, s22, s12 of an element at the points [F/L^2]. Displacements are taken relative to the first node, so that a rigid
+   !> translation costs no digits.
+   pure subroutine point_stresses(fem, e, u, rule, geometry, s)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
-      type(element_data_t), intent(out) :: data
-      integer(ip) :: k, node, first
-
-      data%n = fem%mesh%shape(e)
-      first = fem%mesh%nodes(1, e)
-      do k = 1, data%n
-         node = fem%mesh%nodes(k, e)
-         data%x(:, k) = fem%mesh%x(:, node) - fem%mesh%x(:, first)
-         data%u(:, k) = u(:, node) - u(:, first)
-      end do
-      associate (section => fem%sections(fem%section_of(e)), state => fem%mesh%state(e))
-         data%d = elasticity_matrix(section, state)
-         data%averages = has_mean_dilatation(section, state, data%n)
-      end associate
-      data%dilatation = 0.0_wp
-      if (data%averages) data%dilatation = sum(mean_gradients(data%x(:, :Q1_NODES))*data%u(:, :Q1_NODES))
-   end subroutine fetch_element
-
-   !> Places, stresses and Jacobians at the points of a rule.
-   pure subroutine point_stresses(data, rule, at)
-      type(element_data_t), intent(in) :: data
       type(point_rule_t), intent(in) :: rule
-      type(point_values_t), intent(out) :: at    !< the first rule%n of each
-      real(wp), dimension(MOST_POINTS, 2) :: dx, dy, du, dv  !< derivatives along xi and eta
-      real(wp) :: h11, h12, h21, h22, e11, e22, e12, shift
-      integer(ip) :: k, i, direction
+      type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
+      real(wp), intent(inout) :: s(MOST_POINTS, 3)       !< the first rule%n are set
+      real(wp) :: way(2, Q2_NODES), dilatation
+      integer(ip) :: k, first
 
-      at%x(:rule%n, :) = 0.0_wp
-      do direction = 1, 2
-         dx(:rule%n, direction) = 0.0_wp
-         dy(:rule%n, direction) = 0.0_wp
-         du(:rule%n, direction) = 0.0_wp
-         dv(:rule%n, direction) = 0.0_wp
-         do k = 2, data%n                        ! the first node is the origin of all
-            do i = 1, rule%n
-               dx(i, direction) = dx(i, direction) + data%x(1, k)*rule%slope(i, direction, k)
-               dy(i, direction) = dy(i, direction) + data%x(2, k)*rule%slope(i, direction, k)
-               du(i, direction) = du(i, direction) + data%u(1, k)*rule%slope(i, direction, k)
-               dv(i, direction) = dv(i, direction) + data%u(2, k)*rule%slope(i, direction, k)
-               at%x(i, direction) = at%x(i, direction) + data%x(direction, k)*rule%value(i, k)
-            end do
+      first = fem%mesh%nodes(1, e)
+      do k = 1, geometry%shape
+         way(:, k) = u(:, fem%mesh%nodes(k, e)) - u(:, first)
+      end do
+      select case (rule%n)                       ! the compiler makes much more of numbers than of n
+      case (1_ip)
+         call strain_points(1_ip, geometry%shape, geometry%gradient, way, s)
+      case (4_ip)
+         call strain_points(4_ip, geometry%shape, geometry%gradient, way, s)
+      case default
+         call strain_points(rule%n, geometry%shape, geometry%gradient, way, s)
+      end select
+      if (geometry%averages) then
+         dilatation = sum(geometry%mean*way(:, :Q1_NODES))
+         do k = 1, rule%n
+            s(k, 1:2) = s(k, 1:2) + 0.5_wp*(dilatation - (s(k, 1) + s(k, 2)))
          end do
-      end do
-      do i = 1, rule%n
-         at%jacobian(i) = dx(i, 1)*dy(i, 2) - dx(i, 2)*dy(i, 1)
-         h11 = dy(i, 2)/at%jacobian(i)           ! h = d(xi, eta)/d(x, y)
-         h12 = -dx(i, 2)/at%jacobian(i)
-         h21 = -dy(i, 1)/at%jacobian(i)
-         h22 = dx(i, 1)/at%jacobian(i)
-         at%steepness(i) = h11**2 + h12**2 + h21**2 + h22**2
-         e11 = du(i, 1)*h11 + du(i, 2)*h21
-         e22 = dv(i, 1)*h12 + dv(i, 2)*h22
-         e12 = du(i, 1)*h12 + du(i, 2)*h22 + dv(i, 1)*h11 + dv(i, 2)*h21
-         if (data%averages) then
-            shift = 0.5_wp*(data%dilatation - (e11 + e22))
-            e11 = e11 + shift
-            e22 = e22 + shift
-         end if
-         at%s(i, 1) = data%d(1, 1)*e11 + data%d(1, 2)*e22
-         at%s(i, 2) = data%d(1, 2)*e11 + data%d(2, 2)*e22
-         at%s(i, 3) = data%d(3, 3)*e12
-      end do
+      end if
+      call strains_to_stresses(rule%n, geometry%d, s)
    end subroutine point_stresses
+
+   pure subroutine strain_points(n, shape, gradient, way, e)
+      integer(ip), intent(in) :: n, shape
+      real(wp), intent(in) :: gradient(MOST_POINTS, 2, Q2_NODES), way(2, Q2_NODES)
+      real(wp), intent(inout) :: e(MOST_POINTS, 3)  !< e11, e22, 2 e12
+      integer(ip) :: k
+
+      e(:n, :) = 0.0_wp
+      do k = 2, shape
+         e(:n, 1) = e(:n, 1) + gradient(:n, 1, k)*way(1, k)
+         e(:n, 2) = e(:n, 2) + gradient(:n, 2, k)*way(2, k)
+         e(:n, 3) = e(:n, 3) + (gradient(:n, 2, k)*way(1, k) + gradient(:n, 1, k)*way(2, k))
+      end do
+   end subroutine strain_points
+
+   pure subroutine strains_to_stresses(n, d, s)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: d(3, 3)
+      real(wp), intent(inout) :: s(MOST_POINTS, 3)
+      real(wp) :: e11
+      integer(ip) :: i
+
+      do i = 1, n
+         e11 = s(i, 1)
+         s(i, 1) = d(1, 1)*e11 + d(1, 2)*s(i, 2)
+         s(i, 2) = d(1, 2)*e11 + d(2, 2)*s(i, 2)
+         s(i, 3) = d(3, 3)*s(i, 3)
+      end do
+   end subroutine strains_to_stresses
 
 end module atrito_point_stress

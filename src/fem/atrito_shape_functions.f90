@@ -7,10 +7,31 @@ module atrito_shape_functions
    implicit none (type, external)
    private
    public :: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, gauss_count
+   public :: Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
 
    !> Places of the nodes in the tensor grid: index along xi and along eta (1: -1, 2: 0 or +1 for Q1, 3: +1).
    integer(ip), parameter :: Q1_GRID(2, Q1_NODES) = reshape([1, 1, 2, 1, 2, 2, 1, 2], [2, 4])
    integer(ip), parameter :: Q2_GRID(2, Q2_NODES) = reshape([1, 1, 3, 1, 3, 3, 1, 3, 2, 1, 3, 2, 2, 3, 1, 2, 2, 2], [2, 9])
+
+   ! What stiffnesses need, tabulated: the same as shape_gradients and gauss_point give.
+   !> Indices of the Gauss points along xi and eta, in the order of gauss_point.
+   integer(ip), parameter :: Q1_POINTS(4, 2) = reshape([1, 2, 1, 2, 1, 1, 2, 2], [4, 2])
+   integer(ip), parameter :: Q2_POINTS(9, 2) = reshape([1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 1, 1, 2, 2, 2, 3, 3, 3], [9, 2])
+   real(wp), parameter :: T2(2) = [-1.0_wp, 1.0_wp]/sqrt(3.0_wp)
+   real(wp), parameter :: T3(3) = [-1.0_wp, 0.0_wp, 1.0_wp]*sqrt(0.6_wp)
+   real(wp), parameter :: W3(3) = [5.0_wp, 8.0_wp, 5.0_wp]/9.0_wp
+   !> line_values and line_slopes there: (place in the grid, point).
+   real(wp), parameter :: V2(2, 2) = transpose(reshape([0.5_wp*(1 - T2), 0.5_wp*(1 + T2)], [2, 2]))
+   real(wp), parameter :: D2(2, 2) = reshape([-0.5_wp, 0.5_wp, -0.5_wp, 0.5_wp], [2, 2])
+   real(wp), parameter :: V3(3, 3) = transpose(reshape([0.5_wp*T3*(T3 - 1), (1 - T3)*(1 + T3), 0.5_wp*T3*(T3 + 1)], [3, 3]))
+   real(wp), parameter :: D3(3, 3) = transpose(reshape([T3 - 0.5_wp, -2*T3, T3 + 0.5_wp], [3, 3]))
+   !> Derivatives of the shape functions at the Gauss points: (node, point).
+   real(wp), parameter :: Q1_XI_SLOPES(Q1_NODES, 4) = D2(Q1_GRID(1, :), Q1_POINTS(:, 1))*V2(Q1_GRID(2, :), Q1_POINTS(:, 2))
+   real(wp), parameter :: Q1_ETA_SLOPES(Q1_NODES, 4) = V2(Q1_GRID(1, :), Q1_POINTS(:, 1))*D2(Q1_GRID(2, :), Q1_POINTS(:, 2))
+   real(wp), parameter :: Q2_XI_SLOPES(Q2_NODES, 9) = D3(Q2_GRID(1, :), Q2_POINTS(:, 1))*V3(Q2_GRID(2, :), Q2_POINTS(:, 2))
+   real(wp), parameter :: Q2_ETA_SLOPES(Q2_NODES, 9) = V3(Q2_GRID(1, :), Q2_POINTS(:, 1))*D3(Q2_GRID(2, :), Q2_POINTS(:, 2))
+   !> Weights of the nine points; those of the four are 1.
+   real(wp), parameter :: Q2_WEIGHTS(9) = W3(Q2_POINTS(:, 1))*W3(Q2_POINTS(:, 2))
 
 contains
 

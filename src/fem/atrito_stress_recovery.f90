@@ -7,22 +7,24 @@
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: stress_33, von_mises
-   use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
-   use atrito_patch_fit, only: patch_fit_t, COMPONENTS, begin_fit, clear_fit, add_sample, solve_fit, fitted_value
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
+   use atrito_patch_fit, only: patch_fit_t, polynomial_t, COMPONENTS, clear_samples, add_sample, is_laid, lay_patch, &
+                               determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
-   use atrito_point_stress, only: point_rule_t, element_data_t, point_values_t, make_point_rule, fetch_element, point_stresses
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
    use atrito_shape_functions, only: gauss_count
+   use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
    public :: stress_field_t, recover_stress_field, nodal_stresses
 
    !> A stress field that is continuous in every zone: values at places, interpolated by the shape functions of the elements.
    type :: stress_field_t
-      integer(ip) :: n = 0                         !< places
+      integer(ip) :: n = 0                         !< places; of node i in its first zone: place i
       integer(ip), allocatable :: node(:)          !< (n) node of a place
-      integer(ip), allocatable :: element(:)       !< (n) an element that the place belongs to
-      integer(ip), allocatable :: place(:, :)      !< (Q2_NODES, n_elements): places of an element's nodes
+      integer(ip), allocatable :: element(:)       !< (n) an element that the place belongs to; 0: none
+      integer(ip), allocatable :: place(:, :)      !< (most nodes of an element, n_elements): places of an element's nodes
       real(wp), allocatable :: stress(:, :)        !< (COMPONENTS, n) [F/L^2]
    end type stress_field_t
 
@@ -37,7 +39,7 @@ module atrito_stress_recovery
       type(patches_t) :: patches
       real(wp), allocatable :: x(:, :, :)          !< best points less the element's first node [L], (2, points, n_elements)
       real(wp), allocatable :: s(:, :, :)          !< stresses there [F/L^2], (COMPONENTS, points, n_elements)
-      integer(ip), allocatable :: rank(:), count(:) !< of each place: rank of the values taken (RANK_OF), and how many
+      type(polynomial_t), allocatable :: polynomial(:) !< (places) of the patches that lend to other nodes
    end type recovery_t
 
    !> How good the patch of a corner is for a node of the element: 1 the node's own, or that of its edge or its element; then the
@@ -55,23 +57,20 @@ contains
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
       type(stress_field_t), intent(out) :: field
       type(recovery_t) :: work
-      type(patch_fit_t) :: fit
-      integer(ip) :: i
+      integer(ip) :: run
 
       call begin_recovery(fem, u, work)
       field%n = work%patches%n
-      allocate (field%stress(COMPONENTS, field%n), source=0.0_wp)
-      do i = 1, field%n
-         if (work%patches%kind(i) == PATCH_NONE) cycle
-         call fit_patch(fem, u, i, work, fit)
-         call spread_patch(fem, i, fit, work, field%stress)
+      allocate (field%stress(COMPONENTS, field%n), work%polynomial(field%n))
+      !$omp parallel do schedule(dynamic) if (is_shared(field%n))
+      do run = 1, run_count(field%n)
+         call fit_run(fem, u, run, work, field%stress)
       end do
-      do i = 1, field%n
-         field%stress(:, i) = field%stress(:, i)/real(work%count(i), wp)
-      end do
+      !$omp end parallel do
+      call borrow_stresses(fem%mesh, work, field%stress)
       call move_alloc(work%patches%place, field%place)
       call move_alloc(work%patches%node, field%node)
-      call name_elements(fem, field)
+      call move_alloc(work%patches%owner, field%element)
    end subroutine recover_stress_field
 
    !> Patches, rules, and the stresses at the best points of all elements.
@@ -79,26 +78,41 @@ contains
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
       type(recovery_t), intent(out) :: work
-      type(element_data_t) :: data
-      type(point_values_t) :: at
-      integer(ip) :: e, k
+      integer(ip) :: run, k
 
       call build_patches(fem, work%patches)
-      allocate (work%rank(work%patches%n), source=RANK_NONE)
-      allocate (work%count(work%patches%n), source=0_ip)
       call make_sampling(Q1_NODES, work%sampling(1))
       call make_sampling(Q2_NODES, work%sampling(2))
       k = work%sampling(kind_of(maxval([fem%mesh%shape, Q1_NODES])))%best%n
       allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
-      do e = 1, fem%mesh%n_elements
-         call fetch_element(fem, e, u, data)
-         associate (rule => work%sampling(kind_of(data%n))%best)
-            call point_stresses(data, rule, at)
-            work%s(:, :rule%n, e) = transpose(at%s(:rule%n, :))
-            work%x(:, :rule%n, e) = transpose(at%x(:rule%n, :))
+      !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
+      do run = 1, run_count(fem%mesh%n_elements)
+         call sample_run(fem, u, run, work)
+      end do
+      !$omp end parallel do
+   end subroutine begin_recovery
+
+   pure subroutine sample_run(fem, u, run, work)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)
+      integer(ip), intent(in) :: run
+      type(recovery_t), intent(inout) :: work      !< x and s of the run's elements are set
+      type(point_geometry_t) :: geometry
+      real(wp) :: s(MOST_POINTS, COMPONENTS)
+      integer(ip) :: e, point, first, last
+
+      call find_run(run, fem%mesh%n_elements, first, last)
+      do e = first, last
+         associate (rule => work%sampling(kind_of(fem%mesh%shape(e)))%best)
+            call fetch_geometry(fem, e, rule, geometry)
+            call point_stresses(fem, e, u, rule, geometry, s)
+            do point = 1, rule%n
+               work%s(:, point, e) = s(point, :)
+               work%x(:, point, e) = geometry%place(point, :)
+            end do
          end associate
       end do
-   end subroutine begin_recovery
+   end subroutine sample_run
 
    pure subroutine make_sampling(n_nodes, sampling)
       integer(ip), intent(in) :: n_nodes
@@ -115,65 +129,90 @@ contains
       kind_of = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
    end function kind_of
 
-   !> The polynomial of a patch. When its samples do not determine it, all Gauss points and lower degrees are tried.
-   pure subroutine fit_patch(fem, u, i, work, fit)
+   !> The patches of one run of places: the stress at their nodes, and the polynomials that other nodes want.
+   pure subroutine fit_run(fem, u, run, work, stress)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)
+      integer(ip), intent(in) :: run
+      type(recovery_t), intent(inout) :: work      !< the polynomials of the run's places are set
+      real(wp), intent(inout) :: stress(:, :)      !< those of the run's places are set
+      type(patch_fit_t) :: fit
+      integer(ip) :: i, first, last, degree
+
+      call find_run(run, work%patches%n, first, last)
+      do i = first, last
+         stress(:, i) = 0.0_wp
+         if (work%patches%kind(i) == PATCH_NONE) cycle
+         call fit_patch(fem, u, i, work, fit, degree)
+         call fit_node(degree, fit, stress(:, i))
+         associate (elements => work%patches%element(work%patches%first(i):work%patches%first(i + 1) - 1))
+            if (any(work%patches%lends(elements))) call fit_polynomial(degree, fit, work%polynomial(i))
+         end associate
+      end do
+   end subroutine fit_run
+
+   !> Samples of a patch, and the degree that they determine. When the best points do not determine what they should, all Gauss
+   !> points and lower degrees are tried.
+   pure subroutine fit_patch(fem, u, i, work, fit, degree)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
       integer(ip), intent(in) :: i                 !< place of the patch
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
-      integer(ip) :: degree, k
-      logical :: determined
+      integer(ip), intent(out) :: degree
+      integer(ip) :: full, k
 
       associate (patches => work%patches)
-         call lay_coordinates(fem, i, patches, fit)
-         degree = kind_of(fem%mesh%shape(patches%element(patches%first(i))))
-         determined = .false.
+         full = kind_of(fem%mesh%shape(patches%element(patches%first(i))))
          if (patches%kind(i) /= PATCH_OUTER) then
+            call clear_samples(fit)
             do k = patches%first(i), patches%first(i + 1) - 1
-               call add_best_points(fem, i, patches%element(k), degree, work, fit)
+               call add_best_points(fem, i, patches%element(k), full, work, fit)
             end do
-            call solve_fit(merge(degree - 1, degree, patches%kind(i) == PATCH_SINGLE), fit, determined)
+            call lay_when_new(fem, i, patches, full, fit)
+            degree = merge(full - 1, full, patches%kind(i) == PATCH_SINGLE)
+            if (determined_degree(degree, fit) == degree) return
          end if
-         if (determined) return
-         call clear_fit(fit)
+         call clear_samples(fit)
          do k = patches%first(i), patches%first(i + 1) - 1
-            call add_all_points(fem, u, i, patches%element(k), degree, work, fit)
+            call add_all_points(fem, u, i, patches%element(k), full, work, fit)
          end do
+         call lay_when_new(fem, i, patches, full, fit)
+         degree = determined_degree(full, fit)
       end associate
-      do k = degree, 0, -1
-         call solve_fit(k, fit, determined)
-         if (determined) return
-      end do
    end subroutine fit_patch
 
-   pure subroutine lay_coordinates(fem, i, patches, fit)
+   !> Lays the patch unless the one before has its shape within the rounding of the coordinates, never coarser than 1e-12 of it.
+   pure subroutine lay_when_new(fem, i, patches, degree, fit)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i, degree
       type(patches_t), intent(in) :: patches
       type(patch_fit_t), intent(inout) :: fit
       integer(ip), parameter :: ENOUGH = 16        !< elements round a node; more give no better coordinates
-      real(wp) :: corners(2, Q1_NODES*ENOUGH)
+      real(wp) :: corners(2, Q1_NODES*ENOUGH), here(2), slack
       integer(ip) :: j, k, n
 
+      here = fem%mesh%x(:, patches%node(i))
+      slack = min(4*EPS_MACH*max(abs(here(1)), abs(here(2))), 1.0e-12_wp*max(abs(fit%x(1, 1)), abs(fit%x(2, 1))))
+      if (is_laid(degree, slack, fit)) return
       n = 0
       do j = patches%first(i), min(patches%first(i + 1), patches%first(i) + ENOUGH) - 1
          do k = 1, Q1_NODES
             n = n + 1
-            corners(:, n) = from_patch(fem, patches, i, fem%mesh%nodes(k, patches%element(j)))
+            corners(:, n) = from_patch(fem%mesh, patches, i, fem%mesh%nodes(k, patches%element(j)))
          end do
       end do
-      call begin_fit(corners(:, :n), fit)
-   end subroutine lay_coordinates
+      call lay_patch(corners(:, :n), degree, fit)
+   end subroutine lay_when_new
 
    !> A node less the node of a patch [L].
-   pure function from_patch(fem, patches, i, node) result(x)
-      type(fem_t), intent(in) :: fem
+   pure function from_patch(mesh, patches, i, node) result(x)
+      type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: i, node
       real(wp) :: x(2)
 
-      x = fem%mesh%x(:, node) - fem%mesh%x(:, patches%node(i))
+      x = mesh%x(:, node) - mesh%x(:, patches%node(i))
    end function from_patch
 
    pure subroutine add_best_points(fem, i, e, degree, work, fit)
@@ -184,9 +223,9 @@ contains
       real(wp) :: first(2)
       integer(ip) :: point
 
-      first = from_patch(fem, work%patches, i, fem%mesh%nodes(1, e))
+      first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
       do point = 1, work%sampling(degree)%best%n
-         call add_sample(first + work%x(:, point, e), work%s(:, point, e), degree, fit)
+         call add_sample(first + work%x(:, point, e), work%s(:, point, e), fit)
       end do
    end subroutine add_best_points
 
@@ -196,84 +235,164 @@ contains
       integer(ip), intent(in) :: i, e, degree
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
-      type(element_data_t) :: data
-      type(point_values_t) :: at
-      real(wp) :: first(2)
+      type(point_geometry_t) :: geometry
+      real(wp) :: first(2), s(MOST_POINTS, COMPONENTS)
       integer(ip) :: point
 
-      call fetch_element(fem, e, u, data)
-      first = from_patch(fem, work%patches, i, fem%mesh%nodes(1, e))
+      first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
       associate (rule => work%sampling(degree)%all)
-         call point_stresses(data, rule, at)
+         call fetch_geometry(fem, e, rule, geometry)
+         call point_stresses(fem, e, u, rule, geometry, s)
          do point = 1, rule%n
-            call add_sample(first + at%x(point, :), at%s(point, :), degree, fit)
+            call add_sample(first + geometry%place(point, :), s(point, :), fit)
          end do
       end associate
    end subroutine add_all_points
 
-   !> Hands the values of a patch's polynomial to the nodes of its elements that have none of a better rank.
-   pure subroutine spread_patch(fem, i, fit, work, stress)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i
-      type(patch_fit_t), intent(in) :: fit
-      type(recovery_t), intent(inout) :: work
-      real(wp), intent(inout) :: stress(:, :)      !< sums
-      integer(ip) :: j, k, e, at, rank
-
-      do j = work%patches%first(i), work%patches%first(i + 1) - 1
-         e = work%patches%element(j)
-         do k = 1, fem%mesh%shape(e)
-            at = work%patches%place(k, e)
-            rank = RANK_OF(work%patches%corner(j), k)
-            if (rank > work%rank(at) .or. (k <= Q1_NODES .and. rank > 1 .and. work%patches%kind(at) /= PATCH_NONE)) cycle
-            if (rank < work%rank(at)) then
-               work%rank(at) = rank
-               work%count(at) = 0
-               stress(:, at) = 0.0_wp
-            end if
-            work%count(at) = work%count(at) + 1
-            stress(:, at) = stress(:, at) + fitted_value(from_patch(fem, work%patches, i, fem%mesh%nodes(k, e)), fit)
-         end do
-      end do
-   end subroutine spread_patch
-
-   pure subroutine name_elements(fem, field)
-      type(fem_t), intent(in) :: fem
-      type(stress_field_t), intent(inout) :: field
+   !> Gives the nodes without a patch of their own the mean of the best patches at hand. Most of them, the middles of sides and
+   !> elements, find patches of rank 1, which are the same from all their elements; the few others ask all of theirs.
+   subroutine borrow_stresses(mesh, work, stress)
+      type(mesh_t), intent(in) :: mesh
+      type(recovery_t), intent(in) :: work
+      real(wp), intent(inout) :: stress(:, :)
+      logical, allocatable :: asks(:)
       integer(ip) :: e
 
-      allocate (field%element(field%n))
-      do e = 1, fem%mesh%n_elements
-         field%element(field%place(:fem%mesh%shape(e), e)) = e
+      allocate (asks(mesh%n_elements))
+      !$omp parallel do schedule(dynamic, 256) if (is_shared(mesh%n_elements))
+      do e = 1, mesh%n_elements
+         asks(e) = .false.
+         if (work%patches%lends(e)) call borrow_in_element(mesh, e, work, stress, asks(e))
       end do
-   end subroutine name_elements
+      !$omp end parallel do
+      if (any(asks)) call borrow_from_all(mesh, asks, work, stress)
+   end subroutine borrow_stresses
+
+   !> Rank of the best patches of an element for its node.
+   pure integer(ip) function best_rank(patches, e, k)
+      type(patches_t), intent(in) :: patches
+      integer(ip), intent(in) :: e, k
+      integer(ip) :: corner
+
+      best_rank = RANK_NONE
+      do corner = 1, Q1_NODES
+         if (patches%kind(patches%place(corner, e)) == PATCH_NONE) cycle
+         best_rank = min(best_rank, RANK_OF(corner, k))
+      end do
+   end function best_rank
+
+   !> Adds the values of an element's patches of a rank for its node.
+   pure subroutine add_borrowed(mesh, e, k, rank, work, stress, count)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e, k, rank
+      type(recovery_t), intent(in) :: work
+      real(wp), intent(inout) :: stress(COMPONENTS)
+      integer(ip), intent(inout) :: count
+      integer(ip) :: corner, i
+
+      do corner = 1, Q1_NODES
+         i = work%patches%place(corner, e)
+         if (work%patches%kind(i) == PATCH_NONE .or. RANK_OF(corner, k) /= rank) cycle
+         stress = stress + fitted_value(from_patch(mesh, work%patches, i, mesh%nodes(k, e)), work%polynomial(i))
+         count = count + 1
+      end do
+   end subroutine add_borrowed
+
+   !> The nodes with patches of rank 1 that this element owns. asks: there are nodes without.
+   pure subroutine borrow_in_element(mesh, e, work, stress, asks)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e
+      type(recovery_t), intent(in) :: work
+      real(wp), intent(inout) :: stress(:, :)
+      logical, intent(inout) :: asks
+      integer(ip) :: k, at, count
+
+      do k = 1, mesh%shape(e)
+         at = work%patches%place(k, e)
+         if (work%patches%kind(at) /= PATCH_NONE) cycle
+         if (best_rank(work%patches, e, k) > 1) then
+            asks = .true.
+         else if (work%patches%owner(at) == e) then
+            count = 0
+            call add_borrowed(mesh, e, k, 1_ip, work, stress(:, at), count)
+            stress(:, at) = stress(:, at)/real(count, wp)
+         end if
+      end do
+   end subroutine borrow_in_element
+
+   !> The nodes of some elements that have no patch of rank 1: the best rank that one of their elements has is taken of all.
+   pure subroutine borrow_from_all(mesh, asks, work, stress)
+      type(mesh_t), intent(in) :: mesh
+      logical, intent(in) :: asks(:)               !< of each element
+      type(recovery_t), intent(in) :: work
+      real(wp), intent(inout) :: stress(:, :)
+      integer(ip), allocatable :: best(:), count(:)
+      integer(ip) :: k, e, at, own
+
+      allocate (best(work%patches%n), source=RANK_NONE)
+      allocate (count(work%patches%n), source=0_ip)
+      do e = 1, mesh%n_elements
+         if (.not. asks(e)) cycle
+         do k = 1, mesh%shape(e)
+            at = work%patches%place(k, e)
+            own = best_rank(work%patches, e, k)
+            if (own == 1 .or. own > best(at) .or. work%patches%kind(at) /= PATCH_NONE) cycle
+            if (own < best(at)) then
+               best(at) = own
+               count(at) = 0
+               stress(:, at) = 0.0_wp
+            end if
+            call add_borrowed(mesh, e, k, own, work, stress(:, at), count(at))
+         end do
+      end do
+      do at = 1, size(count, kind=ip)
+         if (count(at) > 0) stress(:, at) = stress(:, at)/real(count(at), wp)
+      end do
+   end subroutine borrow_from_all
 
    !> s11 s22 s33 s12 mises at the nodes: the mean of the zones that meet there, and Mises' stress of that mean. 0 at nodes in no
    !> element.
-   pure subroutine nodal_stresses(fem, field, stress)
+   subroutine nodal_stresses(fem, field, stress)
       type(fem_t), intent(in) :: fem
       type(stress_field_t), intent(in) :: field
       real(wp), allocatable, intent(out) :: stress(:, :)  !< (5, n_nodes) [F/L^2]
-      integer(ip) :: zones(fem%mesh%n_nodes)
-      integer(ip) :: i, e, node
+      integer(ip), allocatable :: zones(:)
+      integer(ip) :: i, node
 
-      allocate (stress(5, fem%mesh%n_nodes), source=0.0_wp)
-      zones = 0
-      do i = 1, field%n
-         e = field%element(i)
-         node = field%node(i)
-         zones(node) = zones(node) + 1
-         associate (s => field%stress(:, i))
-            stress(1:2, node) = stress(1:2, node) + s(1:2)
-            stress(3, node) = stress(3, node) + stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), s)
-            stress(4, node) = stress(4, node) + s(3)
-         end associate
+      allocate (stress(5, fem%mesh%n_nodes), zones(fem%mesh%n_nodes))
+      !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
+      do node = 1, fem%mesh%n_nodes                ! also the number of the place in its first zone
+         stress(:, node) = 0.0_wp
+         zones(node) = 0
+         call add_zone(fem, field, node, stress(:, node), zones(node))
       end do
+      !$omp end parallel do
+      do i = fem%mesh%n_nodes + 1, field%n
+         call add_zone(fem, field, i, stress(:, field%node(i)), zones(field%node(i)))
+      end do
+      !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
       do node = 1, fem%mesh%n_nodes
-         if (zones(node) == 0) cycle
-         stress(:4, node) = stress(:4, node)/real(zones(node), wp)
-         stress(5, node) = von_mises(stress([1, 2, 4], node), stress(3, node))
+         if (zones(node) > 1) stress(:4, node) = stress(:4, node)/real(zones(node), wp)
+         stress(5, node) = von_mises([stress(1, node), stress(2, node), stress(4, node)], stress(3, node))
       end do
+      !$omp end parallel do
    end subroutine nodal_stresses
+
+   !> Adds the stresses at a place to those of its node.
+   pure subroutine add_zone(fem, field, i, stress, zones)
+      type(fem_t), intent(in) :: fem
+      type(stress_field_t), intent(in) :: field
+      integer(ip), intent(in) :: i
+      real(wp), intent(inout) :: stress(5)
+      integer(ip), intent(inout) :: zones
+      integer(ip) :: e
+
+      e = field%element(i)
+      if (e == 0) return
+      zones = zones + 1
+      stress(1:2) = stress(1:2) + field%stress(1:2, i)
+      stress(3) = stress(3) + stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), field%stress(:, i))
+      stress(4) = stress(4) + field%stress(3, i)
+   end subroutine add_zone
 
 end module atrito_stress_recovery

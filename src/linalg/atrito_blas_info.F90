@@ -1,13 +1,15 @@
-!> Which BLAS the program was linked with, and how many threads it takes.
+!> Which BLAS and LAPACK the program was linked with, and how many threads BLAS takes.
 !>
 !> CMake looks for OpenBLAS's own functions in the libraries that it found (ATRITO_OPENBLAS) and says where these are
 !> (ATRITO_BLAS_LIBRARY). The reference BLAS costs a factor of three, hence the question.
 module atrito_blas_info
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_associated, c_f_pointer
    use atrito_kinds, only: ip
+   use atrito_lapack, only: ilaver
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: blas_name, is_reference_blas, set_blas_threads
+   public :: blas_name, lapack_version, is_reference_blas, set_blas_threads
 
 #ifdef ATRITO_OPENBLAS
    logical, parameter :: HAS_OPENBLAS = .true.
@@ -43,6 +45,15 @@ contains
       name = ATRITO_BLAS_LIBRARY
 #endif
    end function blas_name
+
+   !> '3.11.0', as LAPACK says.
+   function lapack_version() result(version)
+      character(len=:), allocatable :: version
+      integer(ip) :: parts(3)
+
+      call ilaver(parts(1), parts(2), parts(3))
+      version = to_text(parts(1))//'.'//to_text(parts(2))//'.'//to_text(parts(3))
+   end function lapack_version
 
    !> True for the slow one: a library of the plain name libblas or liblapack that is not OpenBLAS in disguise.
    pure logical function is_reference_blas()

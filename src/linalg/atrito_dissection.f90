@@ -1,138 +1,241 @@
-!> Elimination order for the sparse solver: nested dissection by the places of the nodes.
+!> Elimination order for the sparse solver: nested dissection by the places of the elements.
 !>
-!> A set of nodes is cut across its longer side at the median of the nodes; of the lower part those that touch the upper one are
-!> the separator and are eliminated last, after the two parts, which are cut in turn (George, SIAM J. Numer. Anal. 10 (1973)
-!> 345-363). Near the optimum for plane meshes, whatever the numbering of the nodes, in n log n steps: minimum degree takes 0.7 to
-!> 3 times the operations, depending on the numbering, and METIS ten times as long to find an order no better (docs/developer).
+!> A set of elements is cut across its longer side; the nodes that both parts have are the separator and are eliminated last, after
+!> the two parts, which are cut in turn (George, SIAM J. Numer. Anal. 10 (1973) 345-363). Near the optimum for plane meshes,
+!> whatever the numbering, in n log n steps: minimum degree takes 0.7 to 3 times the operations, depending on the numbering, and
+!> METIS ten times as long to find an order no better (docs/developer). Sets of the same shape are cut alike, so that regular
+!> meshes have few different fronts.
 module atrito_dissection
-   use atrito_kinds, only: ip, wp
-   use atrito_ordering, only: graph_t
+   use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
    public :: dissect, dissection_t
 
-   !> Sets so small are not cut any more.
-   integer, parameter :: LEAF = 8
-   !> Nodes whose median stands for that of all.
-   integer, parameter :: MOST_SAMPLES = 63
-   !> Nodes closer to the cut than this share of the extent lie on it: round-off of a regular mesh.
-   real(wp), parameter :: ON_CUT = 1.0e-6_wp
-
-   !> The parts of a dissected set, in postorder: each separator after the two parts that it divides.
+   !> The order of the nodes, and its parts in postorder: each separator after the two parts that it divides.
    type :: dissection_t
+      integer(ip) :: n_nodes = 0
+      integer(ip), allocatable :: order(:)       !< (n_nodes or more)
       integer(ip) :: n = 0                       !< parts
-      integer(ip), allocatable :: last(:)        !< (n or more) last node of each part in the list of the nodes; a part may be empty
+      integer(ip), allocatable :: last(:)        !< (n or more) last place of each part in the order
       integer(ip), allocatable :: parent(:)      !< (n or more) 0: none
    end type dissection_t
 
-   type :: work_t
-      integer(ip) :: cut = 0                     !< number of the cut being made
-      integer(ip), allocatable :: upper_of(:)    !< (nodes of the graph) last cut that had the node above it
-      integer(ip), allocatable :: buffer(:)
-   end type work_t
+   !> Elements with their centres, a set a run of them.
+   type :: pieces_t
+      integer(ip), allocatable :: element(:)
+      real(wp), allocatable :: centre(:, :)      !< (2, elements) [L]
+   end type pieces_t
+
+   !> What is known of the nodes.
+   type :: marks_t
+      logical, allocatable :: taken(:)           !< in the order already, or not wanted there
+      integer(lp), allocatable :: upper_of(:)    !< last cut that had the node in its upper part
+   end type marks_t
+
+   !> Sets of so few nodes, counted with each element, are not cut any more.
+   integer(ip), parameter :: LEAF = 64_ip
+   !> Sets of so many elements are worth a task of their own.
+   integer(ip), parameter :: LARGE = 4096_ip
+   !> Elements whose median stands for that of all.
+   integer, parameter :: MOST_SAMPLES = 63
+   !> Elements closer to the cut than this share of the extent lie on it: round-off of a regular mesh.
+   real(wp), parameter :: ON_CUT = 1.0e-6_wp
+   !> A cut in the middle is good when each part has this share of the elements.
+   real(wp), parameter :: BALANCED = 0.4_wp
+   !> A number a cut lasts for so many levels.
+   integer(lp), parameter :: LAST_CUT = 2_lp**61
 
 contains
 
-   !> Brings nodes into the order of their elimination.
-   pure subroutine dissect(graph, x, nodes, parts)
-      type(graph_t), intent(in) :: graph
-      real(wp), intent(in) :: x(:, :)            !< (2, nodes of the graph) [L]
-      integer(ip), intent(inout), contiguous :: nodes(:) !< distinct nodes of the graph, in any order
+   !> Orders the wanted nodes of some elements.
+   subroutine dissect(elements, nodes, n_nodes_of, x, wanted, parts)
+      integer(ip), intent(in) :: elements(:)     !< which
+      integer(ip), intent(in) :: nodes(:, :)     !< (most nodes, all elements)
+      integer(ip), intent(in) :: n_nodes_of(:)   !< (all elements) nodes of each; the first four or all are its corners
+      real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
+      logical, intent(in) :: wanted(:)           !< (all nodes)
       type(dissection_t), intent(out) :: parts
-      type(work_t) :: work
-      integer(ip), parameter :: ROOM = 64_ip
+      type(pieces_t) :: pieces
+      type(marks_t) :: marks
+      integer(ip) :: i, root
 
-      allocate (parts%last(ROOM), parts%parent(ROOM))
-      allocate (work%upper_of(graph%n), source=0_ip)
-      allocate (work%buffer(size(nodes)))
-      if (size(nodes) > 0) call cut(graph, x, nodes, 0_ip, parts, work)
+      allocate (pieces%centre(2, size(elements)))
+      pieces%element = elements
+      do i = 1, size(elements, kind=ip)
+         pieces%centre(:, i) = centre_of(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)))
+      end do
+      marks%taken = .not. wanted
+      allocate (marks%upper_of(size(wanted)), source=0_lp)
+      call begin_parts(parts, count(wanted, kind=ip))
+      if (size(elements) == 0) return
+      !$omp parallel default(none) shared(nodes, n_nodes_of, pieces, marks, parts, root) if(size(pieces%element) > LARGE)
+      !$omp single
+      call cut(nodes, n_nodes_of, pieces%element, pieces%centre, 1_lp, marks%taken, marks%upper_of, parts, root)
+      !$omp end single
+      !$omp end parallel
    end subroutine dissect
 
-   !> The depth of the recursion is that of the tree, about log2 of the nodes.
-   pure recursive subroutine cut(graph, x, nodes, before, parts, work)
-      type(graph_t), intent(in) :: graph
+   pure function centre_of(x, corners) result(centre)
       real(wp), intent(in) :: x(:, :)
-      integer(ip), intent(inout), contiguous :: nodes(:)
-      integer(ip), intent(in) :: before          !< nodes that stand before these in the list
-      type(dissection_t), intent(inout) :: parts
-      type(work_t), intent(inout) :: work
-      integer(ip) :: n_lower, n_upper, lower, upper
-      integer :: along
-      real(wp) :: place
-
-      n_upper = 0
-      if (size(nodes) > LEAF) then
-         call choose_cut(x, nodes, along, place)
-         call split(graph, x, along, place, nodes, work, n_lower, n_upper)
-      end if
-      if (n_upper == 0 .or. n_upper == size(nodes)) then
-         call add_part(parts, before + size(nodes, kind=ip))
-         return
-      end if
-      lower = 0
-      if (n_lower > 0) then
-         call cut(graph, x, nodes(:n_lower), before, parts, work)
-         lower = parts%n
-      end if
-      call cut(graph, x, nodes(n_lower + 1:n_lower + n_upper), before + n_lower, parts, work)
-      upper = parts%n
-      call add_part(parts, before + size(nodes, kind=ip))
-      if (lower > 0) parts%parent(lower) = parts%n
-      parts%parent(upper) = parts%n
-   end subroutine cut
-
-   !> Adds a part without a parent, which ends with a node of the list.
-   pure subroutine add_part(parts, last)
-      type(dissection_t), intent(inout) :: parts
-      integer(ip), intent(in) :: last
-      integer(ip), allocatable :: longer(:)
-
-      if (parts%n == size(parts%last)) then
-         allocate (longer(2*parts%n))
-         longer(:parts%n) = parts%last
-         call move_alloc(longer, parts%last)
-         allocate (longer(2*parts%n))
-         longer(:parts%n) = parts%parent
-         call move_alloc(longer, parts%parent)
-      end if
-      parts%n = parts%n + 1
-      parts%last(parts%n) = last
-      parts%parent(parts%n) = 0
-   end subroutine add_part
-
-   !> Where to cut: across the longer side, a little above the median of a sample.
-   pure subroutine choose_cut(x, nodes, along, place)
-      real(wp), intent(in) :: x(:, :)
-      integer(ip), intent(in), contiguous :: nodes(:)
-      integer, intent(out) :: along              !< 1 or 2
-      real(wp), intent(out) :: place             !< [L]
-      real(wp) :: low(2), high(2), margin
+      integer(ip), intent(in) :: corners(:)
+      real(wp) :: centre(2)
       integer(ip) :: i
 
-      low = x(:, nodes(1))
+      centre = 0.0_wp
+      do i = 1, size(corners, kind=ip)
+         centre = centre + x(:, corners(i))/real(size(corners), wp)
+      end do
+   end function centre_of
+
+   pure subroutine begin_parts(parts, n_nodes)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(in) :: n_nodes         !< room for them
+      integer(ip), parameter :: ROOM = 64_ip
+
+      allocate (parts%order(n_nodes), parts%last(ROOM), parts%parent(ROOM))
+   end subroutine begin_parts
+
+   !> Appends the nodes of a set to the parts. The depth of the recursion is that of the tree, about log2 of the elements.
+   recursive subroutine cut(nodes, n_nodes_of, element, centre, number, taken, upper_of, parts, root)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      integer(ip), intent(inout), contiguous :: element(:)
+      real(wp), intent(inout), contiguous :: centre(:, :)
+      integer(lp), intent(in) :: number          !< of the cut: 2 number and 2 number + 1 are those of its parts
+      logical, intent(inout), contiguous :: taken(:)
+      integer(lp), intent(inout), contiguous :: upper_of(:)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
+      integer(ip) :: n_lower, lower, upper, n
+      integer(ip), allocatable :: separator(:)
+
+      n = size(element, kind=ip)
+      n_lower = 0
+      if (is_large(n_nodes_of, element) .and. number < LAST_CUT) call split(element, centre, n_lower)
+      if (n_lower == 0) then
+         call take_rest(nodes, n_nodes_of, element, taken, parts, root)
+         return
+      end if
+      call take_separator(nodes, n_nodes_of, element, n_lower, number, taken, upper_of, separator)
+      if (n > LARGE) then
+         call cut_side_by_side(nodes, n_nodes_of, element, centre, n_lower, number, taken, upper_of, parts, lower, upper)
+      else
+         call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), 2*number, taken, upper_of, parts, lower)
+         call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), 2*number + 1, taken, upper_of, parts, upper)
+      end if
+      call add_part(parts, separator, lower, upper, root)
+   end subroutine cut
+
+   pure logical function is_large(n_nodes_of, element)
+      integer(ip), intent(in) :: n_nodes_of(:), element(:)
+
+      is_large = size(element) > LEAF
+      if (.not. is_large) is_large = sum(n_nodes_of(element)) > LEAF
+   end function is_large
+
+   !> Both parts of a large set, as two tasks. They have no node in common that is not taken.
+   recursive subroutine cut_side_by_side(nodes, n_nodes_of, element, centre, n_lower, number, taken, upper_of, parts, lower, upper)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      integer(ip), intent(inout), contiguous :: element(:)
+      real(wp), intent(inout), contiguous :: centre(:, :)
+      integer(ip), intent(in) :: n_lower
+      integer(lp), intent(in) :: number
+      logical, intent(inout), contiguous :: taken(:)
+      integer(lp), intent(inout), contiguous :: upper_of(:)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(out) :: lower, upper
+      type(dissection_t) :: of_lower, of_upper
+
+      call begin_parts(of_lower, count_free(nodes, n_nodes_of, element(:n_lower), taken))
+      call begin_parts(of_upper, count_free(nodes, n_nodes_of, element(n_lower + 1:), taken))
+      !$omp task default(shared)
+      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), 2*number, taken, upper_of, of_lower, lower)
+      !$omp end task
+      !$omp task default(shared)
+      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), 2*number + 1, taken, upper_of, of_upper, upper)
+      !$omp end task
+      !$omp taskwait
+      if (lower > 0) lower = lower + parts%n
+      call append(parts, of_lower)
+      if (upper > 0) upper = upper + parts%n
+      call append(parts, of_upper)
+   end subroutine cut_side_by_side
+
+   !> At least as many as the free nodes of some elements.
+   pure integer(ip) function count_free(nodes, n_nodes_of, element, taken)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:)
+      logical, intent(in) :: taken(:)
+      integer(ip) :: i, k
+
+      count_free = 0
+      do i = 1, size(element, kind=ip)
+         do k = 1, n_nodes_of(element(i))
+            if (.not. taken(nodes(k, element(i)))) count_free = count_free + 1
+         end do
+      end do
+   end function count_free
+
+   !> Puts the elements below the cut first; their order stays. n_lower = 0: there is no cut.
+   pure subroutine split(element, centre, n_lower)
+      integer(ip), intent(inout), contiguous :: element(:)
+      real(wp), intent(inout), contiguous :: centre(:, :)
+      integer(ip), intent(out) :: n_lower
+      integer(ip) :: upper(size(element)), i, n_upper
+      real(wp) :: upper_centre(2, size(element)), place
+      integer :: along
+
+      call choose_cut(centre, along, place)
+      n_lower = 0
+      n_upper = 0
+      do i = 1, size(element, kind=ip)
+         if (centre(along, i) > place) then
+            n_upper = n_upper + 1
+            upper(n_upper) = element(i)
+            upper_centre(:, n_upper) = centre(:, i)
+         else
+            n_lower = n_lower + 1
+            element(n_lower) = element(i)
+            centre(:, n_lower) = centre(:, i)
+         end if
+      end do
+      element(n_lower + 1:) = upper(:n_upper)
+      centre(:, n_lower + 1:) = upper_centre(:, :n_upper)
+      if (n_upper == 0) n_lower = 0
+   end subroutine split
+
+   !> Where to cut: across the longer side, in the middle, or where that leaves too few on one side, at the median of a sample.
+   pure subroutine choose_cut(centre, along, place)
+      real(wp), intent(in), contiguous :: centre(:, :)
+      integer, intent(out) :: along              !< 1 or 2
+      real(wp), intent(out) :: place             !< [L]
+      real(wp) :: low(2), high(2), margin, share
+      integer(ip) :: i
+
+      low = centre(:, 1)
       high = low
-      do i = 2, size(nodes, kind=ip)
-         low = min(low, x(:, nodes(i)))
-         high = max(high, x(:, nodes(i)))
+      do i = 2, size(centre, 2, kind=ip)
+         low = min(low, centre(:, i))
+         high = max(high, centre(:, i))
       end do
       along = merge(1, 2, high(1) - low(1) >= high(2) - low(2))
       margin = ON_CUT*(high(along) - low(along))
-      place = sample_median(x, along, nodes) + margin
-      ! more than half of the nodes at the upper end: any cut between is better than none
+      place = 0.5_wp*low(along) + 0.5_wp*high(along) + margin
+      share = real(count(centre(along, :) <= place), wp)/real(size(centre, 2), wp)
+      if (share >= BALANCED .and. share <= 1.0_wp - BALANCED) return
+      place = sample_median(centre, along) + margin
+      ! more than half of the elements at the upper end: any cut between is better than none
       if (place >= high(along) - margin) place = 0.5_wp*low(along) + 0.5_wp*high(along)
    end subroutine choose_cut
 
-   !> Median of coordinates of nodes taken at equal distances from the list.
-   pure real(wp) function sample_median(x, along, nodes) result(median)
-      real(wp), intent(in) :: x(:, :)
+   !> Median of coordinates of elements taken at equal distances from the list.
+   pure real(wp) function sample_median(centre, along) result(median)
+      real(wp), intent(in), contiguous :: centre(:, :)
       integer, intent(in) :: along
-      integer(ip), intent(in), contiguous :: nodes(:)
       real(wp) :: sorted(MOST_SAMPLES), next
       integer :: i, j, n
 
-      n = min(MOST_SAMPLES, size(nodes))
+      n = min(MOST_SAMPLES, size(centre, 2))
       do i = 1, n
-         next = x(along, nodes(1 + int((real(i, wp) - 0.5_wp)*real(size(nodes), wp)/real(n, wp))))
+         next = centre(along, 1 + int((real(i, wp) - 0.5_wp)*real(size(centre, 2), wp)/real(n, wp)))
          do j = i - 1, 1, -1
             if (sorted(j) <= next) exit
             sorted(j + 1) = sorted(j)
@@ -142,61 +245,119 @@ contains
       median = sorted((n + 1)/2)
    end function sample_median
 
-   !> Puts the nodes below the cut first, those above it next, the separator last. All stay where they are when there is none
-   !> above it, or none below.
-   pure subroutine split(graph, x, along, place, nodes, work, n_lower, n_upper)
-      type(graph_t), intent(in) :: graph
-      real(wp), intent(in) :: x(:, :)
-      integer, intent(in) :: along
-      real(wp), intent(in) :: place
-      integer(ip), intent(inout), contiguous :: nodes(:)
-      type(work_t), intent(inout) :: work
-      integer(ip), intent(out) :: n_lower, n_upper
-      integer(ip) :: i, node, n, n_separator
+   !> Takes the free nodes that elements of both parts have.
+   pure subroutine take_separator(nodes, n_nodes_of, element, n_lower, number, taken, upper_of, separator)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:), n_lower
+      integer(lp), intent(in) :: number
+      logical, intent(inout) :: taken(:)
+      integer(lp), intent(inout) :: upper_of(:)
+      integer(ip), allocatable, intent(out) :: separator(:)
+      integer(ip) :: i, k, n, node
+      integer(ip), allocatable :: longer(:)
 
-      work%cut = work%cut + 1
-      n = size(nodes, kind=ip)
-      n_lower = 0
-      n_upper = 0
-      do i = 1, n
-         if (x(along, nodes(i)) <= place) cycle
-         work%upper_of(nodes(i)) = work%cut
-         n_upper = n_upper + 1
+      do i = n_lower + 1, size(element, kind=ip)
+         do k = 1, n_nodes_of(element(i))
+            node = nodes(k, element(i))
+            if (.not. taken(node)) upper_of(node) = number
+         end do
       end do
-      if (n_upper == 0 .or. n_upper == n) return
-      n_upper = 0
-      n_separator = 0
-      do i = 1, n
-         node = nodes(i)
-         if (work%upper_of(node) == work%cut) then
-            n_upper = n_upper + 1
-            work%buffer(n_upper) = node
-         else if (touches(graph, node, work)) then
-            work%buffer(n - n_separator) = node
-            n_separator = n_separator + 1
-         else
-            n_lower = n_lower + 1
-            nodes(n_lower) = node
-         end if
+      allocate (separator(64))
+      n = 0
+      do i = 1, n_lower
+         do k = 1, n_nodes_of(element(i))
+            node = nodes(k, element(i))
+            if (taken(node)) cycle
+            if (upper_of(node) /= number) cycle
+            taken(node) = .true.
+            if (n == size(separator)) then
+               allocate (longer(2*n))
+               longer(:n) = separator
+               call move_alloc(longer, separator)
+            end if
+            n = n + 1
+            separator(n) = node
+         end do
       end do
-      nodes(n_lower + 1:n_lower + n_upper) = work%buffer(:n_upper)
-      nodes(n_lower + n_upper + 1:) = work%buffer(n:n - n_separator + 1:-1)
-   end subroutine split
+      separator = separator(:n)
+   end subroutine take_separator
 
-   !> Whether a node has a neighbour above the cut.
-   pure logical function touches(graph, node, work)
-      type(graph_t), intent(in) :: graph
-      integer(ip), intent(in) :: node
-      type(work_t), intent(in) :: work
-      integer(ip) :: k
+   !> Makes a part of the free nodes of a set that is not cut.
+   pure subroutine take_rest(nodes, n_nodes_of, element, taken, parts, root)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:)
+      logical, intent(inout) :: taken(:)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(out) :: root
+      integer(ip) :: i, k, node, before
 
-      touches = .false.
-      do k = graph%xadj(node), graph%xadj(node + 1) - 1
-         if (work%upper_of(graph%adjncy(k)) == work%cut) then
-            touches = .true.
-            return
-         end if
+      before = parts%n_nodes
+      do i = 1, size(element, kind=ip)
+         do k = 1, n_nodes_of(element(i))
+            node = nodes(k, element(i))
+            if (taken(node)) cycle
+            taken(node) = .true.
+            parts%n_nodes = parts%n_nodes + 1
+            parts%order(parts%n_nodes) = node
+         end do
       end do
-   end function touches
+      root = 0
+      if (parts%n_nodes == before) return
+      call close_part(parts)
+      root = parts%n
+   end subroutine take_rest
+
+   !> Adds a separator, the parent of two parts where they are.
+   pure subroutine add_part(parts, separator, lower, upper, root)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(in) :: separator(:), lower, upper
+      integer(ip), intent(out) :: root
+      integer(ip) :: n
+
+      root = max(lower, upper)
+      n = size(separator, kind=ip)
+      if (n == 0 .and. min(lower, upper) == 0) return
+      parts%order(parts%n_nodes + 1:parts%n_nodes + n) = separator
+      parts%n_nodes = parts%n_nodes + n
+      call close_part(parts)
+      root = parts%n
+      if (lower > 0) parts%parent(lower) = root
+      if (upper > 0) parts%parent(upper) = root
+   end subroutine add_part
+
+   !> Ends a part at the last node; it has no parent yet.
+   pure subroutine close_part(parts)
+      type(dissection_t), intent(inout) :: parts
+
+      call make_room(parts, 1_ip)
+      parts%n = parts%n + 1
+      parts%last(parts%n) = parts%n_nodes
+      parts%parent(parts%n) = 0
+   end subroutine close_part
+
+   !> Puts parts behind others.
+   pure subroutine append(parts, more)
+      type(dissection_t), intent(inout) :: parts
+      type(dissection_t), intent(in) :: more
+
+      call make_room(parts, more%n)
+      parts%order(parts%n_nodes + 1:parts%n_nodes + more%n_nodes) = more%order(:more%n_nodes)
+      parts%last(parts%n + 1:parts%n + more%n) = more%last(:more%n) + parts%n_nodes
+      parts%parent(parts%n + 1:parts%n + more%n) = merge(more%parent(:more%n) + parts%n, 0_ip, more%parent(:more%n) > 0)
+      parts%n_nodes = parts%n_nodes + more%n_nodes
+      parts%n = parts%n + more%n
+   end subroutine append
+
+   pure subroutine make_room(parts, n)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(in) :: n
+      integer(ip), allocatable :: longer(:)
+
+      if (parts%n + n <= size(parts%last)) return
+      allocate (longer(2*(parts%n + n)))
+      longer(:parts%n) = parts%last(:parts%n)
+      call move_alloc(longer, parts%last)
+      allocate (longer(2*(parts%n + n)))
+      longer(:parts%n) = parts%parent(:parts%n)
+      call move_alloc(longer, parts%parent)
+   end subroutine make_room
 
 end module atrito_dissection

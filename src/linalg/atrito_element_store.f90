@@ -2,6 +2,7 @@
 !>
 !> Elements that share one matrix with the element before share its place in memory: a regular mesh has a single matrix.
 module atrito_element_store
+   use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
@@ -14,7 +15,7 @@ module atrito_element_store
       integer(ip), allocatable :: matrix_of(:)   !< (n or more)
       integer(ip) :: n_matrices = 0              !< different ones
       integer(lp), allocatable :: matrix_start(:) !< (n_matrices + 1 or more) matrix m: values(matrix_start(m) + 1:)
-      real(wp), allocatable :: values(:)         !< full matrices by columns
+      real(wp), allocatable :: values(:)         !< lower triangles by columns
    end type element_store_t
 
 contains
@@ -37,11 +38,11 @@ contains
 
       m = size(equations, kind=ip)
       if (store%n + 2 > size(store%start)) then
-         call grow_starts(store%start)
-         call grow_numbers(store%matrix_of, 2*size(store%matrix_of, kind=lp))
+         call grow(store%start, 2*size(store%start, kind=lp))
+         call grow(store%matrix_of, 2*size(store%matrix_of, kind=lp))
       end if
       first = store%start(store%n + 1)
-      if (first + m > size(store%equations, kind=lp)) call grow_numbers(store%equations, 2*(first + m))
+      if (first + m > size(store%equations, kind=lp)) call grow(store%equations, 2*(first + m))
       store%n = store%n + 1
       store%equations(first + 1:first + m) = equations
       store%start(store%n + 1) = first + m
@@ -60,10 +61,10 @@ contains
       is_newest = .false.
       if (store%n_matrices == 0) return
       first = store%matrix_start(store%n_matrices)
-      if (store%matrix_start(store%n_matrices + 1) - first /= int(m, lp)**2) return
+      if (store%matrix_start(store%n_matrices + 1) - first /= int(m, lp)*int(m + 1, lp)/2) return
       do j = 1, m
-         if (any(store%values(first + 1:first + m) /= matrix(:, j))) return
-         first = first + m
+         if (any(store%values(first + 1:first + m - j + 1) /= matrix(j:, j))) return
+         first = first + m - j + 1
       end do
       is_newest = .true.
    end function is_newest
@@ -72,47 +73,19 @@ contains
       type(element_store_t), intent(inout) :: store
       integer(ip), intent(in) :: m
       real(wp), intent(in) :: matrix(m, m)
-      integer(lp) :: first
+      integer(lp) :: first, needed
       integer(ip) :: j
 
-      if (store%n_matrices + 2 > size(store%matrix_start)) call grow_starts(store%matrix_start)
+      if (store%n_matrices + 2 > size(store%matrix_start)) call grow(store%matrix_start, 2*size(store%matrix_start, kind=lp))
       first = store%matrix_start(store%n_matrices + 1)
-      if (first + int(m, lp)**2 > size(store%values, kind=lp)) call grow_values(store%values, 2*(first + int(m, lp)**2))
+      needed = first + int(m, lp)*int(m + 1, lp)/2
+      if (needed > size(store%values, kind=lp)) call grow(store%values, 2*needed)
       store%n_matrices = store%n_matrices + 1
       do j = 1, m
-         store%values(first + 1:first + m) = matrix(:, j)
-         first = first + m
+         store%values(first + 1:first + m - j + 1) = matrix(j:, j)
+         first = first + m - j + 1
       end do
       store%matrix_start(store%n_matrices + 1) = first
    end subroutine add_values
-
-   pure subroutine grow_numbers(list, length)
-      integer(ip), allocatable, intent(inout) :: list(:)
-      integer(lp), intent(in) :: length
-      integer(ip), allocatable :: longer(:)
-
-      allocate (longer(length))
-      longer(:size(list)) = list
-      call move_alloc(longer, list)
-   end subroutine grow_numbers
-
-   pure subroutine grow_starts(list)
-      integer(lp), allocatable, intent(inout) :: list(:)
-      integer(lp), allocatable :: longer(:)
-
-      allocate (longer(2*size(list, kind=lp)))
-      longer(:size(list)) = list
-      call move_alloc(longer, list)
-   end subroutine grow_starts
-
-   pure subroutine grow_values(list, length)
-      real(wp), allocatable, intent(inout) :: list(:)
-      integer(lp), intent(in) :: length
-      real(wp), allocatable :: longer(:)
-
-      allocate (longer(length))
-      longer(:size(list)) = list
-      call move_alloc(longer, list)
-   end subroutine grow_values
 
 end module atrito_element_store

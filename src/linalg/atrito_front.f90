@@ -23,20 +23,21 @@ contains
       packed_length = int(columns, lp)*int(order, lp) - int(columns, lp)*int(columns - 1, lp)/2
    end function packed_length
 
-   !> Adds an element matrix to the lower triangle.
+   !> Adds an element matrix, a packed lower triangle.
    pure subroutine add_element(order, front, m, places, matrix)
       integer(ip), intent(in) :: order, m
       real(wp), intent(inout) :: front(order, order)
       integer(ip), intent(in) :: places(m)       !< in the front; 0: prescribed
-      real(wp), intent(in) :: matrix(m, m)
-      integer(ip) :: a, b, i, j
+      real(wp), intent(in) :: matrix(*)
+      integer(ip) :: a, b, i, j, k
 
+      k = 0
       do b = 1, m
-         j = places(b)
-         if (j == 0) cycle
-         do a = 1, m
-            i = places(a)
-            if (i >= j) front(i, j) = front(i, j) + matrix(a, b)
+         do a = b, m
+            k = k + 1
+            i = max(places(a), places(b))
+            j = min(places(a), places(b))
+            if (j > 0) front(i, j) = front(i, j) + matrix(k)
          end do
       end do
    end subroutine add_element

@@ -153,13 +153,14 @@ contains
       integer(ip) :: wave, u
 
       do wave = 1, maxval(units%wave)
+         !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
          do u = 1, size(units, kind=ip)
             if (units(u)%wave /= wave) cycle
             !$omp task default(none) shared(tree, store, diagonal, units, factors) firstprivate(u)
             call factor_unit(tree, store, diagonal, units(u), factors)
             !$omp end task
          end do
-         !$omp taskwait
+         !$omp end taskgroup
       end do
    end subroutine factor_waves
 
@@ -229,7 +230,8 @@ contains
       do i = 1, tree%record(tree%start(c) + 4)
          first = store%matrix_start(tree%record(k + 1))
          m = tree%record(k + 2)
-         call add_element(order, front, m, tree%record(k + 3:k + 2 + m), store%values(first + 1:first + int(m, lp)**2))
+         call add_element(order, front, m, tree%record(k + 3:k + 2 + m), &
+                          store%values(first + 1:first + int(m, lp)*int(m + 1, lp)/2))
          k = k + 2 + m
       end do
    end subroutine assemble_front
@@ -258,8 +260,8 @@ contains
       factor%smallest_pivot = huge(pivot)
       most_lost = 0.0_wp
       do i = 1, n_pivots
-         pivot = front(i, i)**2
-         if (i == factor%failed) pivot = front(i, i)
+         pivot = front(i, i)
+         if (i /= factor%failed) pivot = pivot**2   ! the diagonal of L; one that failed is as the elimination left it
          factor%smallest_pivot = min(factor%smallest_pivot, pivot)
          factor%largest_pivot = max(factor%largest_pivot, pivot)
          if (.not. pivot > tolerance*original(i)) factor%failed = i

@@ -3,7 +3,8 @@ module atrito_lapack
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpbtrf, dpocon, dpotrf, dpotrs, dsyev, dsymv, dsyrk, dtbtrs, dtrsm, dtrsv
+   public :: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpbtrf, dpocon, dpotrf, dpotrs, dsyev, dsymv, dsyrk, dtbtrs, dtrsm, dtrsv, &
+             ilaver
 
    interface
 
@@ -146,6 +147,12 @@ module atrito_lapack
          real(wp), intent(out) :: w(*), work(*)
          integer(ip), intent(out) :: info
       end subroutine dsyev
+
+      !> Version of LAPACK
+      subroutine ilaver(vers_major, vers_minor, vers_patch)
+         import :: ip
+         integer(ip), intent(out) :: vers_major, vers_minor, vers_patch
+      end subroutine ilaver
 
    end interface
 

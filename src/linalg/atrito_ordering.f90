@@ -11,7 +11,7 @@ module atrito_ordering
    type :: graph_t
       integer(ip) :: n = 0                       !< nodes
       integer(ip), allocatable :: xadj(:)        !< (n + 1) neighbours of i are adjncy(xadj(i):xadj(i + 1) - 1)
-      integer(ip), allocatable :: adjncy(:)
+      integer(ip), allocatable :: adjncy(:)      !< may be longer than they need
    end type graph_t
 
    !> A sequence of nodes being made, breadth first.
@@ -28,22 +28,21 @@ contains
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
       type(graph_t), intent(out) :: graph
-      integer(ip), allocatable :: start(:), list(:), last_seen_from(:), neighbours(:)
+      integer(ip), allocatable :: start(:), list(:), last_seen_from(:)
       integer(ip) :: i, used
 
       call list_elements(n, elements, start, list)
       graph%n = n
       allocate (graph%xadj(n + 1), last_seen_from(n))
       ! a node shares an element with at most all others of each of its elements; what is not touched takes no memory
-      allocate (neighbours(size(list, kind=lp)*max(size(elements, 1) - 1, 0)))
+      allocate (graph%adjncy(size(list, kind=lp)*max(size(elements, 1) - 1, 0)))
       last_seen_from = 0
       used = 0
       do i = 1, n
          graph%xadj(i) = used + 1
-         call take_neighbours(i, elements, list(start(i):start(i + 1) - 1), last_seen_from, neighbours, used)
+         call take_neighbours(i, elements, list(start(i):start(i + 1) - 1), last_seen_from, graph%adjncy, used)
       end do
       graph%xadj(n + 1) = used + 1
-      graph%adjncy = neighbours(:used)
    end subroutine build_graph
 
    !> The elements at each node: list(start(i):start(i + 1) - 1).
@@ -147,65 +146,70 @@ contains
    !>
    !> The given nodes are the root level of the search, so that the rest is numbered in layers that approach them: their
    !> columns stay short. A component without any of them begins at a pseudo-peripheral node. Components follow one another.
-   !> Time linear in the number of edges (and in last_nodes times the components that hold any).
-   pure subroutine order_contact_last(graph, last_nodes, order)
+   !> Time linear in the number of edges (and in last_nodes times the components that hold any) where no node has very many.
+   pure subroutine order_contact_last(graph, last_nodes, order, connected)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: last_nodes(:)   !< distinct nodes, in the order wanted (along the chain); may be empty
       integer(ip), intent(out) :: order(:)       !< (n) order(k) = node at place k
-      type(graph_t) :: sorted
+      logical, intent(in), optional :: connected !< the graph is known to be one component; default .false.
       type(walk_t) :: walk, trial
-      integer(ip) :: component(graph%n), n_components, i
+      integer(ip), allocatable :: component(:)
+      integer(ip) :: n_components, i
       logical, allocatable :: done(:)
+      logical :: is_one
 
-      call sort_neighbours(graph, sorted)
-      call connected_components(graph, component, n_components)
+      is_one = .false.
+      if (present(connected)) is_one = connected
+      allocate (component(graph%n), source=1_ip)
+      n_components = 1
+      if (.not. is_one) call connected_components(graph, component, n_components)
       allocate (done(n_components))
       done = .false.
       call begin_walk(walk, graph%n)
-      call begin_walk(trial, graph%n)
       do i = size(last_nodes, kind=ip), 1, -1
          call visit(walk, last_nodes(i))
       end do
       do i = size(last_nodes, kind=ip), 1, -1
          if (done(component(last_nodes(i)))) cycle
          done(component(last_nodes(i))) = .true.
-         call grow_layers(sorted, pack(last_nodes, component(last_nodes) == component(last_nodes(i))), walk)
+         call grow_layers(graph, pack(last_nodes, component(last_nodes) == component(last_nodes(i))), walk)
       end do
       do i = 1, graph%n
          if (done(component(i))) cycle
          done(component(i)) = .true.
-         call begin_component(sorted, i, trial, walk)
+         call begin_component(graph, i, trial, walk)
       end do
       order = walk%nodes(graph%n:1:-1)
    end subroutine order_contact_last
 
    !> Cuthill-McKee from the given roots, which are in the walk: those at the end of the list first.
-   pure subroutine grow_layers(sorted, roots, walk)
-      type(graph_t), intent(in) :: sorted
+   pure subroutine grow_layers(graph, roots, walk)
+      type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: roots(:)
       type(walk_t), intent(inout) :: walk
       integer(ip) :: i, next
 
       next = walk%length + 1
       do i = size(roots, kind=ip), 1, -1
-         call visit_neighbours(sorted, roots(i), walk)
+         call visit_neighbours(graph, roots(i), walk)
       end do
       do while (next <= walk%length)
-         call visit_neighbours(sorted, walk%nodes(next), walk)
+         call visit_neighbours(graph, walk%nodes(next), walk)
          next = next + 1
       end do
    end subroutine grow_layers
 
    !> Cuthill-McKee of the component of a node that nobody has seen.
-   pure subroutine begin_component(sorted, node, trial, walk)
-      type(graph_t), intent(in) :: sorted
+   pure subroutine begin_component(graph, node, trial, walk)
+      type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: node
       type(walk_t), intent(inout) :: trial, walk
       integer(ip) :: root
 
-      call find_peripheral_node(sorted, node, trial, root)
+      if (.not. allocated(trial%nodes)) call begin_walk(trial, graph%n)
+      call find_peripheral_node(graph, node, trial, root)
       call visit(walk, root)
-      call grow_layers(sorted, [root], walk)
+      call grow_layers(graph, [root], walk)
    end subroutine begin_component
 
    !> A node from which the component has many layers (George and Liu): from the last layer take the node of least degree and
@@ -254,51 +258,6 @@ contains
       trial%length = 0
    end subroutine find_far_node
 
-   !> The same graph with the neighbours of each node in order of their degree, in linear time: nodes are taken by degree and
-   !> enter themselves with their neighbours.
-   pure subroutine sort_neighbours(graph, sorted)
-      type(graph_t), intent(in) :: graph
-      type(graph_t), intent(out) :: sorted
-      integer(ip) :: by_degree(graph%n), next(graph%n), i, k, node
-
-      call sort_by_degree(graph, by_degree)
-      sorted%n = graph%n
-      sorted%xadj = graph%xadj
-      allocate (sorted%adjncy(size(graph%adjncy)))
-      next = graph%xadj(:graph%n)
-      do i = 1, graph%n
-         do k = graph%xadj(by_degree(i)), graph%xadj(by_degree(i) + 1) - 1
-            node = graph%adjncy(k)
-            sorted%adjncy(next(node)) = by_degree(i)
-            next(node) = next(node) + 1
-         end do
-      end do
-   end subroutine sort_neighbours
-
-   !> Counting sort.
-   pure subroutine sort_by_degree(graph, nodes)
-      type(graph_t), intent(in) :: graph
-      integer(ip), intent(out) :: nodes(:)
-      integer(ip), allocatable :: place(:)
-      integer(ip) :: i, d
-
-      allocate (place(0:graph%n))      ! place(d): where the next node of degree d goes
-      place = 0
-      do i = 1, graph%n
-         d = degree(graph, i)
-         place(d + 1) = place(d + 1) + 1
-      end do
-      place(0) = 1
-      do d = 1, graph%n
-         place(d) = place(d - 1) + place(d)
-      end do
-      do i = 1, graph%n
-         d = degree(graph, i)
-         nodes(place(d)) = i
-         place(d) = place(d) + 1
-      end do
-   end subroutine sort_by_degree
-
    !> Numbers the connected components from 1 in the order of their lowest nodes. Time linear in the number of edges.
    pure subroutine connected_components(graph, component, n_components)
       type(graph_t), intent(in) :: graph
@@ -337,16 +296,52 @@ contains
       walk%nodes(walk%length) = node
    end subroutine visit
 
+   !> Appends the neighbours that nobody has seen, those of lower degree first, of the same degree those of lower number.
    pure subroutine visit_neighbours(graph, node, walk)
       type(graph_t), intent(in) :: graph
       integer(ip), intent(in) :: node
       type(walk_t), intent(inout) :: walk
-      integer(ip) :: k
+      integer(ip) :: k, first
 
+      first = walk%length + 1
       do k = graph%xadj(node), graph%xadj(node + 1) - 1
          call visit(walk, graph%adjncy(k))
       end do
+      if (walk%length > first) call sort_by_degree(graph, walk%nodes(first:walk%length))
    end subroutine visit_neighbours
+
+   !> Shell's sort: by insertion where there are few.
+   pure subroutine sort_by_degree(graph, nodes)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(inout) :: nodes(:)
+      integer(ip), parameter :: FACTOR = 3
+      integer(ip) :: gap, i, k, node
+
+      gap = 1
+      do while (gap < size(nodes)/FACTOR)
+         gap = FACTOR*gap + 1
+      end do
+      do while (gap > 0)
+         do i = gap + 1, size(nodes, kind=ip)
+            node = nodes(i)
+            k = i
+            do while (k > gap)
+               if (.not. comes_before(graph, node, nodes(k - gap))) exit
+               nodes(k) = nodes(k - gap)
+               k = k - gap
+            end do
+            nodes(k) = node
+         end do
+         gap = gap/FACTOR
+      end do
+   end subroutine sort_by_degree
+
+   pure logical function comes_before(graph, one, other)
+      type(graph_t), intent(in) :: graph
+      integer(ip), intent(in) :: one, other
+
+      comes_before = degree(graph, one) < degree(graph, other) .or. (degree(graph, one) == degree(graph, other) .and. one < other)
+   end function comes_before
 
    pure integer(ip) function degree(graph, node)
       type(graph_t), intent(in) :: graph

@@ -29,20 +29,25 @@ contains
    end function graded_lines
 
    !> Nodes of a block, row by row from BOTTOM (corner 1 to 2) to TOP (corner 4 to 3).
-   pure function block_nodes(corners, tx, ty) result(x)
+   pure subroutine block_nodes(corners, tx, ty, x)
       real(wp), intent(in) :: corners(2, 4)          !< [L], counter-clockwise
       real(wp), intent(in) :: tx(0:), ty(0:)         !< lines 0..1 along and across
-      real(wp) :: x(2, size(tx)*size(ty))
+      real(wp), intent(out) :: x(:, :)               !< (2, size(tx)*size(ty)) [L]
+      real(wp) :: bottom(2, 0:size(tx) - 1), top(2, 0:size(tx) - 1)
       integer(ip) :: i, j, k
 
+      do i = 0, size(tx, kind=ip) - 1
+         bottom(:, i) = between(corners(:, 1), corners(:, 2), tx(i))
+         top(:, i) = between(corners(:, 4), corners(:, 3), tx(i))
+      end do
       k = 0
       do j = 0, size(ty, kind=ip) - 1
          do i = 0, size(tx, kind=ip) - 1
             k = k + 1
-            x(:, k) = between(between(corners(:, 1), corners(:, 2), tx(i)), between(corners(:, 4), corners(:, 3), tx(i)), ty(j))
+            x(:, k) = between(bottom(:, i), top(:, i), ty(j))
          end do
       end do
-   end function block_nodes
+   end subroutine block_nodes
 
    !> a at t = 0, b at t = 1, and a all the way where a = b: sides that lie on each other must not be apart by round-off, which is
    !> no less a gap than any other.

@@ -16,8 +16,10 @@ module atrito_bodies
       integer(ip), allocatable :: nodes(:)     !< after number_equations in the order of their equations
       integer(ip) :: n = 0                     !< equations
       integer(ip) :: n_kept = 0                !< the last ones: the free dofs of the contact nodes
+      logical :: by_profile = .true.           !< numbered for a small profile, and not as the nodes come
       real(wp) :: centre(2) = 0.0_wp           !< [L], middle of the nodes
       real(wp) :: size = 1.0_wp                !< [L], largest distance from the centre
+      real(wp) :: slenderness = 1.0_wp         !< shorter over longer side of the box round the nodes
       real(wp), allocatable :: modes(:, :)     !< (3, n_modes): translations along 1 and 2, rotation about the centre at `size`
    end type body_t
 
@@ -56,12 +58,48 @@ contains
       bodies%of_node = number(component)
       allocate (bodies%list(bodies%n), bodies%equation(2, mesh%n_nodes))
       bodies%equation = 0
+      call list_members(bodies)
       do i = 1, bodies%n
-         bodies%list(i)%elements = pack([(e, e=1, mesh%n_elements)], bodies%of_element == i)
-         bodies%list(i)%nodes = pack([(e, e=1, mesh%n_nodes)], bodies%of_node == i)
          call measure_body(mesh, bodies%list(i))
       end do
    end subroutine find_bodies
+
+   !> The elements and nodes of each body, in their order, in linear time for any number of bodies.
+   pure subroutine list_members(bodies)
+      type(bodies_t), intent(inout) :: bodies
+      integer(ip) :: n_elements(bodies%n), n_nodes(bodies%n), e, i
+
+      n_elements = counts(bodies%of_element, bodies%n)
+      n_nodes = counts(bodies%of_node, bodies%n)
+      do i = 1, bodies%n
+         allocate (bodies%list(i)%elements(n_elements(i)), bodies%list(i)%nodes(n_nodes(i)))
+      end do
+      n_elements = 0
+      do e = 1, size(bodies%of_element, kind=ip)
+         i = bodies%of_element(e)
+         n_elements(i) = n_elements(i) + 1
+         bodies%list(i)%elements(n_elements(i)) = e
+      end do
+      n_nodes = 0
+      do e = 1, size(bodies%of_node, kind=ip)
+         i = bodies%of_node(e)
+         if (i == 0) cycle
+         n_nodes(i) = n_nodes(i) + 1
+         bodies%list(i)%nodes(n_nodes(i)) = e
+      end do
+   end subroutine list_members
+
+   !> How often 1 .. n stand in a list.
+   pure function counts(list, n)
+      integer(ip), intent(in) :: list(:)            !< 0 .. n
+      integer(ip), intent(in) :: n
+      integer(ip) :: counts(n), i
+
+      counts = 0
+      do i = 1, size(list, kind=ip)
+         if (list(i) > 0) counts(list(i)) = counts(list(i)) + 1
+      end do
+   end function counts
 
    pure subroutine measure_body(mesh, body)
       type(mesh_t), intent(in) :: mesh
@@ -72,24 +110,27 @@ contains
       high = maxval(mesh%x(:, body%nodes), dim=2)
       body%centre = 0.5_wp*low + 0.5_wp*high
       body%size = 0.5_wp*norm2(high - low)
+      body%slenderness = minval(high - low)/maxval(high - low)
    end subroutine measure_body
 
-   !> Numbers the equations of a body so that the profile is small and the contact nodes come last, in their chain order.
-   subroutine number_equations(mesh, bodies, i_body, held, contact_nodes)
+   !> Numbers the equations of a body so that the profile is small and the contact nodes come last, in their chain order. A solver
+   !> with an order of its own does not need the former: without `by_profile` the other nodes stay in the order they have.
+   subroutine number_equations(mesh, bodies, i_body, held, contact_nodes, by_profile)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(inout) :: bodies
       integer(ip), intent(in) :: i_body
       logical, intent(in) :: held(:, :)             !< (2, n_nodes): prescribed dofs
       integer(ip), intent(in) :: contact_nodes(:)   !< of this body, each once
-      integer(ip), allocatable :: local(:), order(:)
-      type(graph_t) :: graph
+      logical, intent(in) :: by_profile
       integer(ip) :: i, dof, node
 
       associate (body => bodies%list(i_body))
-         call body_graph(mesh, body, local, graph)
-         allocate (order(size(body%nodes)))
-         call order_contact_last(graph, local(contact_nodes), order)
-         body%nodes = body%nodes(order)
+         body%by_profile = by_profile
+         if (by_profile) then
+            call order_by_profile(mesh, body, contact_nodes)
+         else
+            call put_last(mesh%n_nodes, contact_nodes, body%nodes)
+         end if
          body%n = 0
          body%n_kept = 0
          do i = 1, size(body%nodes, kind=ip)
@@ -105,6 +146,31 @@ contains
       end associate
    end subroutine number_equations
 
+   subroutine order_by_profile(mesh, body, contact_nodes)
+      type(mesh_t), intent(in) :: mesh
+      type(body_t), intent(inout) :: body
+      integer(ip), intent(in) :: contact_nodes(:)
+      integer(ip), allocatable :: local(:), order(:)
+      type(graph_t) :: graph
+
+      call body_graph(mesh, body, local, graph)
+      allocate (order(size(body%nodes)))
+      call order_contact_last(graph, local(contact_nodes), order, connected=.true.)
+      body%nodes = body%nodes(order)
+   end subroutine order_by_profile
+
+   !> Moves some of the nodes to the end of a list, in their own order.
+   pure subroutine put_last(n_nodes, last, nodes)
+      integer(ip), intent(in) :: n_nodes            !< of the mesh
+      integer(ip), intent(in) :: last(:)
+      integer(ip), intent(inout) :: nodes(:)
+      logical :: comes_last(n_nodes)
+
+      comes_last = .false.
+      comes_last(last) = .true.
+      nodes = [pack(nodes,.not. comes_last(nodes)), last]
+   end subroutine put_last
+
    !> The graph of a body's nodes, numbered by their places in body%nodes.
    pure subroutine body_graph(mesh, body, local, graph)
       type(mesh_t), intent(in) :: mesh
@@ -116,7 +182,7 @@ contains
 
       allocate (local(mesh%n_nodes), source=0_ip)
       local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
-      allocate (connectivity(size(mesh%nodes, 1), size(body%elements)))
+      allocate (connectivity(maxval(mesh%shape(body%elements)), size(body%elements)))
       do i = 1, size(body%elements, kind=ip)
          connectivity(:, i) = 0
          connectivity(:mesh%shape(body%elements(i)), i) = local(mesh%nodes(:mesh%shape(body%elements(i)), body%elements(i)))
@@ -125,21 +191,16 @@ contains
    end subroutine body_graph
 
    !> The order of elimination of the sparse solver: nested dissection of the nodes, the kept equations last.
-   pure subroutine order_by_dissection(mesh, bodies, i_body, elimination)
+   subroutine order_by_dissection(mesh, bodies, i_body, elimination)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: i_body
       type(elimination_t), intent(out) :: elimination
-      type(graph_t) :: graph
       type(dissection_t) :: parts
-      integer(ip), allocatable :: local(:), nodes(:)
       integer(ip) :: i, dof, k, p, first, next
 
       associate (body => bodies%list(i_body))
-         call body_graph(mesh, body, local, graph)
-         deallocate (local)
-         nodes = pack([(i, i=1, size(body%nodes, kind=ip))], is_eliminated(bodies, body))
-         call dissect(graph, mesh%x(:, body%nodes), nodes, parts)
+         call dissect(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts)
          allocate (elimination%place(body%n))
          elimination%last = parts%last(:parts%n)
          elimination%parent = parts%parent(:parts%n)
@@ -148,7 +209,7 @@ contains
          do p = 1, parts%n
             do i = first, parts%last(p)
                do dof = 1, 2
-                  k = bodies%equation(dof, body%nodes(nodes(i)))
+                  k = bodies%equation(dof, parts%order(i))
                   if (k == 0) cycle
                   next = next + 1
                   elimination%place(k) = next
@@ -163,16 +224,19 @@ contains
       end associate
    end subroutine order_by_dissection
 
-   !> Which of a body's nodes have equations that are not kept.
-   pure function is_eliminated(bodies, body) result(eliminated)
+   !> Which nodes of the mesh are the body's and have equations that are not kept.
+   pure function is_eliminated(mesh, bodies, body) result(eliminated)
+      type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       type(body_t), intent(in) :: body
-      logical :: eliminated(size(body%nodes))
+      logical, allocatable :: eliminated(:)
       integer(ip) :: i
 
+      allocate (eliminated(mesh%n_nodes), source=.false.)
       do i = 1, size(body%nodes, kind=ip)
-         eliminated(i) = any(bodies%equation(:, body%nodes(i)) > 0) .and. &
-                         all(bodies%equation(:, body%nodes(i)) <= body%n - body%n_kept)
+         associate (node => body%nodes(i))
+            eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_kept)
+         end associate
       end do
    end function is_eliminated
 
@@ -185,7 +249,10 @@ contains
       real(wp) :: unit_mode(3)
       integer(ip) :: i, j, dof, k, n_held, info
 
-      n_held = count(held(:, body%nodes), kind=ip)
+      n_held = 0
+      do i = 1, size(body%nodes, kind=ip)
+         n_held = n_held + count(held(:, body%nodes(i)), kind=ip)
+      end do
       allocate (rows(n_held, 3))
       k = 0
       do i = 1, size(body%nodes, kind=ip)
@@ -247,9 +314,11 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       integer(ip), intent(in) :: element
-      integer(ip) :: equations(2*mesh%shape(element))
+      integer(ip) :: equations(2*mesh%shape(element)), k
 
-      equations = reshape(bodies%equation(:, mesh%nodes(:mesh%shape(element), element)), [2*mesh%shape(element)])
+      do k = 1, mesh%shape(element)
+         equations(2*k - 1:2*k) = bodies%equation(:, mesh%nodes(k, element))
+      end do
    end function element_equations
 
 end module atrito_bodies

@@ -1,5 +1,6 @@
 !> Faces of elements: which lie on the outline, and chains of them.
 module atrito_faces
+   use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_end, opposite_face_count, FACES
    implicit none (type, external)
@@ -107,26 +108,26 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(inout) :: list
       type(chain_report_t), intent(out) :: report
-      integer(ip), allocatable :: begins(:), ends(:), order(:)
-      integer(ip) :: i, k, node
+      type(id_map_t) :: begins, ends               ! the face that begins or ends at a node: there are few of them in a large mesh
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: i, k
+      logical :: known
 
-      call drop_repeated(mesh, list)
-      allocate (begins(mesh%n_nodes), ends(mesh%n_nodes), source=0_ip)
+      call drop_repeated(list)
       do i = 1, list%n
-         node = first_node(mesh, list, i)
-         if (begins(node) /= 0) report%branch_node = node
-         begins(node) = i
-         ends(last_node(mesh, list, i)) = i
+         call add_id(begins, first_node(mesh, list, i), i, known)
+         if (known) report%branch_node = first_node(mesh, list, i)
+         call add_id(ends, last_node(mesh, list, i), i, known)
       end do
       if (list%n == 0 .or. report%branch_node /= 0) return
       allocate (order(list%n))
       k = 1
       do i = 1, list%n
-         if (ends(first_node(mesh, list, i)) == 0) k = i
+         if (find_id(ends, first_node(mesh, list, i)) == 0) k = i
       end do
       do i = 1, list%n
          order(i) = k
-         k = begins(last_node(mesh, list, k))
+         k = find_id(begins, last_node(mesh, list, k))
          if (k == 0 .or. k == order(1)) exit
       end do
       if (i < list%n) report%loose_face = first_missing(order(:i), list%n)
@@ -135,17 +136,18 @@ contains
       list%face = list%face(order)
    end subroutine order_chain
 
-   pure subroutine drop_repeated(mesh, list)
-      type(mesh_t), intent(in) :: mesh
+   pure subroutine drop_repeated(list)
       type(face_list_t), intent(inout) :: list
-      logical, allocatable :: seen(:, :), keep(:)
+      type(id_map_t) :: seen(FACES)
+      logical, allocatable :: keep(:)
       integer(ip) :: i
+      logical :: known
 
       if (.not. allocated(list%element)) allocate (list%element(0), list%face(0))
-      allocate (seen(FACES, mesh%n_elements), keep(list%n), source=.false.)
+      allocate (keep(list%n))
       do i = 1, list%n
-         keep(i) = .not. seen(list%face(i), list%element(i))
-         seen(list%face(i), list%element(i)) = .true.
+         call add_id(seen(list%face(i)), list%element(i), i, known)
+         keep(i) = .not. known
       end do
       list%element = pack(list%element(:list%n), keep)
       list%face = pack(list%face(:list%n), keep)

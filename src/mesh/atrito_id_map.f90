@@ -1,4 +1,7 @@
-!> From the user's numbers (any positive integers) to places in an array: a hash table that doubles.
+!> From the user's numbers (any positive integers) to places in an array.
+!>
+!> As long as the numbers come one after the other, as do their places, their beginning tells all. From the first that does not on
+!> there is a hash table that doubles.
 module atrito_id_map
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
@@ -7,7 +10,8 @@ module atrito_id_map
 
    type :: id_map_t
       integer(ip) :: n = 0
-      integer(ip), allocatable :: key(:), place(:)   !< key 0: free
+      integer(ip), private :: first_id = 0, first_place = 0         !< of the sequence
+      integer(ip), allocatable, private :: key(:), place(:)         !< of the table, if there is one; key 0: free
    end type id_map_t
 
 contains
@@ -20,7 +24,19 @@ contains
       logical, intent(out) :: known
       integer(ip) :: slot
 
-      if (.not. allocated(map%key)) call make_table(map, 64_ip)
+      if (.not. allocated(map%key)) then
+         known = is_in_sequence(map, id)
+         if (known) return
+         if (map%n == 0) then
+            map%first_id = id
+            map%first_place = place
+         end if
+         if (id - map%first_id == map%n .and. place - map%first_place == map%n) then
+            map%n = map%n + 1
+            return
+         end if
+         call leave_sequence(map)
+      end if
       if (2*map%n >= size(map%key)) call grow_table(map)
       slot = find_slot(map, id)
       known = map%key(slot) == id
@@ -38,9 +54,37 @@ contains
 
       place = 0
       if (map%n == 0 .or. id <= 0) return
-      slot = find_slot(map, id)
-      if (map%key(slot) == id) place = map%place(slot)
+      if (allocated(map%key)) then
+         slot = find_slot(map, id)
+         if (map%key(slot) == id) place = map%place(slot)
+      else if (is_in_sequence(map, id)) then
+         place = map%first_place + (id - map%first_id)
+      end if
    end function find_id
+
+   pure logical function is_in_sequence(map, id)
+      type(id_map_t), intent(in) :: map
+      integer(ip), intent(in) :: id       !< > 0
+
+      is_in_sequence = id >= map%first_id .and. id - map%first_id < map%n
+   end function is_in_sequence
+
+   !> From the sequence to a table.
+   pure subroutine leave_sequence(map)
+      type(id_map_t), intent(inout) :: map
+      integer(ip) :: i, slot, length
+
+      length = 64
+      do while (length <= 2*map%n)
+         length = 2*length
+      end do
+      call make_table(map, length)
+      do i = 0, map%n - 1
+         slot = find_slot(map, map%first_id + i)
+         map%key(slot) = map%first_id + i
+         map%place(slot) = map%first_place + i
+      end do
+   end subroutine leave_sequence
 
    pure subroutine make_table(map, length)
       type(id_map_t), intent(inout) :: map

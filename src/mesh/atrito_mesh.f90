@@ -4,8 +4,8 @@ module atrito_mesh
    use atrito_id_map, only: id_map_t, add_id, find_id
    implicit none (type, external)
    private
-   public :: mesh_t, add_node, add_element, find_node, find_element, trim_mesh, face_nodes, face_end, opposite_face_count
-   public :: nodes_of_square
+   public :: mesh_t, reserve_mesh, add_node, add_element, find_node, find_element, trim_mesh, face_nodes, face_end
+   public :: opposite_face_count, nodes_of_square
    public :: Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS, FACES, element_coordinates, signed_area
 
    integer(ip), parameter :: Q1_NODES = 4, Q2_NODES = 9    !< nodes of an element; also the name of its shape
@@ -25,6 +25,23 @@ module atrito_mesh
 
 contains
 
+   !> Makes room for nodes and elements that are going to be added: once, not by doubling.
+   pure subroutine reserve_mesh(mesh, new_nodes, new_elements)
+      type(mesh_t), intent(inout) :: mesh
+      integer(ip), intent(in) :: new_nodes, new_elements
+
+      if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
+      if (.not. allocated(mesh%element_id)) then
+         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(Q2_NODES, 0))
+      end if
+      if (mesh%n_nodes + new_nodes > size(mesh%node_id)) then
+         call resize_nodes(mesh, mesh%n_nodes + max(new_nodes, mesh%n_nodes/4))
+      end if
+      if (mesh%n_elements + new_elements > size(mesh%element_id)) then
+         call resize_elements(mesh, mesh%n_elements + max(new_elements, mesh%n_elements/4))
+      end if
+   end subroutine reserve_mesh
+
    !> Adds a node. known: the id was there already, and nothing is changed.
    pure subroutine add_node(mesh, id, x, known)
       type(mesh_t), intent(inout) :: mesh
@@ -35,7 +52,7 @@ contains
       call add_id(mesh%node_map, id, mesh%n_nodes + 1, known)
       if (known) return
       if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(64), mesh%x(2, 64))
-      if (mesh%n_nodes == size(mesh%node_id)) call resize_nodes(mesh, 2*mesh%n_nodes)
+      if (mesh%n_nodes == size(mesh%node_id)) call resize_nodes(mesh, 2*mesh%n_nodes + 64)
       mesh%n_nodes = mesh%n_nodes + 1
       mesh%node_id(mesh%n_nodes) = id
       mesh%x(:, mesh%n_nodes) = x
@@ -55,7 +72,7 @@ contains
       if (.not. allocated(mesh%element_id)) then
          allocate (mesh%element_id(64), mesh%shape(64), mesh%state(64), mesh%nodes(Q2_NODES, 64))
       end if
-      if (mesh%n_elements == size(mesh%element_id)) call resize_elements(mesh, 2*mesh%n_elements)
+      if (mesh%n_elements == size(mesh%element_id)) call resize_elements(mesh, 2*mesh%n_elements + 64)
       e = mesh%n_elements + 1
       mesh%n_elements = e
       mesh%element_id(e) = id
@@ -73,8 +90,8 @@ contains
       if (.not. allocated(mesh%element_id)) then
          allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(Q2_NODES, 0))
       end if
-      call resize_nodes(mesh, mesh%n_nodes)
-      call resize_elements(mesh, mesh%n_elements)
+      if (size(mesh%node_id) > mesh%n_nodes) call resize_nodes(mesh, mesh%n_nodes)
+      if (size(mesh%element_id) > mesh%n_elements) call resize_elements(mesh, mesh%n_elements)
    end subroutine trim_mesh
 
    pure subroutine resize_nodes(mesh, length)

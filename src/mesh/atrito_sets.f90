@@ -35,19 +35,34 @@ contains
       type(set_list_t), intent(inout) :: list
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: members(:)
-      type(set_t) :: fresh
       integer(ip) :: i
 
-      if (.not. allocated(list%sets)) allocate (list%sets(0))
       i = find_set(list, name)
       if (i == 0) then
-         fresh%name = name
-         allocate (fresh%members(0))
-         list%sets = [list%sets, fresh]
+         call append_set(list, name)
          i = size(list%sets, kind=ip)
       end if
       call add_members(list%sets(i), members)
    end subroutine grow_set
+
+   !> A new set without members; the others are handed on without a copy.
+   pure subroutine append_set(list, name)
+      type(set_list_t), intent(inout) :: list
+      character(len=*), intent(in) :: name
+      type(set_t), allocatable :: longer(:)
+      integer :: i, n
+
+      n = 0
+      if (allocated(list%sets)) n = size(list%sets)
+      allocate (longer(n + 1))
+      do i = 1, n
+         call move_alloc(list%sets(i)%name, longer(i)%name)
+         call move_alloc(list%sets(i)%members, longer(i)%members)
+      end do
+      longer(n + 1)%name = name
+      allocate (longer(n + 1)%members(0))
+      call move_alloc(longer, list%sets)
+   end subroutine append_set
 
    pure subroutine add_members(set, members)
       type(set_t), intent(inout) :: set
@@ -56,6 +71,10 @@ contains
       integer(ip) :: i
 
       if (size(members) == 0) return
+      if (size(set%members) == 0 .and. all(members(2:) > members(:size(members) - 1))) then
+         set%members = members                 ! rising: none stands there twice
+         return
+      end if
       allocate (held(max(maxval(members), max_member(set))), fresh(size(members)), source=.false.)
       do i = 1, size(set%members, kind=ip)
          held(set%members(i)) = .true.

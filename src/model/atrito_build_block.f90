@@ -13,7 +13,7 @@ module atrito_build_block
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_block, report_unknown
    use atrito_items, only: get_real, option_text, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: nodes_of_square, Q2_NODES
+   use atrito_mesh, only: reserve_mesh, nodes_of_square, Q2_NODES
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -298,11 +298,12 @@ contains
 
       n = spec%order*spec%n
       allocate (x(2, (n(1) + 1)*(n(2) + 1)))
-      x = block_nodes(spec%corners, node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order), &
-                      node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order))
+      call block_nodes(spec%corners, node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order), &
+                       node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order), x)
       allocate (block%nodes(0:n(1), 0:n(2)), source=0_ip)
       call share_nodes(deck, i_card, x, model, draft, block%nodes, ok)
       if (.not. ok) return
+      call reserve_mesh(model%mesh, size(x, 2, kind=ip), 0_ip)
       ok = draft%greatest_node <= huge(1_ip) - size(x, 2)
       k = 0
       do j = 0, n(2)
@@ -461,6 +462,7 @@ contains
       ok = draft%greatest_element <= huge(1_ip) - size(draft%blocks(b)%nodes)
       if (.not. ok) call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the element numbers of the block, which '// &
                                       'follow the greatest so far, are too large', keyword='BLOCK')
+      call reserve_mesh(model%mesh, 0_ip, sum(count_elements(draft%blocks(b:))))   ! with those of the blocks that follow
       m = draft%blocks(b)%order
       associate (nodes => draft%blocks(b)%nodes)
          do j = 0, ubound(nodes, 2, kind=ip) - m, m
@@ -472,5 +474,11 @@ contains
       end associate
       call grow_set(model%element_sets, draft%blocks(b)%name, [(k, k=draft%blocks(b)%first_element, model%mesh%n_elements)])
    end subroutine place_block_elements
+
+   elemental integer(ip) function count_elements(block) result(n)
+      type(block_t), intent(in) :: block
+
+      n = (ubound(block%nodes, 1, kind=ip)/block%order)*(ubound(block%nodes, 2, kind=ip)/block%order)
+   end function count_elements
 
 end module atrito_build_block

@@ -1,6 +1,5 @@
 !> The printed listing of a run, <deck name>.lst: made to be read and handed in.
 module atrito_listing
-   use atrito_blas_info, only: blas_name
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -8,8 +7,8 @@ module atrito_listing
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
    use atrito_messages, only: count_messages, get_message, format_message
    use atrito_timers, only: phase_time_t, get_phases, peak_memory
+   use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
-   use atrito_mumps, only: mumps_name
    use atrito_results, only: chatter_t, results_t, scene_t, balance_t, iteration_t
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, &
                           left, right, number, bytes, plural
@@ -66,11 +65,12 @@ contains
       call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
       call describe_bodies(page, results%scene, factored=.true.)
       call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
-      if (is_sparse(results%scene)) call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
-      call add_entry(page, 'BLAS', trim(blas_name()))
-      if (is_sparse(results%scene)) call add_entry(page, 'sparse solver', mumps_name())
+      if (uses(results%scene, 'sparse') .or. uses(results%scene, 'mumps')) then
+         call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
+      end if
       call add_entry(page, 'factorisations', to_text(int(results%factorisations, ip)))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
+      call add_libraries(page, results%scene)
       call add_heading(page, '4  ITERATIONS')
       call add_iterations(page, results)
       call add_heading(page, '5  CONTACT')
@@ -79,27 +79,41 @@ contains
       call add_equilibrium(page, results)
       call add_heading(page, '7  MESSAGES')
       call add_messages(page)
-      call add_heading(page, '8  ERROR AND TIME')
-      call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
-      call add_times(page)
       if (present(pictures)) then
          call add_blank(page)
          call add_entry(page, 'plots, drawn after this listing', 'plots/')
          call add_paragraph(page, join(pictures, ', '), 6)
       end if
+      call add_heading(page, '8  ERROR AND TIME')
+      call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
+      call add_times(page)
    end subroutine compose_listing
 
-   !> Whether any body was given to the sparse solver.
-   pure logical function is_sparse(scene)
+   !> Compiler and libraries; those that this run did not use are told so.
+   subroutine add_libraries(page, scene)
+      type(page_t), intent(inout) :: page
       type(scene_t), intent(in) :: scene
+      type(library_t), allocatable :: list(:)
       integer :: i
 
-      is_sparse = .false.
+      call list_libraries(merge(USED, NOT_USED, uses(scene, 'mumps')), list)
+      do i = 1, size(list)
+         call add_entry(page, trim(list(i)%name), list(i)%version)
+      end do
+   end subroutine add_libraries
+
+   !> Whether any body has a storage.
+   pure logical function uses(scene, storage)
+      type(scene_t), intent(in) :: scene
+      character(len=*), intent(in) :: storage       !< skyline, ...
+      integer :: i
+
+      uses = .false.
       do i = 1, size(scene%bodies)
          if (.not. allocated(scene%bodies(i)%storage)) cycle
-         is_sparse = is_sparse .or. scene%bodies(i)%storage == 'sparse'
+         uses = uses .or. scene%bodies(i)%storage == storage
       end do
-   end function is_sparse
+   end function uses
 
    subroutine add_title(page, model, results)
       type(page_t), intent(inout) :: page

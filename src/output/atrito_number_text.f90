@@ -5,44 +5,24 @@
 !> run-time library, so that every number is rounded correctly and 17 digits give back the same double.
 module atrito_number_text
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL, is_nan
+   use atrito_powers_of_ten, only: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
    implicit none (type, external)
    private
-   public :: put_real, put_integer, real_width, integer_width, trimmed_real
+   public :: put_real, put_reals, put_integer, put_integers, real_width, integer_width, trimmed_real
    public :: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
 
    integer, parameter :: LEAST_DIGITS = 6, MOST_DIGITS = 17, DEFAULT_DIGITS = 10
 
-   !> Integers of 128 bits: the product of two of 63.
-   integer, parameter :: XP = selected_int_kind(38)
-   !> 10**k = POWER(k) 2**(shift_of_power(k)), 2**62 <= POWER(k) < 2**63, rounded.
-   integer, parameter :: MOST_POWER = 44
-   integer(lp), parameter :: POWER(-MOST_POWER:MOST_POWER) = [ &
-           8227522786606030211_lp, 5142201741628768882_lp, 6427752177035961102_lp, 8034690221294951378_lp, 5021681388309344611_lp, &
-           6277101735386680764_lp, 7846377169233350955_lp, 4903985730770844347_lp, 6129982163463555433_lp, 7662477704329444292_lp, &
-           4789048565205902682_lp, 5986310706507378353_lp, 7482888383134222941_lp, 4676805239458889338_lp, 5846006549323611673_lp, &
-           7307508186654514591_lp, 9134385233318143239_lp, 5708990770823839524_lp, 7136238463529799405_lp, 8920298079412249257_lp, &
-           5575186299632655785_lp, 6968982874540819732_lp, 8711228593176024665_lp, 5444517870735015415_lp, 6805647338418769269_lp, &
-           8507059173023461587_lp, 5316911983139663492_lp, 6646139978924579365_lp, 8307674973655724206_lp, 5192296858534827629_lp, &
-           6490371073168534536_lp, 8112963841460668170_lp, 5070602400912917606_lp, 6338253001141147007_lp, 7922816251426433759_lp, &
-           4951760157141521100_lp, 6189700196426901374_lp, 7737125245533626718_lp, 4835703278458516699_lp, 6044629098073145874_lp, &
-           7555786372591432342_lp, 4722366482869645214_lp, 5902958103587056517_lp, 7378697629483820646_lp, 4611686018427387904_lp, &
-           5764607523034234880_lp, 7205759403792793600_lp, 9007199254740992000_lp, 5629499534213120000_lp, 7036874417766400000_lp, &
-           8796093022208000000_lp, 5497558138880000000_lp, 6871947673600000000_lp, 8589934592000000000_lp, 5368709120000000000_lp, &
-           6710886400000000000_lp, 8388608000000000000_lp, 5242880000000000000_lp, 6553600000000000000_lp, 8192000000000000000_lp, &
-           5120000000000000000_lp, 6400000000000000000_lp, 8000000000000000000_lp, 5000000000000000000_lp, 6250000000000000000_lp, &
-           7812500000000000000_lp, 4882812500000000000_lp, 6103515625000000000_lp, 7629394531250000000_lp, 4768371582031250000_lp, &
-           5960464477539062500_lp, 7450580596923828125_lp, 4656612873077392578_lp, 5820766091346740723_lp, 7275957614183425903_lp, &
-           9094947017729282379_lp, 5684341886080801487_lp, 7105427357601001859_lp, 8881784197001252323_lp, 5551115123125782702_lp, &
-           6938893903907228378_lp, 8673617379884035472_lp, 5421010862427522170_lp, 6776263578034402713_lp, 8470329472543003391_lp, &
-                             5293955920339377119_lp, 6617444900424221399_lp, 8271806125530276749_lp, 5169878828456422968_lp]
    !> Of a double: bits of the fraction with the leading one, that one, exponent of the least normal number.
-   integer, parameter :: POWER_BITS = 62, LOWER_BITS = 63, FRACTION_BITS = 53, BIAS = 1022
+   integer, parameter :: FRACTION_BITS = 53, BIAS = 1022
    integer(lp), parameter :: LAST_BIT = 2_lp**(FRACTION_BITS - 1)
+   integer(lp), parameter :: MAGNITUDE = huge(0_lp)              !< all bits but the sign
    integer, parameter :: ZERO = iachar('0'), EIGHT = 8
-   integer, parameter :: ROOM = 39                 !< for the longest number and some blanks
    integer :: i, j
    integer(lp), parameter :: TEN_TO(0:MOST_DIGITS) = [(10_lp**i, i=0, MOST_DIGITS)]
    character(len=2), parameter :: PAIR(0:99) = [((achar(ZERO + i)//achar(ZERO + j), j=0, 9), i=0, 9)]
+   character(len=4), parameter :: POWER_TEXT(-MOST_POWER:MOST_POWER) = &
+                                  [('e-'//PAIR(-i), i=-MOST_POWER, -1), ('e+'//PAIR(i), i=0, MOST_POWER)]
 
 contains
 
@@ -71,47 +51,113 @@ contains
       real(wp), intent(in) :: x
       integer, intent(in) :: digits                !< LEAST_DIGITS..MOST_DIGITS
       character(len=*), intent(out) :: field       !< at least real_width(digits) long
+
+      field = ''
+      call fill_real(x, digits, field)
+   end subroutine put_real
+
+   !> As put_real in a field that is blank.
+   pure subroutine fill_real(x, digits, field)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: digits
+      character(len=*), intent(inout) :: field
       integer(lp) :: mantissa
-      integer :: exponent_of_ten, first
+      integer :: exponent_of_ten
       logical :: decided
 
-      if (is_nan(x)) then
-         field = 'nan'
-         field = adjustr(field)
-      else if (abs(x) > HUGE_REAL) then
-         field = 'inf'
-         if (x < 0.0_wp) field = '-inf'
-         field = adjustr(field)
-      else if (x == 0.0_wp) then
-         field = ''
-         field(len(field):) = '0'
+      call find_digits(bits_of(x), digits, mantissa, exponent_of_ten, decided)
+      if (.not. decided) then
+         call put_real_slowly(x, digits, field)
+      else if (digits == DEFAULT_DIGITS) then
+         call lay_out(x < 0.0_wp, mantissa, DEFAULT_DIGITS, exponent_of_ten, field)   ! lengths that the compiler knows
       else
-         call find_digits(abs(x), digits, mantissa, exponent_of_ten, decided)
-         if (.not. decided) call find_digits_slowly(abs(x), digits, mantissa, exponent_of_ten)
-         first = max(1, len(field) - ROOM + 1)
-         field(:first - 1) = ''
-         call lay_out(x < 0.0_wp, mantissa, digits, exponent_of_ten, field(first:))
+         call lay_out(x < 0.0_wp, mantissa, digits, exponent_of_ten, field)
       end if
-   end subroutine put_real
+   end subroutine fill_real
+
+   !> Writes a column of reals: one to a field, which is blank, of each line.
+   pure subroutine put_reals(x, smallest, digits, first, last, lines)
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(in) :: smallest             !< what is smaller is written as 0; >= 0
+      integer, intent(in) :: digits                !< LEAST_DIGITS..MOST_DIGITS
+      integer, intent(in) :: first, last           !< the field, at least real_width(digits) wide
+      character(len=*), intent(inout) :: lines(:)  !< (size(x))
+      integer(ip) :: i
+
+      if (size(x) == 0) return
+      call fill_real_or_zero(x(1), smallest, digits, lines(1) (first:last))
+      do i = 2, size(x, kind=ip)
+         if (transfer(x(i), 0_lp) == transfer(x(i - 1), 0_lp)) then
+            lines(i) (first:last) = lines(i - 1) (first:last)
+         else
+            call fill_real_or_zero(x(i), smallest, digits, lines(i) (first:last))
+         end if
+      end do
+   end subroutine put_reals
+
+   pure subroutine fill_real_or_zero(x, smallest, digits, field)
+      real(wp), intent(in) :: x, smallest
+      integer, intent(in) :: digits
+      character(len=*), intent(inout) :: field
+
+      if (bits_of(x) == 0_lp .or. bits_of(x) < bits_of(smallest)) then
+         field(len(field):len(field)) = '0'
+      else
+         call fill_real(x, digits, field)
+      end if
+   end subroutine fill_real_or_zero
+
+   !> Writes a column of integers: one to a field, which is blank, of each line.
+   pure subroutine put_integers(list, first, last, lines)
+      integer(ip), intent(in) :: list(:)
+      integer, intent(in) :: first, last           !< the field, wide enough for each
+      character(len=*), intent(inout) :: lines(:)  !< (size(list))
+      integer(ip) :: i
+
+      if (size(list) == 0) return
+      call fill_integer(list(1), lines(1) (first:last))
+      do i = 2, size(list, kind=ip)
+         if (list(i) == list(i - 1)) then
+            lines(i) (first:last) = lines(i - 1) (first:last)
+         else
+            call fill_integer(list(i), lines(i) (first:last))
+         end if
+      end do
+   end subroutine put_integers
+
+   !> The bits of |x|: as integers they are in the order of the numbers, and no comparison of theirs stumbles over a NaN.
+   pure integer(lp) function bits_of(x) result(bits)
+      real(wp), intent(in) :: x
+
+      bits = iand(transfer(x, 0_lp), MAGNITUDE)
+   end function bits_of
 
    !> Writes an integer to the right end of a field.
    pure subroutine put_integer(i, field)
       integer(ip), intent(in) :: i
       character(len=*), intent(out) :: field       !< at least integer_width(i) long
+
+      field = ''
+      call fill_integer(i, field)
+   end subroutine put_integer
+
+   !> As put_integer in a field that is blank.
+   pure subroutine fill_integer(i, field)
+      integer(ip), intent(in) :: i
+      character(len=*), intent(inout) :: field
       integer(lp) :: rest
       integer :: place
 
-      field = ''
       rest = abs(int(i, lp))
       place = len(field)
       do
-         field(place:place) = achar(iachar('0') + int(mod(rest, 10_lp)))
+         field(place:place) = achar(ZERO + int(mod(rest, 10_lp)))
          rest = rest/10_lp
          place = place - 1
          if (rest == 0_lp) exit
       end do
       if (i < 0) field(place:place) = '-'
-   end subroutine put_integer
+   end subroutine fill_integer
 
    !> A real without blanks round it.
    pure function trimmed_real(x, digits) result(text)
@@ -124,132 +170,103 @@ contains
       text = trim(adjustl(field))
    end function trimmed_real
 
-   !> x = mantissa 10**(exponent_of_ten - digits + 1), rounded; decided is false where that takes more care.
-   pure subroutine find_digits(x, digits, mantissa, exponent_of_ten, decided)
-      real(wp), intent(in) :: x                    !< > 0
+   !> |x| = mantissa 10**(exponent_of_ten - digits + 1), rounded; decided is false where that takes more care.
+   !>
+   !> |x| is an integer of 63 bits times a power of two, and so is a power of ten but for the rounding of POWER. Of the product of
+   !> |x| with 10**k the upper 63 bits are looked at; where the rest of it, or that rounding, could change the outcome, and at a
+   !> tie, nothing is decided.
+   pure subroutine find_digits(bits, digits, mantissa, exponent_of_ten, decided)
+      integer(lp), intent(in) :: bits              !< of |x|
       integer, intent(in) :: digits
       integer(lp), intent(out) :: mantissa
       integer, intent(out) :: exponent_of_ten
       logical, intent(out) :: decided
+      integer(lp), parameter :: DOUBT = 2_lp       !< of the upper bits
+      integer(lp) :: significand, upper, half
+      integer :: binary, k, shift
 
-      exponent_of_ten = shifta((binary_exponent(x) - 1)*19728, 16)   ! the right one or one too small
-      call scale_and_round(x, digits - 1 - exponent_of_ten, mantissa, decided)
-      if (.not. decided) return
-      if (mantissa >= TEN_TO(digits)) then
+      binary = int(shiftr(bits, FRACTION_BITS - 1)) - BIAS   ! as exponent(x), of numbers that are not denormal
+      exponent_of_ten = shifta((binary - 1)*19728, 16)       ! of 2**(binary - 1) <= |x|: the right one or one too small
+      mantissa = 0_lp
+      decided = exponent_of_ten + 1 < MOST_POWER .and. digits - 1 - exponent_of_ten <= MOST_POWER
+      if (.not. decided) return                              ! zero, denormal, infinite and no numbers are among these
+      significand = shiftl(ior(iand(bits, LAST_BIT - 1_lp), LAST_BIT), POWER_BITS - FRACTION_BITS)
+      k = exponent_of_ten + 1
+      ! where this POWER, which is rounded, cannot tell |x| from 10**k, the digits of both are the same
+      if (binary == POWER_SHIFT(k) + POWER_BITS .and. significand >= POWER(k)) exponent_of_ten = k
+      k = digits - 1 - exponent_of_ten
+      upper = int(shiftr(int(significand, XP)*int(POWER(k), XP), POWER_BITS), lp)
+      shift = -binary - POWER_SHIFT(k)
+      half = shiftl(1_lp, shift - 1)
+      decided = abs(iand(upper, 2_lp*half - 1_lp) - half) > DOUBT
+      mantissa = shiftr(shiftr(upper, shift - 1) + 1_lp, 1)
+      if (mantissa == TEN_TO(digits)) then
+         mantissa = TEN_TO(digits - 1)
          exponent_of_ten = exponent_of_ten + 1
-         call scale_and_round(x, digits - 1 - exponent_of_ten, mantissa, decided)
       end if
    end subroutine find_digits
 
-   !> The integer nearest to x 10**k: x is an integer of 53 bits times a power of two, and so is 10**k but for the rounding of
-   !> POWER. Of their product the upper 63 bits are looked at; where the rest of it, or that rounding, could change the outcome,
-   !> and at a tie, nothing is decided.
-   pure subroutine scale_and_round(x, k, rounded, decided)
-      real(wp), intent(in) :: x                    !< > 0
-      integer, intent(in) :: k
-      integer(lp), intent(out) :: rounded
-      logical, intent(out) :: decided
-      integer(lp), parameter :: DOUBT = 2_lp       !< of the upper bits
-      integer(lp) :: significand, upper, rest, half
-      integer :: shift
-
-      rounded = 0_lp
-      decided = abs(k) <= MOST_POWER
-      if (.not. decided) return
-      significand = shiftl(ior(iand(transfer(x, 0_lp), LAST_BIT - 1_lp), LAST_BIT), LOWER_BITS - FRACTION_BITS)
-      upper = int(shiftr(int(significand, XP)*int(POWER(k), XP), LOWER_BITS), lp)
-      shift = -binary_exponent(x) - shift_of_power(k)
-      decided = shift > 1 .and. shift < LOWER_BITS
-      if (.not. decided) return
-      half = shiftl(1_lp, shift - 1)
-      rest = iand(upper, 2_lp*half - 1_lp)
-      decided = abs(rest - half) > DOUBT
-      rounded = shiftr(upper, shift)
-      if (rest > half) rounded = rounded + 1_lp
-   end subroutine scale_and_round
-
-   !> The same as exponent(x), read off the bits of a number that is not denormal (10**MOST_POWER has long refused those).
-   pure integer function binary_exponent(x)
-      real(wp), intent(in) :: x                    !< > 0
-
-      binary_exponent = int(shiftr(transfer(x, 0_lp), FRACTION_BITS - 1)) - BIAS
-   end function binary_exponent
-
-   !> floor(k log2(10)) - 62.
-   pure integer function shift_of_power(k)
-      integer, intent(in) :: k                     !< -MOST_POWER..MOST_POWER
-
-      shift_of_power = shifta(k*217706, 16) - POWER_BITS
-   end function shift_of_power
-
-   !> The same as find_digits by way of the run-time library.
-   pure subroutine find_digits_slowly(x, digits, mantissa, exponent_of_ten)
+   !> What put_real leaves over: 0, nan and inf, exponents of three digits, and what takes the run-time library to round.
+   pure subroutine put_real_slowly(x, digits, field)
       real(wp), intent(in) :: x
       integer, intent(in) :: digits
-      integer(lp), intent(out) :: mantissa
-      integer, intent(out) :: exponent_of_ten
+      character(len=*), intent(out) :: field
       character(len=32) :: buffer
       character(len=12) :: form
-      integer :: i
+      integer :: e
 
-      write (form, '("(es32.",i0,"e4)")') digits - 1
-      write (buffer, form) x
-      mantissa = 0_lp
-      exponent_of_ten = 0
-      do i = 1, index(buffer, 'E') - 1
-         if (is_digit(buffer(i:i))) mantissa = 10_lp*mantissa + int(iachar(buffer(i:i)) - iachar('0'), lp)
-      end do
-      do i = index(buffer, 'E') + 2, len(buffer)
-         exponent_of_ten = 10*exponent_of_ten + iachar(buffer(i:i)) - iachar('0')
-      end do
-      if (index(buffer, 'E-') > 0) exponent_of_ten = -exponent_of_ten
-   end subroutine find_digits_slowly
+      if (is_nan(x)) then
+         field = 'nan'
+      else if (abs(x) > HUGE_REAL) then
+         field = 'inf'
+         if (x < 0.0_wp) field = '-inf'
+      else if (x == 0.0_wp) then
+         field = '0'
+      else
+         write (form, '("(es32.",i0,"e3)")') digits - 1
+         write (buffer, form) x
+         buffer = adjustl(buffer)
+         e = index(buffer, 'E')
+         field = buffer(:e - 1)//'e'//buffer(e + 1:)
+         if (buffer(e + 2:e + 2) == '0') field = buffer(:e - 1)//'e'//buffer(e + 1:e + 1)//buffer(e + 3:)
+      end if
+      field = adjustr(field)
+   end subroutine put_real_slowly
 
-   elemental logical function is_digit(c)
-      character(len=1), intent(in) :: c
-
-      is_digit = c >= '0' .and. c <= '9'
-   end function is_digit
-
-   !> d.ddde+dd at the right end of the field. It is laid out in a text of fixed length, where the places of its parts are known to
-   !> the compiler, and then copied.
+   !> d.ddde+dd at the right end of a field that is blank.
    pure subroutine lay_out(negative, mantissa, digits, exponent_of_ten, field)
       logical, intent(in) :: negative
       integer(lp), intent(in) :: mantissa
       integer, intent(in) :: digits, exponent_of_ten
-      character(len=*), intent(out) :: field       !< real_width(digits) to ROOM long
-      integer, parameter :: LENGTH = ROOM + 1, LAST_DIGIT = LENGTH - 5
-      character(len=LENGTH) :: text
-      integer :: e, point
+      character(len=*), intent(inout) :: field     !< at least real_width(digits) long
+      character(len=3*EIGHT) :: text
+      integer :: last, point
 
-      e = abs(exponent_of_ten)
-      call put_digits(mantissa, text(LAST_DIGIT - 3*EIGHT + 1:LAST_DIGIT))
-      point = LAST_DIGIT - digits + 1
-      text(point - 1:point - 1) = text(point:point)
-      text(point:point) = '.'
-      text(:point - 2) = ''
-      if (negative) text(point - 2:point - 2) = '-'
-      text(LAST_DIGIT + 1:LAST_DIGIT + 2) = 'e+'
-      if (exponent_of_ten < 0) text(LAST_DIGIT + 2:LAST_DIGIT + 2) = '-'
-      if (e > 99) then
-         text(LAST_DIGIT + 3:LENGTH) = achar(ZERO + e/100)//PAIR(mod(e, 100))
-         field = text(LENGTH - len(field) + 1:)
-      else
-         text(LAST_DIGIT + 3:LENGTH - 1) = PAIR(e)
-         field = text(LENGTH - len(field):LENGTH - 1)
-      end if
+      call put_digits(mantissa, digits, text)
+      last = len(field) - len(POWER_TEXT)
+      point = last - digits + 1
+      field(last + 1:last + len(POWER_TEXT)) = POWER_TEXT(exponent_of_ten)
+      field(point + 1:point + digits - 1) = text(len(text) - digits + 2:len(text))
+      field(point:point) = '.'
+      field(point - 1:point - 1) = text(len(text) - digits + 1:len(text) - digits + 1)
+      if (negative) field(point - 2:point - 2) = '-'
    end subroutine lay_out
 
-   !> All digits of a number, zeros before it.
-   pure subroutine put_digits(number, text)
-      integer(lp), intent(in) :: number            !< 0 .. 10**MOST_DIGITS
+   !> The digits of a number at the end of a text.
+   pure subroutine put_digits(number, digits, text)
+      integer(lp), intent(in) :: number            !< 0 .. 10**digits - 1
+      integer, intent(in) :: digits
       character(len=3*EIGHT), intent(out) :: text
       integer(lp) :: upper
 
       upper = number/TEN_TO(EIGHT)
       call put_eight(int(number - upper*TEN_TO(EIGHT)), text(2*EIGHT + 1:))
-      call put_eight(int(mod(upper, TEN_TO(EIGHT))), text(EIGHT + 1:2*EIGHT))
-      call put_eight(int(upper/TEN_TO(EIGHT)), text(:EIGHT))
+      if (digits <= EIGHT + 2) then
+         text(2*EIGHT - 1:2*EIGHT) = PAIR(upper)
+      else
+         call put_eight(int(mod(upper, TEN_TO(EIGHT))), text(EIGHT + 1:2*EIGHT))
+         call put_eight(int(upper/TEN_TO(EIGHT)), text(:EIGHT))
+      end if
    end subroutine put_digits
 
    pure subroutine put_eight(number, text)

@@ -10,7 +10,7 @@ module atrito_study_plot
    use atrito_plot_text, only: quoted, cleaned, put_top, put_terminal, COLOUR, N_COLOURS, LOOP_END
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_study_table, only: study_t
+   use atrito_study_errors, only: study_t
    implicit none (type, external)
    private
    public :: write_study_plot
@@ -105,32 +105,59 @@ contains
       type(text_file_t) :: file
       integer :: j, panels
 
-      panels = size(study%quantities) + 2
+      panels = 2
+      do j = 1, size(study%quantities)
+         if (has_panel(study, elements, j)) panels = panels + 1
+      end do
       call open_text(set, STUDY_PLOT//'.gp', file)
       call put_top(file, STUDY_PLOT, 'error against run time, and run time against size')
       call put_line(file, '# Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
                     'quantities [%]')
-      call put_line(file, 'set logscale xy; set format "10^{%T}"; set grid lt 1 lw 1 lc rgb "#E0E0E0"')
+      call put_line(file, 'set logscale xy; set format x "%g"; set format y "%g"; set grid lt 1 lw 1 lc rgb "#E0E0E0"')
       call put_line(file, 'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"')
       call put_line(file, 'set lmargin at screen 0.12; set rmargin at screen 0.76')
-      call put_line(file, 'set key outside right top Left reverse samplen 2.5 noenhanced')
+      call put_line(file, 'set key at screen 0.775, graph 1 left top Left reverse samplen 2.5 noenhanced')
+      call put_line(file, 'set style line 20 lt 1 dt 2 lw 1.2 lc rgb "#808080"')
       call put_terminal(file, STUDY_PLOT, '1000,'//to_text(int(60 + 320*panels, ip)))
-      call put_line(file, 'set multiplot layout '//to_text(int(panels, ip))//',1 title '//quoted(cleaned(title, LONGEST_TITLE)) &
-                    //' noenhanced')
+      call put_line(file, 'set multiplot layout '//to_text(int(panels, ip))//',1 title '// &
+                    quoted(cleaned(title, LONGEST_TITLE)//'   (slopes are those of the last two levels)')//' noenhanced')
       do j = 1, size(study%quantities)
-         call put_line(file, 'set xlabel "processor time [s]"; set ylabel '//quoted('error of '//study%quantities(j)%name//' [%]') &
-                       //' noenhanced')
+         if (.not. has_panel(study, elements, j)) cycle
+         call put_labels(file, 'processor time [s]', 'error of '//study%quantities(j)%name//' [%]')
          call put_curves(file, study, elements, 2, 3 + j)
       end do
-      call put_line(file, 'set xlabel "processor time [s]"; set ylabel "estimated error, energy norm [%]" enhanced')
+      call put_labels(file, 'processor time [s]', 'estimated error, energy norm [%]')
       call put_curves(file, study, elements, 2, 3)
-      call put_line(file, 'set xlabel "displacements"; set ylabel "processor time [s]"')
+      call put_labels(file, 'displacements', 'processor time [s]')
       call put_curves(file, study, elements, 1, 2)
       call put_line(file, 'unset multiplot')
       call put_line(file, LOOP_END)
       call put_line(file, 'set output')
       call close_text(file, status)
    end subroutine write_script
+
+   !> A quantity without a reference has no errors to show, one that is held has nothing but rounding.
+   pure logical function has_panel(study, elements, j)
+      type(study_t), intent(in) :: study
+      type(string_t), intent(in) :: elements(:)
+      integer, intent(in) :: j                      !< quantity
+      integer :: i
+
+      has_panel = .false.
+      if (study%quantities(j)%is_held) return
+      do i = 1, size(elements)
+         has_panel = has_panel .or. has_points(study, elements(i)%s, 2, 3 + j)
+      end do
+   end function has_panel
+
+   !> The label of the ordinate stands at the same place in all panels, however long their numbers are.
+   subroutine put_labels(file, x_label, y_label)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: x_label, y_label
+
+      call put_line(file, 'set xlabel '//quoted(x_label)//'; set label 1 '//quoted(y_label)// &
+                    ' at screen 0.03, graph 0.5 center rotate by 90 noenhanced')
+   end subroutine put_labels
 
    !> One panel: column y against column x. Where no number can be drawn the panel is left empty.
    subroutine put_curves(file, study, elements, x, y)
@@ -152,6 +179,7 @@ contains
       if (len(line) == 0) then
          call put_line(file, 'set multiplot next')
       else
+         if (y > 3) line = line//', 1 with lines ls 20 title "1 %"'
          call put_line(file, 'plot '//line)
       end if
    end subroutine put_curves

@@ -1,14 +1,16 @@
 !> A table: named columns with dimensions, and how it becomes a text file that people, numpy and gnuplot read.
 module atrito_table
-   use atrito_kinds, only: ip, wp, is_nan
+   use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, put_lines, close_text, &
+                           NEW_LINE_CHARACTER
    use atrito_status, only: status_t
-   use atrito_number_text, only: put_real, put_integer, real_width, integer_width
+   use atrito_threads, only: n_threads
+   use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
    implicit none (type, external)
    private
-   public :: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table
+   public :: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_words, write_table
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE
 
    character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
@@ -18,6 +20,10 @@ module atrito_table
    real(wp), parameter :: ZERO_SHARE = 1.0e-14_wp
 
    integer, parameter :: KIND_REAL = 1, KIND_INTEGER = 2, KIND_WORD = 3
+   !> Rows that are made into text at a time: that of a wide table stays in the nearer part of the cache.
+   integer(ip), parameter :: PIECE_ROWS = 256
+   !> Pieces of a round for each thread: where there are many, a thread that is late matters little.
+   integer(ip), parameter :: PIECES_OF_THREAD = 64
 
    type :: column_t
       character(len=:), allocatable :: name, dimension
@@ -26,6 +32,7 @@ module atrito_table
       logical :: on_the_left = .false.             !< within its field
       integer :: first = 0, last = 0               !< its place in a line
       real(wp), allocatable :: reals(:)
+      real(wp), pointer :: field(:) => null()      !< reals that stay where they are; the table knows which of them
       integer(ip), allocatable :: integers(:)
       type(string_t), allocatable :: words(:)
    end type column_t
@@ -35,6 +42,7 @@ module atrito_table
       character(len=:), allocatable :: title       !< what a row is
       type(string_t), allocatable :: remarks(:)    !< further comment lines
       integer(ip) :: n_rows = 0
+      integer(ip), allocatable :: places(:)        !< of each row in the fields of add_field; not allocated: all, in order
       type(column_t), allocatable :: columns(:)
    end type table_t
 
@@ -73,6 +81,20 @@ contains
       column%reals = values
       call add_column(table, name, dimension, column)
    end subroutine add_reals
+
+   !> Adds a column of reals that are not copied but read when the table is written: those at table%places.
+   subroutine add_field(table, name, dimension, field, scale)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: name, dimension
+      real(wp), intent(in), target :: field(:)
+      real(wp), intent(in) :: scale
+      type(column_t) :: column
+
+      column%kind = KIND_REAL
+      column%zero = ZERO_SHARE*scale
+      column%field => field
+      call add_column(table, name, dimension, column)
+   end subroutine add_field
 
    !> Adds a column of integers.
    pure subroutine add_integers(table, name, values)
@@ -125,6 +147,7 @@ contains
       to%kind = from%kind
       to%zero = from%zero
       to%on_the_left = from%on_the_left
+      to%field => from%field
       if (allocated(from%name)) call move_alloc(from%name, to%name)
       if (allocated(from%dimension)) call move_alloc(from%dimension, to%dimension)
       if (allocated(from%reals)) call move_alloc(from%reals, to%reals)
@@ -225,50 +248,116 @@ contains
       end do
    end function title_line
 
+   !> Writes the rows by rounds: while the text of one is made, in pieces that threads share out, that of the one before is written.
+   !> What stands in the file depends neither on the rounds nor on the pieces.
    subroutine write_rows(file, table, digits)
       type(text_file_t), intent(inout) :: file
       type(table_t), intent(in) :: table
       integer, intent(in) :: digits
-      character(len=:), allocatable :: line
-      integer(ip) :: row
-      integer :: i
+      character(len=:), allocatable :: text(:, :)
+      integer(ip) :: pieces, round, i
 
-      line = repeat(' ', table%columns(size(table%columns))%last)
-      do row = 1, table%n_rows
-         do i = 1, size(table%columns)
-            if (stays(table%columns(i), row)) cycle
-            call put_value(table%columns(i), row, digits, line(table%columns(i)%first:table%columns(i)%last))
-         end do
-         call put_line(file, line)
+      pieces = 1
+      if (n_threads() > 1) pieces = PIECES_OF_THREAD*n_threads()
+      round = min(pieces*PIECE_ROWS, table%n_rows)
+      if (round == 0) return
+      allocate (character(len=table%columns(size(table%columns))%last + 1) :: text(round, 2))
+      do i = 1, (table%n_rows - 1)/round + 2
+         call write_round(file, table, digits, i, text)
       end do
    end subroutine write_rows
 
-   !> Whether the text of the row before still stands for this one.
-   pure logical function stays(column, row)
-      type(column_t), intent(in) :: column
-      integer(ip), intent(in) :: row
-
-      stays = .false.
-      if (row == 1) return
-      if (column%kind == KIND_REAL) stays = column%reals(row) == column%reals(row - 1)
-      if (column%kind == KIND_INTEGER) stays = column%integers(row) == column%integers(row - 1)
-   end function stays
-
-   pure subroutine put_value(column, row, digits, field)
-      type(column_t), intent(in) :: column
-      integer(ip), intent(in) :: row
+   !> Makes the text of a round and writes that of the one before; there is none before the first, nor in the last.
+   subroutine write_round(file, table, digits, i_round, text)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
       integer, intent(in) :: digits
-      character(len=*), intent(out) :: field
+      integer(ip), intent(in) :: i_round
+      character(len=*), contiguous, intent(inout) :: text(:, :)   !< (rows of a round, 2): rounds take turns
+      integer(ip) :: round, before, first, n, own, other
 
+      round = size(text, 1, kind=ip)
+      before = (i_round - 1)*round
+      n = rows_of_round(table, round, i_round)
+      own = 1 + mod(i_round, 2_ip)
+      other = 3 - own
+      !$omp parallel do schedule(dynamic, 1) default(shared) private(first) if (round > PIECE_ROWS)
+      do first = 1 - PIECE_ROWS, n, PIECE_ROWS
+         if (first < 1) then
+            call put_lines(file, text(:rows_of_round(table, round, i_round - 1), other))
+         else
+            call format_rows(table, digits, before + first - 1, text(first:min(n, first + PIECE_ROWS - 1), own))
+         end if
+      end do
+      !$omp end parallel do
+   end subroutine write_round
+
+   pure integer(ip) function rows_of_round(table, round, i_round) result(n)
+      type(table_t), intent(in) :: table
+      integer(ip), intent(in) :: round             !< rows of a full one
+      integer(ip), intent(in) :: i_round           !< 0: before the first
+
+      n = 0
+      if (i_round > 0) n = max(0_ip, min(round, table%n_rows - (i_round - 1)*round))
+   end function rows_of_round
+
+   !> The text of some rows, each with the character that ends a line.
+   subroutine format_rows(table, digits, before, lines)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: digits
+      integer(ip), intent(in) :: before            !< rows before the first of them
+      character(len=*), intent(out) :: lines(:)    !< (rows)
+      integer(ip) :: row
+      integer :: i
+
+      lines = ''
+      do row = 1, size(lines, kind=ip)
+         lines(row) (len(lines):) = NEW_LINE_CHARACTER
+      end do
+      do i = 1, size(table%columns)
+         call format_column(table, table%columns(i), digits, before, lines)
+      end do
+   end subroutine format_rows
+
+   subroutine format_column(table, column, digits, before, lines)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer, intent(in) :: digits
+      integer(ip), intent(in) :: before
+      character(len=*), intent(inout) :: lines(:)  !< (rows), PIECE_ROWS of them at most
+      real(wp) :: x(PIECE_ROWS)
+      integer(ip) :: row, n
+
+      n = size(lines, kind=ip)
       select case (column%kind)
       case (KIND_REAL)
-         call put_real(without_rounding(column%reals(row), column%zero), digits, field)
+         call fetch_reals(table, column, before, x(:n))
+         call put_reals(x(:n), column%zero, digits, column%first, column%last, lines)
       case (KIND_INTEGER)
-         call put_integer(column%integers(row), field)
+         call put_integers(column%integers(before + 1:before + n), column%first, column%last, lines)
       case (KIND_WORD)
-         call put_word(column%words(row)%s, column%on_the_left, field)
+         do row = 1, n
+            call put_word(column%words(before + row)%s, column%on_the_left, lines(row) (column%first:column%last))
+         end do
       end select
-   end subroutine put_value
+   end subroutine format_column
+
+   pure subroutine fetch_reals(table, column, before, x)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer(ip), intent(in) :: before
+      real(wp), intent(out) :: x(:)
+      integer(ip) :: n
+
+      n = size(x, kind=ip)
+      if (.not. associated(column%field)) then
+         x = column%reals(before + 1:before + n)
+      else if (allocated(table%places)) then
+         x = column%field(table%places(before + 1:before + n))
+      else
+         x = column%field(before + 1:before + n)
+      end if
+   end subroutine fetch_reals
 
    pure subroutine put_word(word, on_the_left, field)
       character(len=*), intent(in) :: word
@@ -278,13 +367,5 @@ contains
       field = word
       if (.not. on_the_left) field = adjustr(field)
    end subroutine put_word
-
-   elemental real(wp) function without_rounding(x, zero)
-      real(wp), intent(in) :: x, zero
-
-      without_rounding = x
-      if (is_nan(x)) return
-      if (abs(x) < zero) without_rounding = 0.0_wp
-   end function without_rounding
 
 end module atrito_table

@@ -9,7 +9,8 @@ module atrito_write_tables
    use atrito_results, only: results_t
    use atrito_number_text, only: trimmed_real
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table, ZERO_SHARE
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_words, write_table, &
+                           ZERO_SHARE
    implicit none (type, external)
    private
    public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES, STRESS_NAMES
@@ -50,8 +51,8 @@ contains
    !>
    !> status: STATUS_FILE when one could not be written; the rest is not tried then.
    subroutine write_tables(model, results, digits, set, status)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: results
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
@@ -240,9 +241,10 @@ contains
       end do
    end subroutine describe_dimensions
 
+   !> The table points at the fields of model and results.
    subroutine build_nodes(model, results, scales, table)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: results
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
       integer(ip), allocatable :: node(:)
@@ -253,10 +255,11 @@ contains
       call begin_table(table, 'nodes', 'a row a node', n)
       call add_integers(table, 'step', spread(results%step, 1, n))
       call add_integers(table, 'node', model%mesh%node_id(node))
-      call add_reals(table, 'x', 'L', model%mesh%x(1, node), scales%length)
-      call add_reals(table, 'y', 'L', model%mesh%x(2, node), scales%length)
-      call add_reals(table, 'u1', 'L', results%u(1, node), scales%displacement)
-      call add_reals(table, 'u2', 'L', results%u(2, node), scales%displacement)
+      call move_alloc(node, table%places)
+      call add_field(table, 'x', 'L', model%mesh%x(1, :), scales%length)
+      call add_field(table, 'y', 'L', model%mesh%x(2, :), scales%length)
+      call add_field(table, 'u1', 'L', results%u(1, :), scales%displacement)
+      call add_field(table, 'u2', 'L', results%u(2, :), scales%displacement)
    end subroutine build_nodes
 
    subroutine build_reactions(model, results, scales, table)
@@ -299,9 +302,10 @@ contains
       if (allocated(mask)) list = pack(list, mask(results%stress_element))
    end function stress_rows
 
+   !> The table points at the fields of results.
    subroutine build_stress(model, results, scales, table)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(results_t), intent(in), target :: results
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
       integer(ip), allocatable :: row(:)
@@ -314,10 +318,11 @@ contains
       call add_integers(table, 'step', spread(results%step, 1, n))
       call add_integers(table, 'element', model%mesh%element_id(results%stress_element(row)))
       call add_integers(table, 'point', results%stress_point(row))
-      call add_reals(table, 'x', 'L', results%stress_x(1, row), scales%length)
-      call add_reals(table, 'y', 'L', results%stress_x(2, row), scales%length)
+      call move_alloc(row, table%places)
+      call add_field(table, 'x', 'L', results%stress_x(1, :), scales%length)
+      call add_field(table, 'y', 'L', results%stress_x(2, :), scales%length)
       do i = 1, size(STRESS_NAMES)
-         call add_reals(table, trim(STRESS_NAMES(i)), 'F/L^2', results%stress(i, row), scales%stress)
+         call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%stress(i, :), scales%stress)
       end do
    end subroutine build_stress
 

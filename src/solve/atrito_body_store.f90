@@ -15,7 +15,7 @@ module atrito_body_store
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_store_t, provide_bodies, take_numbering
+   public :: body_store_t, provide_bodies, take_numbering, release_bodies
 
    type :: body_store_t
       logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
@@ -100,6 +100,13 @@ contains
          store%points = points
       end if
    end subroutine remember
+
+   !> Gives the memory of the factored bodies back, unless they are kept for a next run.
+   subroutine release_bodies(store)
+      type(body_store_t), intent(inout) :: store
+
+      if (allocated(store%bodies) .and. .not. store%keeps) deallocate (store%bodies)
+   end subroutine release_bodies
 
    !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same.
    subroutine take_numbering(store, held, points, fem, taken)

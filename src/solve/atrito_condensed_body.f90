@@ -12,8 +12,8 @@ module atrito_condensed_body
    use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, &
-                                   STORAGE_MUMPS
+   use atrito_solver_choice, only: new_storage, needs_profile, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, &
+                                   STORAGE_SPARSE, STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_storage, only: storage_t
    use atrito_strings, only: to_text
@@ -35,10 +35,9 @@ module atrito_condensed_body
    real(wp), parameter :: BAND_SPEED = 2.2_wp
    !> The same of the fronts of the sparse solver.
    real(wp), parameter :: SPARSE_SPEED = 2.0_wp
-   !> What its order, tree and solves take beyond the skyline's: for an equation, and to begin with.
-   real(wp), parameter :: SPARSE_OVERHEAD = 1500.0_wp, SPARSE_START = 2.0e6_wp
-   !> Equations from which on a body gets the sparse solver unasked. It pays from a twentieth of that on: docs/performance.md.
-   integer(ip), parameter :: LEAST_SPARSE = 32000_ip
+   !> What assembly and solves take in the time of so many of them: for an equation, and for the sparse solver to begin with.
+   real(wp), parameter :: SKYLINE_OVERHEAD = 1600.0_wp, BAND_OVERHEAD = 2500.0_wp, SPARSE_OVERHEAD = 1000.0_wp, &
+                          SPARSE_START = 2.0e6_wp
 
 contains
 
@@ -56,8 +55,8 @@ contains
          kind = asked
          result%reason = 'asked for'
       else
-         kind = minloc(cost(:STORAGE_BANDED), dim=1)
-         if (profile%n >= LEAST_SPARSE .and. cost(STORAGE_SPARSE) < cost(kind)) kind = STORAGE_SPARSE
+         kind = STORAGE_SPARSE
+         if (needs_profile(asked, profile%n)) kind = minloc(cost(:STORAGE_BANDED), dim=1)
          second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
       end if
@@ -74,8 +73,8 @@ contains
       type(profile_t), intent(in) :: profile
       real(wp) :: cost(N_STORAGES)
 
-      cost(STORAGE_SKYLINE) = skyline_flops(profile)
-      cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED
+      cost(STORAGE_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
+      cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
       cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
       cost(STORAGE_MUMPS) = cost(STORAGE_SPARSE)
    end function predict_costs

@@ -1,7 +1,7 @@
 !> From the contact forces back to the bodies: displacements, reactions, stresses, fields at the points.
 module atrito_recovery
    use atrito_assembly, only: fem_t
-   use atrito_bodies, only: mode_at
+   use atrito_bodies, only: body_t, mode_at
    use atrito_box_problem, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
    use atrito_contact_line, only: contact_line_t
@@ -15,11 +15,13 @@ module atrito_recovery
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_model, only: model_t
-   use atrito_point_stress, only: point_rule_t, element_data_t, point_values_t, make_point_rule, fetch_element, point_stresses
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
    use atrito_points, only: contact_points_t
+   use atrito_range, only: unit_of
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_shape_functions, only: gauss_count
    use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
+   use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
    public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
@@ -71,28 +73,45 @@ contains
    end subroutine elastic_displacements
 
    !> u = u_e + Z a.
-   pure subroutine add_rigid_motions(fem, a, u)
+   subroutine add_rigid_motions(fem, a, u)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: a(:)
       real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
-      real(wp) :: mode(3)
-      integer(ip) :: b, i, dof, first, node
+      integer(ip) :: b
 
       do b = 1, fem%bodies%n
-         associate (body => fem%bodies%list(b))
-            if (size(body%modes, 2) == 0) cycle
-            first = first_motion(fem, b)
-            mode = matmul(body%modes, a(first:first + size(body%modes, 2, kind=ip) - 1))
-            do i = 1, size(body%nodes, kind=ip)
-               node = body%nodes(i)
-               do dof = 1, 2
-                  if (fem%bodies%equation(dof, node) == 0) cycle
-                  u(dof, node) = u(dof, node) + mode_at(body, mode, fem%mesh%x(:, node), dof)
-               end do
-            end do
-         end associate
+         if (size(fem%bodies%list(b)%modes, 2) > 0) call move_body(fem, fem%bodies%list(b), a(first_motion(fem, b):), u)
       end do
    end subroutine add_rigid_motions
+
+   subroutine move_body(fem, body, a, u)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: a(:)                   !< of its modes and those of later bodies
+      real(wp), intent(inout) :: u(:, :)
+      real(wp) :: mode(3)
+      integer(ip) :: i
+
+      mode = matmul(body%modes, a(:size(body%modes, 2)))
+      !$omp parallel do schedule(static) if (is_shared(size(body%nodes, kind=ip)))
+      do i = 1, size(body%nodes, kind=ip)
+         call move_node(fem, body, mode, body%nodes(i), u(:, body%nodes(i)))
+      end do
+      !$omp end parallel do
+   end subroutine move_body
+
+   pure subroutine move_node(fem, body, mode, node, u)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: mode(3)
+      integer(ip), intent(in) :: node
+      real(wp), intent(inout) :: u(2)
+      integer(ip) :: dof
+
+      do dof = 1, 2
+         if (fem%bodies%equation(dof, node) > 0) u(dof) = u(dof) + mode_at(body, mode, fem%mesh%x(:, node), dof)
+      end do
+   end subroutine move_node
 
    !> The fields of every pair at its points.
    pure subroutine recover_contact(line, rows, points, solution, u, contact)
@@ -191,52 +210,88 @@ contains
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
       type(point_rule_t) :: rules(2)
-      logical :: wanted(model%mesh%n_elements)
-      integer(ip) :: e, row, n
+      logical, allocatable :: wanted(:)
+      integer(ip) :: rows(run_count(fem%mesh%n_elements) + 1) !< filled before each run of elements
+      integer(ip) :: run
 
       associate (requests => model%requests)
          if (.not. (requests%stress .or. requests%fields%stress)) return
-         wanted = .false.
+         allocate (wanted(fem%mesh%n_elements), source=.false.)
          if (requests%stress) wanted = requests%element_s
          if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
       end associate
       call make_point_rule(Q1_NODES, gauss_count(Q1_NODES), rules(1))
       call make_point_rule(Q2_NODES, gauss_count(Q2_NODES), rules(2))
-      n = 0
-      do e = 1, fem%mesh%n_elements
-         if (wanted(e)) n = n + gauss_count(fem%mesh%shape(e))**2
+      call count_rows(fem, wanted, rows)
+      associate (n => rows(size(rows)))
+         allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
+      end associate
+      !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
+      do run = 1, size(rows, kind=ip) - 1
+         call add_stresses(fem, run, wanted, rules, rows(run), results)
       end do
-      allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
-      row = 0
-      do e = 1, fem%mesh%n_elements
-         if (wanted(e)) call add_element(fem, e, rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)), row, results)
-      end do
+      !$omp end parallel do
    end subroutine recover_stress
 
+   pure subroutine count_rows(fem, wanted, rows)
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: wanted(:)
+      integer(ip), intent(out) :: rows(:)            !< (runs + 1) before each run; all
+      integer(ip) :: run, e, first, last
+
+      rows(1) = 0
+      do run = 1, size(rows, kind=ip) - 1
+         call find_run(run, fem%mesh%n_elements, first, last)
+         rows(run + 1) = rows(run)
+         do e = first, last
+            if (wanted(e)) rows(run + 1) = rows(run + 1) + gauss_count(fem%mesh%shape(e))**2
+         end do
+      end do
+   end subroutine count_rows
+
+   !> The rows of one run of elements.
+   pure subroutine add_stresses(fem, run, wanted, rules, filled, results)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: run
+      logical, intent(in) :: wanted(:)
+      type(point_rule_t), intent(in) :: rules(2)
+      integer(ip), intent(in) :: filled              !< rows before those of this run
+      type(results_t), intent(inout) :: results
+      type(point_geometry_t) :: geometry
+      integer(ip) :: e, first, last, row
+
+      row = filled
+      call find_run(run, fem%mesh%n_elements, first, last)
+      do e = first, last
+         if (wanted(e)) call add_element(fem, e, rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)), geometry, row, results)
+      end do
+   end subroutine add_stresses
+
    !> The rows of one element.
-   pure subroutine add_element(fem, e, rule, row, results)
+   pure subroutine add_element(fem, e, rule, geometry, row, results)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(inout) :: geometry
       integer(ip), intent(inout) :: row              !< the last one filled
       type(results_t), intent(inout) :: results
-      type(element_data_t) :: data
-      type(point_values_t) :: at
-      real(wp) :: plane(3)
+      real(wp) :: s(MOST_POINTS, 3), s33
       integer(ip) :: k
 
-      call fetch_element(fem, e, results%u, data)
-      call point_stresses(data, rule, at)
+      call fetch_geometry(fem, e, rule, geometry)
+      call point_stresses(fem, e, results%u, rule, geometry, s)
       do k = 1, rule%n
          row = row + 1
-         plane = at%s(k, :)
+         s33 = stress_33(fem%sections(geometry%section), geometry%state, [s(k, 1), s(k, 2), s(k, 3)])
          results%stress_element(row) = e
          results%stress_point(row) = k
-         results%stress_x(:, row) = fem%mesh%x(:, fem%mesh%nodes(1, e)) + at%x(k, :)
-         results%stress(1:2, row) = plane(1:2)
-         results%stress(3, row) = stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), plane)
-         results%stress(4, row) = plane(3)
-         results%stress(5, row) = von_mises(plane, results%stress(3, row))
+         results%stress_x(1, row) = fem%mesh%x(1, fem%mesh%nodes(1, e)) + geometry%place(k, 1)
+         results%stress_x(2, row) = fem%mesh%x(2, fem%mesh%nodes(1, e)) + geometry%place(k, 2)
+         results%stress(1, row) = s(k, 1)
+         results%stress(2, row) = s(k, 2)
+         results%stress(3, row) = s33
+         results%stress(4, row) = s(k, 3)
+         results%stress(5, row) = von_mises([s(k, 1), s(k, 2), s(k, 3)], s33)
       end do
    end subroutine add_element
 
@@ -246,14 +301,10 @@ contains
       type(results_t), intent(inout) :: results
       type(stress_field_t) :: field
       type(energies_t) :: energies
-      integer :: shift
 
       call recover_stress_field(fem, results%u, field)
       call nodal_stresses(fem, field, results%nodal_stress)
-      ! displacements of size one: squares of very large or small ones leave the range of numbers, and the error is relative
-      shift = -exponent(maxval(abs(results%u)))
-      field%stress = scale(field%stress, shift)
-      call measure_error(fem, scale(results%u, shift), field, energies)
+      call measure_error(fem, results%u, field, energies, unit_of(results%u))   ! the error is relative
       results%error_estimate = relative_error(energies)
    end subroutine estimate_error
 

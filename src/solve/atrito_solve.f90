@@ -1,18 +1,20 @@
 !> One static step, from the model to the results.
 module atrito_solve
-   use atrito_assembly, only: fem_t, body_profile, internal_forces
+   use atrito_assembly, only: fem_t, body_profile
    use atrito_blas_info, only: is_reference_blas
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
-   use atrito_body_store, only: body_store_t, provide_bodies, take_numbering
-   use atrito_condensed_body, only: condensed_body_t, choose_storage, motion_text
+   use atrito_body_store, only: body_store_t, provide_bodies, take_numbering, release_bodies
+   use atrito_condensed_body, only: choose_storage, motion_text
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_line, build_problem, motion_body
    use atrito_contact_rows, only: contact_rows_t, build_rows
    use atrito_contact_solution, only: contact_solution_t, outer_controls_t
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_chatter, only: report_chatter
+   use atrito_force_sums, only: sum_forces
    use atrito_free_motion, only: free_motion_text
    use atrito_friction_law, only: FRICTION_NONE
+   use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: add_warning
    use atrito_model, only: model_t
@@ -20,7 +22,6 @@ module atrito_solve
    use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
    use atrito_points, only: contact_points_t
    use atrito_profile, only: profile_t
-   use atrito_range, only: work_of
    use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
                               estimate_error
    use atrito_reporter, only: reporter_t
@@ -133,7 +134,7 @@ contains
          return
       end if
       call start_phase('recover')
-      call recover(model, data, store%bodies, solution, results)
+      call recover(model, data, store, solution, results)
       call stop_phase('recover')
       call start_phase('estimate')
       call estimate_error(data%fem, results)
@@ -155,7 +156,7 @@ contains
 
       call build_scene(model, data%fem, data%held, data%value, data%points)
       call take_numbering(store, data%held, data%points, data%fem, known)
-      if (.not. known) call build_bodies(model, data%held, data%points, data%fem)
+      if (.not. known) call build_bodies(model, data%held, data%points, options%storage_kind, data%fem)
       call build_rows(data%points, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, options%memory, status)
@@ -270,19 +271,15 @@ contains
    !> Applied forces less those of the prescribed displacements.
    function free_load(data) result(load)
       type(scene_data_t), intent(in) :: data
-      real(wp), allocatable :: load(:, :), force(:, :), size_of_force(:, :)
+      real(wp), allocatable :: load(:, :), force(:, :)
       real(wp) :: energy
-      integer(ip) :: b
 
       load = data%f
       if (all(data%value == 0.0_wp)) return
-      allocate (force, size_of_force, mold=load)
+      allocate (force, mold=load)
       force = 0.0_wp
-      size_of_force = 0.0_wp
       energy = 0.0_wp
-      do b = 1, data%fem%bodies%n
-         call internal_forces(data%fem, b, data%value, force, size_of_force, energy)
-      end do
+      call internal_forces(data%fem, data%value, force, energy)
       load = load - force
    end function free_load
 
@@ -305,10 +302,10 @@ contains
    end subroutine explain_failure
 
    !> Displacements, reactions, stresses, contact fields, energies and balances.
-   subroutine recover(model, data, condensed, solution, results)
+   subroutine recover(model, data, store, solution, results)
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(in) :: data
-      type(condensed_body_t), intent(in) :: condensed(:)
+      type(body_store_t), intent(inout) :: store           !< its factored bodies are not needed after the displacements
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results
       real(wp), allocatable :: contact(:, :)
@@ -319,8 +316,9 @@ contains
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       results%u = data%value
       do b = 1, data%fem%bodies%n
-         call elastic_displacements(data%fem, b, condensed(b), contact, results%u)
+         call elastic_displacements(data%fem, b, store%bodies(b), contact, results%u)
       end do
+      call release_bodies(store)
       allocate (results%reaction, mold=results%u)
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium)
       imbalance = check_balance(data%fem, data%f, contact)
@@ -334,26 +332,11 @@ contains
                                                      //to_text(imbalance, 3)
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
-      results%external_work = work_of(size(results%u, kind=ip), data%f + results%reaction, results%u)
+      call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call recover_stress(model, data%fem, results)
-      call balance_forces(data, contact, results)
       call copy_history(solution, results)
    end subroutine recover
-
-   pure subroutine balance_forces(data, contact, results)
-      type(scene_data_t), intent(in) :: data
-      real(wp), intent(in) :: contact(:, :)
-      type(results_t), intent(inout) :: results
-
-      associate (x => data%fem%mesh%x, balance => results%balance)
-         balance%applied = sum(data%f, dim=2)
-         balance%reactions = sum(results%reaction, dim=2)
-         balance%applied_moment = sum(x(1, :)*data%f(2, :) - x(2, :)*data%f(1, :))
-         balance%reaction_moment = sum(x(1, :)*results%reaction(2, :) - x(2, :)*results%reaction(1, :))
-         balance%rigid = sum(contact, dim=2)
-      end associate
-   end subroutine balance_forces
 
    pure subroutine copy_history(solution, results)
       type(contact_solution_t), intent(in) :: solution

@@ -1,0 +1,67 @@
+!> The compiler and the libraries of this program, for the listing and `--version`.
+module atrito_libraries
+   use, intrinsic :: iso_fortran_env, only: compiler_version
+   use atrito_blas_info, only: blas_name, is_reference_blas, lapack_version
+   use atrito_mumps, only: has_mumps, mumps_name, mumps_trouble
+   use atrito_strings, only: string_t
+   implicit none (type, external)
+   private
+   public :: library_t, list_libraries, version_lines, USED, NOT_USED
+
+   type :: library_t
+      character(len=8) :: name = ''
+      character(len=:), allocatable :: version      !< or why there is none
+   end type library_t
+
+   integer, parameter :: USED = 1, NOT_USED = 2, NOT_KNOWN = 3
+
+contains
+
+   !> Compiler, BLAS, LAPACK, MUMPS and METIS. A library that a run does not need is not loaded to ask for it.
+   subroutine list_libraries(mumps, list)
+      integer, intent(in) :: mumps                  !< USED or NOT_USED by a run; NOT_KNOWN: what this build could use
+      type(library_t), allocatable, intent(out) :: list(:)
+
+      allocate (list(5))
+      list%name = [character(len=8) :: 'compiler', 'BLAS', 'LAPACK', 'MUMPS', 'METIS']
+      list(1)%version = compiler_version()
+      list(2)%version = trim(blas_name())
+      if (is_reference_blas()) list(2)%version = list(2)%version//' (the reference one, slow)'
+      list(3)%version = lapack_version()
+      select case (mumps)
+      case (USED)
+         list(4)%version = number_of(mumps_name())
+      case (NOT_USED)
+         list(4)%version = 'not used'
+      case default
+         if (has_mumps()) then
+            list(4)%version = number_of(mumps_name())//', loaded where it is used'
+         else
+            list(4)%version = 'not used: '//mumps_trouble()
+         end if
+      end select
+      list(5)%version = 'not used'
+   end subroutine list_libraries
+
+   !> `5.5.1` of `MUMPS 5.5.1`.
+   pure function number_of(name) result(number)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: number
+
+      number = name(index(name, ' ') + 1:)
+   end function number_of
+
+   !> What `--version` prints below the name of the program: `BLAS: OpenBLAS 0.3.21 ...`
+   subroutine version_lines(lines)
+      type(string_t), allocatable, intent(out) :: lines(:)
+      type(library_t), allocatable :: list(:)
+      integer :: i
+
+      call list_libraries(NOT_KNOWN, list)
+      allocate (lines(size(list)))
+      do i = 1, size(list)
+         lines(i)%s = trim(list(i)%name)//': '//list(i)%version
+      end do
+   end subroutine version_lines
+
+end module atrito_libraries
