@@ -38,6 +38,8 @@ module atrito_kept_factor
    integer(ip), parameter :: FACTOR_IN_STEPS = 20_ip, ORDER_OVER_STEPS = 200_ip
    integer(ip), parameter :: FEW_STEPS = 3_ip       !< that a near set takes
    real(wp), parameter :: ROUND_OFF = 1.0e-15_wp    !< of the terms of the residual
+   real(wp), parameter :: FALSE_END = 1.0e-11_wp    !< of the terms of the true residual: the steps did not go where they said
+   real(wp), parameter :: LEAST_CURVATURE = 1.0e-13_wp !< of M; below it points depend on each other, which a factor tells
    real(wp), parameter :: WEAKLY_HELD = 1.0e-6_wp   !< a motion that the free set hardly holds asks for a factor of its own
 
 contains
@@ -52,7 +54,7 @@ contains
       real(wp), intent(inout) :: a(:)            !< (k) [L]
       logical, intent(out) :: solved
       type(preconditioner_t) :: p
-      real(wp) :: x(size(q)), b(size(a)), r(size(q)), terms
+      real(wp) :: x(size(q)), b(size(a)), r(size(q)), terms, remains
       integer(ip) :: most, steps
 
       solved = .false.
@@ -65,12 +67,14 @@ contains
       if (.not. solved) return
       x = q
       b = a
-      call correct(factor, c, system, p, x, b)
+      call correct(factor, c, system, p, x, b, remains)
       call true_residual(c, system, x, b, r, terms)
       call take_steps(factor, c, system, p, most, ROUND_OFF*terms, x, b, r, steps, solved)
       factor%steps = factor%steps + max(steps - FEW_STEPS, 0_ip)
       if (.not. solved) return
-      call correct(factor, c, system, p, x, b)
+      call correct(factor, c, system, p, x, b, remains)
+      solved = remains <= FALSE_END
+      if (.not. solved) return
       q = x
       a = b
    end subroutine solve_with_kept
@@ -111,15 +115,18 @@ contains
    end subroutine prepare_motions
 
    !> One step with both residuals.
-   subroutine correct(factor, c, system, p, x, b)
+   subroutine correct(factor, c, system, p, x, b, remains)
       type(line_factor_t), intent(in) :: factor
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
       type(preconditioner_t), intent(in) :: p
       real(wp), intent(inout) :: x(:), b(:)
+      real(wp), intent(out) :: remains           !< largest entry of the residual before, over its terms
       real(wp) :: r(size(x)), z(size(x)), db(size(b)), terms
 
       call true_residual(c, system, x, b, r, terms)
+      remains = 0.0_wp
+      if (terms > 0.0_wp) remains = maxval(abs(r))/terms
       call apply_inverse(factor, p%relation, r, z)
       db = matmul(p%inverse, system%load - matmul(transpose(system%g), x) - matmul(transpose(system%g), z))
       x = x + z + matmul(p%y, db)
@@ -170,7 +177,7 @@ contains
          direction = z + (rz/last_rz)*direction
          product = scaled_product(c, system, direction)
          curvature = dot_product(direction, product)
-         if (.not. (rz > 0.0_wp .and. curvature > 0.0_wp)) return
+         if (.not. (rz > 0.0_wp .and. curvature > LEAST_CURVATURE*dot_product(direction, direction))) return
          x = x + (rz/curvature)*direction
          r = r - (rz/curvature)*product
          last_rz = rz
