@@ -49,15 +49,15 @@ contains
          last = last_of_pair(line, first)
          do j = first, last
             in_pair = mod(j - first, STRIDE)
+            interpolation%share(j) = 0.0_wp
             if (in_pair == 0 .or. j == last) then
                n = n + 1
                chosen(n) = j
-               in_pair = 0
+            else
+               ! the last interval may be shorter
+               interpolation%share(j) = real(in_pair, wp)/real(min(STRIDE, last - (j - in_pair)), wp)
             end if
             interpolation%before(j) = n
-            ! the last interval may be shorter
-            interpolation%share(j) = real(in_pair, wp)/real(min(STRIDE, last - (j - in_pair)), wp)
-            if (in_pair == 0) interpolation%share(j) = 0.0_wp
          end do
          first = last + 1
       end do
