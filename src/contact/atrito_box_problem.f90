@@ -71,7 +71,7 @@ contains
       type(box_state_t), intent(inout) :: state
       type(equality_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
-      !> Factor of an earlier solve, which serves again where it can, or of this one; solution%condition is then left to condition_of.
+      !> Factor of an earlier solve, which serves again where it can, or of this one; solution%condition is left to condition_of.
       type(line_factor_t), intent(inout), optional :: kept
       type(line_factor_t) :: own
 

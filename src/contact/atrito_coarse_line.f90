@@ -3,6 +3,7 @@
 !> Every STRIDE-th point of each pair is kept, and its last one. Stresses between them are linear in the number of the point, so the
 !> forces are q = R' q_c with R_ci = w_i I_ci / w_c, w_c = sum of w_i I_ci, and the box problem of the coarse line is that of the
 !> fine one for these forces alone: C_c = R C R', G_c = R G, g0_c = R g0, h_c = h. No body is asked again.
+!> The law is that of the pair.
 module atrito_coarse_line
    use atrito_average, only: average_t, identity_average
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t

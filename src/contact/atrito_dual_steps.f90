@@ -70,7 +70,7 @@ contains
          where (state%state == FROZEN) state%q = 0.0_wp
          call solve_and_record(problem, bounds, state, history, solution, left, status, kept)
          if (.not. is_ok(status)) return
-            released = 0
+         released = 0
          do i = 1, problem%m
             if (sign_of(state%state(i))*state%r(i) >= -state%slack) cycle
             state%state(i) = FREE

@@ -7,8 +7,8 @@ module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
    use atrito_bodies, only: mode_at, order_by_dissection
-   use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
-   use atrito_dense_blocks, only: add_inverse_form
+   use atrito_dense, only: solve_cholesky, orthonormalise, multiply
+   use atrito_dense_blocks, only: add_inverse_form, factor_in_blocks
    use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
@@ -228,7 +228,7 @@ contains
          qs = alpha*q(:, :rank)
          call multiply(q(:, :rank), qs, body%factor, transb=.true., beta=1.0_wp)
       end if
-      call factor_cholesky(body%factor, failed)
+      call factor_in_blocks(body%factor, failed)
       if (failed == 0) return
       call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name &
                       //': its stiffness seen from the contact line is not positive')

@@ -5,7 +5,7 @@ module atrito_outer_loop
    use atrito_coarse_line, only: interpolation_t, coarsen_line, start_from_coarse
    use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
    use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, &
-                                       may_be_round_off, relative_residual
+                                      may_be_round_off, relative_residual
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_model, only: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
@@ -47,8 +47,8 @@ contains
       call judge_condition(solution)
    end subroutine solve_contact_line
 
-   !> Begins where the line's coarse line ends. Whatever does not go well on the way leaves solution%converged false: the caller begins
-   !> anew.
+   !> Begins where the line's coarse line ends. Whatever does not go well on the way leaves solution%converged false, and the caller
+   !> begins anew.
    recursive subroutine solve_from_coarse(problem, line, controls, reporter, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
