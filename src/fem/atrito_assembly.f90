@@ -38,8 +38,8 @@ module atrito_assembly
 
    !> A run of elements, compared one after the other. Places are those in the list of elements; 0: none.
    type :: run_t
-      integer(ip) :: before = 0                    !< what its first ones are compared with: the last different element of earlier runs
-      logical :: is_due = .true.                   !< to be compared, or compared with a wrong one before it
+      integer(ip) :: before = 0                    !< the last different one of earlier runs
+      logical :: is_due = .true.                   !< to be compared; also when `before` was wrong
       integer(ip) :: n = 0                         !< different ones
       integer(ip) :: last = 0                      !< the last of them, or that of earlier runs
       integer(ip) :: offset = 0                    !< different ones in earlier runs

@@ -4,8 +4,8 @@
 !>
 !>     S = K_cc - K_ci K_ii^-1 K_ic                                                (condensation, docs/theory)
 !>
-!> Use: create, add every element matrix, one by one or all in a store, factor; then get_schur, and for every load reduce, find x_c, expand. Without kept
-!> equations reduce followed by expand solves K x = f.
+!> Use: create, add every element matrix (one by one, or all in a store), factor; then get_schur, and for every load reduce, find
+!> x_c, expand. Without kept equations reduce followed by expand solves K x = f.
 module atrito_storage
    use atrito_element_store, only: element_store_t, unpack_matrix
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
