@@ -1,15 +1,21 @@
 !> Sums over the elements of a body: matrix and profile.
+!>
+!> Neighbours in a regular mesh are equal, and one stiffness serves them all. Elements are compared with the last one that was
+!> different, so that small differences do not add up along a mesh.
 module atrito_assembly
-   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, Q2_NODES
    use atrito_bodies, only: body_t, bodies_t, element_equations
    use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
+   use atrito_element_store, only: element_store_t, pack_matrix
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_storage, only: storage_t
+   use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
-   public :: fem_t, stiffness_cache_t, body_profile, assemble_body, kept_diagonal, cached_stiffness, is_like_before
+   public :: fem_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
+             kept_diagonal, cached_stiffness, is_like_before
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -19,12 +25,25 @@ module atrito_assembly
       integer(ip), allocatable :: section_of(:)    !< (n_elements)
    end type fem_t
 
-   !> The stiffness computed last: neighbours in a regular mesh are equal, and one stiffness serves them all.
-   type :: stiffness_cache_t
+   !> All that a stiffness depends on.
+   type :: form_t
       integer(ip) :: section = 0, state = 0, shape = 0
       real(wp) :: x(2, Q2_NODES) = 0.0_wp          !< relative to the first node
+   end type form_t
+
+   !> The stiffness computed last.
+   type, extends(form_t) :: stiffness_cache_t
       real(wp) :: k(2*Q2_NODES, 2*Q2_NODES) = 0.0_wp
    end type stiffness_cache_t
+
+   !> A run of elements, compared one after the other. Places are those in the list of elements; 0: none.
+   type :: run_t
+      integer(ip) :: before = 0                    !< the last different one of earlier runs
+      logical :: is_due = .true.                   !< to be compared; also when `before` was wrong
+      integer(ip) :: n = 0                         !< different ones
+      integer(ip) :: last = 0                      !< the last of them, or that of earlier runs
+      integer(ip) :: offset = 0                    !< different ones in earlier runs
+   end type run_t
 
 contains
 
@@ -55,18 +74,181 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       class(storage_t), intent(inout) :: storage
-      type(stiffness_cache_t) :: cache
-      integer(ip) :: i, e, n
+      type(element_store_t) :: store
 
-      associate (body => fem%bodies%list(i_body))
-         do i = 1, size(body%elements, kind=ip)
-            e = body%elements(i)
-            n = 2*fem%mesh%shape(e)
-            call cached_stiffness(fem, e, cache)
-            call storage%add(element_equations(fem%mesh, fem%bodies, e), cache%k(:n, :n))
-         end do
-      end associate
+      call collect_elements(fem, fem%bodies%list(i_body)%elements, store)
+      call storage%add_store(store)
    end subroutine assemble_body
+
+   !> Equations and stiffnesses of elements, in their order. Equal ones that follow one another have one stiffness in common.
+   subroutine collect_elements(fem, elements, store)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:)       !< of one body
+      type(element_store_t), intent(out) :: store
+      type(run_t) :: runs(run_count(size(elements, kind=ip)))
+      integer(ip), allocatable :: different(:)     ! the element of each matrix
+      integer(ip) :: i
+
+      store%n = size(elements, kind=ip)
+      allocate (store%start(store%n + 1), store%matrix_of(store%n))
+      store%start(1) = 0
+      do i = 1, store%n
+         store%start(i + 1) = store%start(i) + 2*fem%mesh%shape(elements(i))
+      end do
+      call collect_equations(fem, elements, store)
+      call compare_runs(fem, elements, runs, store%matrix_of)
+      store%n_matrices = sum(runs%n)
+      allocate (different(store%n_matrices))
+      !$omp parallel do schedule(static) if (is_shared(store%n))
+      do i = 1, size(runs, kind=ip)
+         call number_matrices(elements, i, runs(i), store%matrix_of, different)
+      end do
+      !$omp end parallel do
+      call compute_matrices(fem, different, store)
+   end subroutine collect_elements
+
+   subroutine collect_equations(fem, elements, store)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:)
+      type(element_store_t), intent(inout) :: store
+      integer(ip) :: i
+
+      allocate (store%equations(store%start(store%n + 1)))
+      !$omp parallel do schedule(static) if (is_shared(store%n))
+      do i = 1, store%n
+         call fetch_equations(fem, elements(i), store%equations(store%start(i) + 1:store%start(i + 1)))
+      end do
+      !$omp end parallel do
+   end subroutine collect_equations
+
+   pure subroutine fetch_equations(fem, element, equations)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: element
+      integer(ip), intent(out) :: equations(:)
+      integer(ip) :: k
+
+      do k = 1, fem%mesh%shape(element)
+         equations(2*k - 1) = fem%bodies%equation(1, fem%mesh%nodes(k, element))
+         equations(2*k) = fem%bodies%equation(2, fem%mesh%nodes(k, element))
+      end do
+   end subroutine fetch_equations
+
+   !> Compares every element with the last different one before it, runs side by side. A run has to guess what came before it (the
+   !> first element of all, which is right in a regular mesh), and is compared again when it turns out to be another.
+   subroutine compare_runs(fem, elements, runs, number)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:)
+      type(run_t), intent(inout) :: runs(:)
+      integer(ip), intent(inout) :: number(:)      !< of the elements: the different ones of their run until there
+      integer(ip) :: i
+
+      runs(2:)%before = 1
+      do while (any(runs%is_due))
+         !$omp parallel do schedule(dynamic) if (is_shared(size(elements, kind=ip)))
+         do i = 1, size(runs, kind=ip)
+            if (runs(i)%is_due) call compare_run(fem, elements, i, runs(i), number)
+         end do
+         !$omp end parallel do
+         call join_runs(fem, elements, number, runs)
+      end do
+   end subroutine compare_runs
+
+   pure subroutine compare_run(fem, elements, i_run, run, number)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:), i_run
+      type(run_t), intent(inout) :: run
+      integer(ip), intent(inout) :: number(:)
+      type(form_t) :: form
+      integer(ip) :: first, last, i
+
+      call find_run(i_run, size(elements, kind=ip), first, last)
+      run%n = 0
+      run%last = run%before
+      if (run%before > 0) call take_form(fem, elements(run%before), form)
+      do i = first, last
+         if (.not. has_form(fem, elements(i), form)) then
+            call take_form(fem, elements(i), form)
+            run%n = run%n + 1
+            run%last = i
+         end if
+         number(i) = run%n
+      end do
+   end subroutine compare_run
+
+   !> What came before each run; the runs that it makes a difference to have to be compared again.
+   pure subroutine join_runs(fem, elements, number, runs)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:), number(:)
+      type(run_t), intent(inout) :: runs(:)
+      type(form_t) :: form
+      integer(ip) :: i, first, last
+
+      runs%is_due = .false.
+      do i = 2, size(runs, kind=ip)
+         runs(i)%offset = runs(i - 1)%offset + runs(i - 1)%n
+         if (runs(i)%before == runs(i - 1)%last) cycle
+         runs(i)%before = runs(i - 1)%last
+         if (runs(i)%n == 0) runs(i)%last = runs(i)%before
+         call find_run(i, size(elements, kind=ip), first, last)
+         runs(i)%is_due = number(first) == 0
+         if (runs(i)%is_due) cycle
+         call take_form(fem, elements(runs(i)%before), form)
+         runs(i)%is_due = has_form(fem, elements(first), form)
+      end do
+   end subroutine join_runs
+
+   !> From the numbers within a run to those of all; the element that each new matrix is of.
+   pure subroutine number_matrices(elements, i_run, run, matrix_of, different)
+      integer(ip), intent(in) :: elements(:), i_run
+      type(run_t), intent(in) :: run
+      integer(ip), intent(inout) :: matrix_of(:), different(:)
+      integer(ip) :: first, last, i, newest
+
+      call find_run(i_run, size(elements, kind=ip), first, last)
+      newest = 0
+      do i = first, last
+         if (matrix_of(i) > newest) then
+            newest = matrix_of(i)
+            different(run%offset + newest) = elements(i)
+         end if
+         matrix_of(i) = run%offset + matrix_of(i)
+      end do
+   end subroutine number_matrices
+
+   subroutine compute_matrices(fem, different, store)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: different(:)
+      type(element_store_t), intent(inout) :: store
+      integer(lp) :: n
+      integer(ip) :: m
+
+      allocate (store%matrix_start(store%n_matrices + 1))
+      store%matrix_start(1) = 0
+      do m = 1, store%n_matrices
+         n = 2*fem%mesh%shape(different(m))
+         store%matrix_start(m + 1) = store%matrix_start(m) + n*(n + 1)/2
+      end do
+      allocate (store%values(store%matrix_start(store%n_matrices + 1)))
+      !$omp parallel do schedule(static) if (is_shared(store%n_matrices))
+      do m = 1, store%n_matrices
+         call compute_matrix(fem, different(m), store%values(store%matrix_start(m) + 1:store%matrix_start(m + 1)))
+      end do
+      !$omp end parallel do
+   end subroutine compute_matrices
+
+   pure subroutine compute_matrix(fem, element, packed)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: element
+      real(wp), intent(out) :: packed(:)
+      type(form_t) :: form
+      real(wp) :: k(2*Q2_NODES, 2*Q2_NODES)
+      integer(ip) :: n
+
+      call take_form(fem, element, form)
+      n = 2*form%shape
+      call element_stiffness(form%x(:, :form%shape), fem%sections(form%section), form%state, k(:n, :n))
+      call pack_matrix(k(:n, :n), packed)
+   end subroutine compute_matrix
 
    !> Diagonal of a body's matrix at its kept equations, before any elimination.
    subroutine kept_diagonal(fem, i_body, diagonal)
@@ -97,31 +279,36 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
       type(stiffness_cache_t), intent(inout) :: cache
-      integer(ip) :: n, section, state
+      integer(ip) :: n
 
-      section = fem%section_of(element)
-      state = fem%mesh%state(element)
-      if (cache%section == section .and. cache%state == state) then
-         if (is_like_before(fem%mesh, element, cache%shape, cache%x)) return
-      end if
-      n = fem%mesh%shape(element)
-      cache%section = section
-      cache%state = state
-      cache%shape = n
-      call relative_coordinates(fem%mesh, element, cache%x)
-      call element_stiffness(cache%x(:, :n), fem%sections(section), state, cache%k(:2*n, :2*n))
+      if (has_form(fem, element, cache%form_t)) return
+      call take_form(fem, element, cache%form_t)
+      n = cache%shape
+      call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n))
    end subroutine cached_stiffness
 
-   pure subroutine relative_coordinates(mesh, element, x)
-      type(mesh_t), intent(in) :: mesh
+   pure logical function has_form(fem, element, form)
+      type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
-      real(wp), intent(inout) :: x(2, Q2_NODES)    !< less those of the first node [L]
+      type(form_t), intent(in) :: form
+
+      has_form = form%section == fem%section_of(element) .and. form%state == fem%mesh%state(element)
+      if (has_form) has_form = is_like_before(fem%mesh, element, form%shape, form%x)
+   end function has_form
+
+   pure subroutine take_form(fem, element, form)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: element
+      type(form_t), intent(inout) :: form
       integer(ip) :: k
 
-      do k = 1, mesh%shape(element)
-         x(:, k) = mesh%x(:, mesh%nodes(k, element)) - mesh%x(:, mesh%nodes(1, element))
+      form%section = fem%section_of(element)
+      form%state = fem%mesh%state(element)
+      form%shape = fem%mesh%shape(element)
+      do k = 1, form%shape
+         form%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, element)) - fem%mesh%x(:, fem%mesh%nodes(1, element))
       end do
-   end subroutine relative_coordinates
+   end subroutine take_form
 
    !> Whether an element has the shape of another one, within the rounding of the coordinates and never coarser than 1e-12 of the
    !> element.

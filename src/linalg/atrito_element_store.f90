@@ -6,7 +6,7 @@ module atrito_element_store
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: element_store_t, begin_store, add_to_store
+   public :: element_store_t, begin_store, add_to_store, move_store, pack_matrix, unpack_matrix
 
    type :: element_store_t
       integer(ip) :: n = 0                       !< elements
@@ -73,19 +73,62 @@ contains
       type(element_store_t), intent(inout) :: store
       integer(ip), intent(in) :: m
       real(wp), intent(in) :: matrix(m, m)
-      integer(lp) :: first, needed
-      integer(ip) :: j
+      integer(lp) :: first, last
 
       if (store%n_matrices + 2 > size(store%matrix_start)) call grow(store%matrix_start, 2*size(store%matrix_start, kind=lp))
       first = store%matrix_start(store%n_matrices + 1)
-      needed = first + int(m, lp)*int(m + 1, lp)/2
-      if (needed > size(store%values, kind=lp)) call grow(store%values, 2*needed)
+      last = first + int(m, lp)*int(m + 1, lp)/2
+      if (last > size(store%values, kind=lp)) call grow(store%values, 2*last)
       store%n_matrices = store%n_matrices + 1
-      do j = 1, m
-         store%values(first + 1:first + m - j + 1) = matrix(j:, j)
-         first = first + m - j + 1
-      end do
-      store%matrix_start(store%n_matrices + 1) = first
+      call pack_matrix(matrix, store%values(first + 1:last))
+      store%matrix_start(store%n_matrices + 1) = last
    end subroutine add_values
+
+   !> The lower triangle of a matrix, by columns.
+   pure subroutine pack_matrix(matrix, packed)
+      real(wp), intent(in) :: matrix(:, :)       !< symmetric, (m, m)
+      real(wp), intent(out) :: packed(:)         !< (m(m + 1)/2)
+      integer(ip) :: i, j, k
+
+      k = 0
+      do j = 1, size(matrix, 2, kind=ip)
+         do i = j, size(matrix, 1, kind=ip)
+            k = k + 1
+            packed(k) = matrix(i, j)
+         end do
+      end do
+   end subroutine pack_matrix
+
+   !> The inverse of pack_matrix.
+   pure subroutine unpack_matrix(packed, matrix)
+      real(wp), intent(in) :: packed(:)          !< (m(m + 1)/2)
+      real(wp), intent(out) :: matrix(:, :)      !< (m, m)
+      integer(ip) :: i, j, k
+
+      k = 0
+      do j = 1, size(matrix, 2, kind=ip)
+         do i = j, size(matrix, 1, kind=ip)
+            k = k + 1
+            matrix(i, j) = packed(k)
+            matrix(j, i) = packed(k)
+         end do
+      end do
+   end subroutine unpack_matrix
+
+   !> Moves what a store holds into another one; nothing is left in it.
+   pure subroutine move_store(from, to)
+      type(element_store_t), intent(inout) :: from
+      type(element_store_t), intent(out) :: to
+
+      to%n = from%n
+      to%n_matrices = from%n_matrices
+      call move_alloc(from%start, to%start)
+      call move_alloc(from%equations, to%equations)
+      call move_alloc(from%matrix_of, to%matrix_of)
+      call move_alloc(from%matrix_start, to%matrix_start)
+      call move_alloc(from%values, to%values)
+      from%n = 0
+      from%n_matrices = 0
+   end subroutine move_store
 
 end module atrito_element_store

@@ -5,7 +5,7 @@
 !>
 !> Reference: I. S. Duff, J. K. Reid, ACM Trans. Math. Software 9 (1983) 302-325.
 module atrito_multifrontal
-   use atrito_element_store, only: element_store_t, begin_store, add_to_store
+   use atrito_element_store, only: element_store_t, begin_store, add_to_store, move_store
    use atrito_elimination, only: elimination_t, chain_elimination
    use atrito_front, only: unpack_update
    use atrito_front_factors, only: factor_t, factor_fronts
@@ -14,7 +14,7 @@ module atrito_multifrontal
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t
-   use atrito_storage, only: storage_t, pivot_report_t, note_pivot, set_pivot_status
+   use atrito_storage, only: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status
    implicit none (type, external)
    private
    public :: multifrontal_t
@@ -30,6 +30,7 @@ module atrito_multifrontal
    contains
       procedure :: create => create_fronts
       procedure :: add => add_to_fronts
+      procedure :: add_store => add_store_to_fronts
       procedure :: factor => factor_and_report
       procedure :: get_schur => get_last_front
       procedure :: reduce => reduce_by_fronts
@@ -72,6 +73,41 @@ contains
          self%diagonal(place) = self%diagonal(place) + matrix(i, i)
       end do
    end subroutine add_to_fronts
+
+   !> The first store is taken as it is.
+   subroutine add_store_to_fronts(self, store)
+      class(multifrontal_t), intent(inout) :: self
+      type(element_store_t), intent(inout) :: store
+      integer(ip) :: e
+
+      if (self%store%n > 0) then
+         call add_one_by_one(self, store)
+         return
+      end if
+      call move_store(store, self%store)
+      do e = 1, self%store%n
+         call add_to_diagonal(self, e)
+      end do
+   end subroutine add_store_to_fronts
+
+   !> Adds the diagonal of the matrix of an element to that of all.
+   pure subroutine add_to_diagonal(self, e)
+      type(multifrontal_t), intent(inout) :: self
+      integer(ip), intent(in) :: e
+      integer(lp) :: k, at
+      integer(ip) :: place, n
+
+      n = int(self%store%start(e + 1) - self%store%start(e), ip)
+      at = self%store%matrix_start(self%store%matrix_of(e)) + 1
+      do k = self%store%start(e) + 1, self%store%start(e + 1)
+         if (self%store%equations(k) > 0) then
+            place = self%elimination%place(self%store%equations(k))
+            self%diagonal(place) = self%diagonal(place) + self%store%values(at)
+         end if
+         at = at + n                             ! the next column is shorter by one
+         n = n - 1
+      end do
+   end subroutine add_to_diagonal
 
    subroutine factor_and_report(self, status)
       class(multifrontal_t), intent(inout) :: self

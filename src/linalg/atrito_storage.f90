@@ -4,16 +4,17 @@
 !>
 !>     S = K_cc - K_ci K_ii^-1 K_ic                                                (condensation, docs/theory)
 !>
-!> Use: create, add every element matrix, factor; then get_schur, and for every load reduce, find x_c, expand. Without kept
-!> equations reduce followed by expand solves K x = f.
+!> Use: create, add every element matrix (one by one, or all in a store), factor; then get_schur, and for every load reduce, find
+!> x_c, expand. Without kept equations reduce followed by expand solves K x = f.
 module atrito_storage
+   use atrito_element_store, only: element_store_t, unpack_matrix
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: storage_t, pivot_report_t, note_pivot, set_pivot_status, SMALLEST_RATIO, ALL_DIGITS
+   public :: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status, SMALLEST_RATIO, ALL_DIGITS
 
    !> What the pivots of a factorisation tell.
    type :: pivot_report_t
@@ -31,6 +32,7 @@ module atrito_storage
    contains
       procedure(create_storage), deferred :: create
       procedure(add_matrix), deferred :: add
+      procedure :: add_store => add_one_by_one
       procedure(factor_interior), deferred :: factor
       procedure(get_schur_complement), deferred :: get_schur
       procedure(reduce_load), deferred :: reduce
@@ -105,6 +107,29 @@ module atrito_storage
    real(wp), parameter :: ALL_DIGITS = 16.0_wp
 
 contains
+
+   !> Adds the matrices of a store, in their order. The storage may empty the store.
+   subroutine add_one_by_one(self, store)
+      class(storage_t), intent(inout) :: self
+      type(element_store_t), intent(inout) :: store
+      real(wp), allocatable :: matrix(:, :)
+      integer(ip) :: e, m, n, held
+
+      held = 0
+      do e = 1, store%n
+         n = int(store%start(e + 1) - store%start(e), ip)
+         m = store%matrix_of(e)
+         if (m /= held) then
+            if (allocated(matrix)) then
+               if (size(matrix, 1) /= n) deallocate (matrix)
+            end if
+            if (.not. allocated(matrix)) allocate (matrix(n, n))
+            call unpack_matrix(store%values(store%matrix_start(m) + 1:store%matrix_start(m + 1)), matrix)
+            held = m
+         end if
+         call self%add(store%equations(store%start(e) + 1:store%start(e + 1)), matrix)
+      end do
+   end subroutine add_one_by_one
 
    !> Enters a pivot into the report. `usable` is false for a pivot that must not be divided by: one that is round-off, at most
    !> max(n eps, 1e-15) of its original diagonal. A pivot clearly below zero is counted and can be used.
