@@ -7,11 +7,11 @@
 !> Long lists are shared out in runs of a fixed length. Whatever depends on how far a piece of work reaches - a sum, an element that
 !> is compared with the one before - begins anew with each run, whoever does it.
 module atrito_threads
-   use omp_lib, only: omp_get_max_threads, omp_set_num_threads
+   use omp_lib, only: omp_get_max_threads, omp_get_thread_num, omp_set_num_threads
    use atrito_kinds, only: ip
    implicit none (type, external)
    private
-   public :: set_threads, n_threads, is_shared, run_count, find_run, RUN_LENGTH
+   public :: set_threads, n_threads, this_thread, is_shared, run_count, find_run, RUN_LENGTH
 
    integer(ip), parameter :: RUN_LENGTH = 1024
    !> Fewer pieces than this are done by one thread: to wake others takes as long.
@@ -30,6 +30,11 @@ contains
    integer(ip) function n_threads()
       n_threads = int(omp_get_max_threads(), ip)
    end function n_threads
+
+   !> Number of the thread that asks, 1 .. n_threads(), in a parallel region.
+   integer(ip) function this_thread()
+      this_thread = int(omp_get_thread_num(), ip) + 1
+   end function this_thread
 
    !> Whether a list is long enough for more than one thread: the `if` of the parallel regions.
    pure logical function is_shared(n)

@@ -4,16 +4,18 @@
 !> the load, the finite dual steps take over (atrito_dual_steps).
 module atrito_active_set
    use atrito_kinds, only: ip, lp, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, closing_slack, &
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, &
                                  FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_dual_steps, only: take_dual_steps
+   use atrito_line_factor, only: line_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
    public :: box_outcome_t, solve_box
 
-   integer(ip), parameter :: MOST_FULL_STEPS = 20
+   !> Full steps, and unknowns for each where they are many: the front of a slip zone may move by a few points a step.
+   integer(ip), parameter :: MOST_FULL_STEPS = 20, UNKNOWNS_A_STEP = 20
    real(wp), parameter :: OPENS = 1.0e-13_wp      !< tension over the largest pressure that opens a point
    real(wp), parameter :: SLIPS = 1.0e-12_wp      !< excess over the friction bound that lets a point slip
 
@@ -30,22 +32,23 @@ module atrito_active_set
 contains
 
    !> Solves from the given state (state%state; fixed unknowns are put at their bounds). Every linear solve is recorded.
-   subroutine solve_box(problem, bounds, state, history, outcome, status)
+   subroutine solve_box(problem, bounds, state, history, outcome, status, kept)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(box_outcome_t), intent(out) :: outcome
       type(status_t), intent(out) :: status
+      type(line_factor_t), intent(inout), optional :: kept !< of the solve before, or of the last one: see solve_free_set
       type(equality_solution_t) :: solution
-      integer(lp) :: seen(MOST_FULL_STEPS)
+      integer(lp) :: seen(max(MOST_FULL_STEPS, problem%m/UNKNOWNS_A_STEP))
       integer(ip) :: step, changes
 
-      do step = 1, MOST_FULL_STEPS
+      do step = 1, size(seen, kind=ip)
          seen(step) = state_code(state)
          if (any(seen(:step - 1) == seen(step))) exit
          call put_at_bounds(bounds, state)
-         call solve_free_set(problem, bounds%d, state, solution, status)
+         call solve_free_set(problem, bounds%d, state, solution, status, kept)
          outcome%dependent = solution%dependent
          outcome%condition = solution%condition
          if (.not. is_ok(status)) return
@@ -58,7 +61,7 @@ contains
          return
       end do
       outcome%used_dual_steps = .true.
-      call take_dual_steps(problem, bounds, state, history, solution, outcome%solved, status)
+      call take_dual_steps(problem, bounds, state, history, solution, outcome%solved, status, kept)
       outcome%dependent = solution%dependent
       outcome%condition = solution%condition
       outcome%moves = solution%moves
@@ -82,10 +85,9 @@ contains
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       integer(ip), intent(out) :: changes
-      real(wp) :: slack, largest_pressure, slip_slack
+      real(wp) :: largest_pressure, slip_slack
       integer(ip) :: i, old
 
-      slack = closing_slack(problem, state)
       largest_pressure = maxval([abs(state%q(:problem%n_normal))/problem%weight(:problem%n_normal), 0.0_wp])
       changes = 0
       do i = 1, problem%m
@@ -99,7 +101,7 @@ contains
             end if
          case (AT_LOWER, AT_UPPER)
             ! a slipping point sticks again when its slip falls below the sticking one by more than round-off
-            slip_slack = slack + SLIPS*abs(bounds%d(i)*state%q(i))
+            slip_slack = state%slack + SLIPS*abs(bounds%d(i)*state%q(i))
             if (old == AT_LOWER .and. state%r(i) > slip_slack) state%state(i) = FREE
             if (old == AT_UPPER .and. state%r(i) < -slip_slack) state%state(i) = FREE
          end select

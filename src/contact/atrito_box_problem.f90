@@ -10,11 +10,14 @@
 !> motions at the points, h the loads' work on them (docs/theory/formulation.md, section 4).
 module atrito_box_problem
    use atrito_kinds, only: ip, wp
-   use atrito_dense, only: factor_cholesky, solve_cholesky, eigen_symmetric, multiply_vector, norm_one, estimate_condition
+   use atrito_dense, only: solve_cholesky, eigen_symmetric
+   use atrito_dense_blocks, only: multiply_symmetric
+   use atrito_kept_factor, only: free_system_t, solve_with_kept, scaled_product
+   use atrito_line_factor, only: line_factor_t, factor_free_set, condition_of, is_worth_keeping
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, residual, closing_slack
+   public :: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, set_residual
    public :: FREE, AT_LOWER, AT_UPPER, FROZEN, DEPENDENT_POINTS
 
    !> State of an unknown. FROZEN: q = 0 whatever r is (a point without friction).
@@ -41,6 +44,7 @@ module atrito_box_problem
       real(wp), allocatable :: q(:)              !< (m) [F]
       real(wp), allocatable :: a(:)              !< (k) [L]
       real(wp), allocatable :: r(:)              !< (m) [L]
+      real(wp) :: slack = 0.0_wp                 !< round-off of r: a fixed unknown is released when r is wrong by more [L]
    end type box_state_t
 
    !> What a solve with a given set of free unknowns found besides q, a, r.
@@ -54,124 +58,112 @@ module atrito_box_problem
 
    real(wp), parameter :: NULL_MOTION = 1.0e-12_wp  !< eigenvalue of a motion that the free set does not hold
    real(wp), parameter :: NO_LOAD = 1.0e-9_wp       !< part of the load in such a motion that is none
-   real(wp), parameter :: LEAST_PIVOT = 1.0e-13_wp  !< scaled; below it points depend on each other
+   real(wp), parameter :: CLOSES = 1.0e-14_wp       !< round-off of r, of the terms it is made of
    character(len=*), parameter :: DEPENDENT_POINTS = 'dependent contact points'
 
 contains
 
-   !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r. solution%moves: no equilibrium, and a is the
-   !> least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (solution%dependent).
-   subroutine solve_free_set(problem, d, state, solution, status)
+   !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. solution%moves: no equilibrium, and a is
+   !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (solution%dependent).
+   subroutine solve_free_set(problem, d, state, solution, status, kept)
       type(box_problem_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(inout) :: state
       type(equality_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
-      integer(ip), allocatable :: free_set(:)
-      real(wp), allocatable :: m(:, :), scale(:), gs(:, :), rhs(:), held(:), load(:), q(:)
-      integer(ip) :: i, n
+      !> Factor of an earlier solve, which serves again where it can, or of this one; solution%condition is left to condition_of.
+      type(line_factor_t), intent(inout), optional :: kept
+      type(line_factor_t) :: own
 
-      free_set = pack([(i, i=1, problem%m)], state%state == FREE)
-      n = size(free_set, kind=ip)
-      held = state%q
-      held(free_set) = 0.0_wp
-      rhs = problem%g0(free_set) - matmul(problem%c(free_set, :), held)
-      load = problem%h - matmul(transpose(problem%g), held)
-      allocate (m(n, n), scale(n), q(n))
-      call scaled_matrix(problem%c, d, free_set, m, scale)
-      gs = problem%g(free_set, :)
-      do i = 1, n
-         gs(i, :) = gs(i, :)*scale(i)
-      end do
-      call factor_scaled(m, free_set, solution, status)
-      if (.not. is_ok(status)) return
-      call solve_saddle(problem, d, free_set, m, scale, gs, rhs*scale, load, held, q, state%a, solution)
-      state%q(free_set) = q*scale
-      state%r = residual(problem, d, state)
+      if (present(kept)) then
+         call solve_with_factor(problem, d, kept, state, solution, status)
+      else
+         call solve_with_factor(problem, d, own, state, solution, status)
+         if (is_ok(status)) solution%condition = condition_of(own)
+      end if
    end subroutine solve_free_set
 
-   !> The matrix C + D of the free set, scaled to a unit diagonal.
-   pure subroutine scaled_matrix(c, d, free_set, m, scale)
-      real(wp), intent(in) :: c(:, :), d(:)
-      integer(ip), intent(in) :: free_set(:)
-      real(wp), intent(out) :: m(:, :), scale(:)
-      integer(ip) :: i, j
-
-      do i = 1, size(free_set, kind=ip)
-         scale(i) = 1.0_wp/sqrt(c(free_set(i), free_set(i)) + d(free_set(i)))
-      end do
-      do j = 1, size(free_set, kind=ip)
-         do i = 1, size(free_set, kind=ip)
-            m(i, j) = c(free_set(i), free_set(j))*scale(i)*scale(j)
-         end do
-         m(j, j) = 1.0_wp
-      end do
-   end subroutine scaled_matrix
-
-   subroutine factor_scaled(m, free_set, solution, status)
-      real(wp), intent(inout) :: m(:, :)
-      integer(ip), intent(in) :: free_set(:)
+   subroutine solve_with_factor(problem, d, factor, state, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(line_factor_t), intent(inout) :: factor
+      type(box_state_t), intent(inout) :: state
       type(equality_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
-      real(wp) :: norm
-      integer(ip) :: failed, i
+      type(free_system_t) :: system
+      real(wp), allocatable :: held(:), q(:)
+      logical :: solved
 
-      norm = norm_one(m)
-      call factor_cholesky(m, failed)
-      if (failed == 0) then
-         do i = 1, size(free_set, kind=ip)
-            if (m(i, i)**2 < LEAST_PIVOT) failed = i
-         end do
+      call free_system(problem, d, state, held, system)
+      q = state%q(system%set)/system%scale
+      solved = .false.
+      if (is_worth_keeping(size(q, kind=ip))) call solve_with_kept(factor, problem%c, system, q, state%a, solved)
+      if (.not. solved) then
+         call factor_free_set(problem%c, d, system%set, factor, solution%dependent)
+         if (solution%dependent > 0) then
+            call set_status(status, STATUS_SINGULAR, DEPENDENT_POINTS)
+            return
+         end if
+         call solve_saddle(problem, factor%matrix, system, held, q, state%a, solution)
       end if
-      if (failed > 0) then
-         solution%dependent = free_set(failed)
-         call set_status(status, STATUS_SINGULAR, DEPENDENT_POINTS)
-         return
-      end if
-      solution%condition = estimate_condition(m, norm)
-   end subroutine factor_scaled
+      state%q(system%set) = q*system%scale
+      call set_residual(problem, d, state)
+   end subroutine solve_with_factor
 
-   !> [M -G; -G' 0] [q; a] = [rhs; -load] by the complement of M, with one refinement.
-   subroutine solve_saddle(problem, d, free_set, factor, scale, gs, rhs, load, held, q, a, solution)
+   !> The equations of the free unknowns, scaled to a unit diagonal of C + D.
+   subroutine free_system(problem, d, state, held, system)
       type(box_problem_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
-      integer(ip), intent(in) :: free_set(:)
-      real(wp), intent(in) :: factor(:, :), scale(:), gs(:, :), rhs(:), load(:), held(:)
+      type(box_state_t), intent(in) :: state
+      real(wp), allocatable, intent(out) :: held(:) !< (m) forces of the fixed unknowns
+      type(free_system_t), intent(out) :: system
+      real(wp) :: moved(problem%m)
+      integer(ip) :: i
+
+      system%set = pack([(i, i=1, problem%m)], state%state == FREE)
+      held = state%q
+      held(system%set) = 0.0_wp
+      system%d = d(system%set)
+      system%scale = [(1.0_wp/sqrt(problem%c(system%set(i), system%set(i)) + system%d(i)), i=1, size(system%set, kind=ip))]
+      moved = 0.0_wp
+      if (any(held /= 0.0_wp)) call multiply_symmetric(problem%c, held, moved)
+      system%rhs = (problem%g0(system%set) - moved(system%set))*system%scale
+      system%load = problem%h - matmul(transpose(problem%g), held)
+      system%g = problem%g(system%set, :)
+      do i = 1, size(system%set, kind=ip)
+         system%g(i, :) = system%g(i, :)*system%scale(i)
+      end do
+   end subroutine free_system
+
+   !> [M -G; -G' 0] [q; a] = [rhs; -load] by the complement of M, with one refinement.
+   subroutine solve_saddle(problem, factor, system, held, q, a, solution)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: factor(:, :)       !< of M
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: held(:)            !< (m) forces of the fixed unknowns
       real(wp), intent(out) :: q(:)              !< scaled
       real(wp), intent(inout) :: a(:)
       type(equality_solution_t), intent(inout) :: solution
       real(wp), allocatable :: y(:, :), values(:), vectors(:, :), column_scale(:), x(:), correction(:), da(:)
 
-      y = gs
-      call solve_cholesky(factor, y)
-      call complement_modes(gs, y, vectors, values, column_scale)
-      x = rhs
-      call solve_cholesky(factor, x)
-      call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), x), a)
-      q = x + matmul(y, a)
-      ! one refinement: the residual of both equations with the same factors
-      correction = rhs + matmul(gs, a) - scaled_product(problem%c, d, free_set, scale, q)
-      call solve_cholesky(factor, correction)
-      allocate (da, mold=a)
-      call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
-      q = q + correction + matmul(y, da)
-      a = a + da
-      call judge_motions(problem, vectors, values, column_scale, gs, load, held, q, solution)
+      associate (gs => system%g, rhs => system%rhs, load => system%load)
+         y = gs
+         call solve_cholesky(factor, y)
+         call complement_modes(gs, y, vectors, values, column_scale)
+         x = rhs
+         call solve_cholesky(factor, x)
+         call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), x), a)
+         q = x + matmul(y, a)
+         ! one refinement: the residual of both equations with the same factors
+         correction = rhs + matmul(gs, a) - scaled_product(problem%c, system, q)
+         call solve_cholesky(factor, correction)
+         allocate (da, mold=a)
+         call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
+         q = q + correction + matmul(y, da)
+         a = a + da
+         call judge_motions(problem, vectors, values, column_scale, gs, load, held, q, solution)
+      end associate
    end subroutine solve_saddle
-
-   !> (C + D) q of the free set in scaled form.
-   function scaled_product(c, d, free_set, scale, q) result(product)
-      real(wp), intent(in) :: c(:, :), d(:), scale(:), q(:)
-      integer(ip), intent(in) :: free_set(:)
-      real(wp) :: product(size(q))
-      real(wp), allocatable :: force(:), moved(:)
-
-      allocate (force(size(c, 1)), source=0.0_wp)
-      allocate (moved(size(c, 1)))
-      force(free_set) = q*scale
-      call multiply_vector(c, force, moved)
-      product = (moved(free_set) + d(free_set)*force(free_set))*scale
-   end function scaled_product
 
    !> Eigenvectors and eigenvalues of G' M^-1 G, scaled to a unit diagonal: how firmly the free set holds each motion.
    subroutine complement_modes(gs, y, vectors, values, column_scale)
@@ -237,27 +229,18 @@ contains
       solution%motion = motion*column_scale
    end subroutine judge_motions
 
-   !> r = g0 - (C + D) q + G a.
-   function residual(problem, d, state) result(r)
+   !> Sets r = g0 - (C + D) q + G a and its round-off.
+   subroutine set_residual(problem, d, state)
       type(box_problem_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
-      type(box_state_t), intent(in) :: state
-      real(wp) :: r(problem%m)
+      type(box_state_t), intent(inout) :: state
+      real(wp) :: cq(problem%m), moved(problem%m)
 
-      call multiply_vector(problem%c, state%q, r)
-      r = problem%g0 - r - d*state%q + matmul(problem%g, state%a)
-   end function residual
-
-   !> Round-off of r: a fixed unknown is released when r breaks its sign by more than this.
-   function closing_slack(problem, state) result(slack)
-      type(box_problem_t), intent(in) :: problem
-      type(box_state_t), intent(in) :: state
-      real(wp) :: slack
-      real(wp) :: cq(problem%m)
-
-      call multiply_vector(problem%c, state%q, cq)
-      slack = 1.0e-14_wp*(largest(problem%g0) + largest(cq) + largest(matmul(problem%g, state%a)))
-   end function closing_slack
+      call multiply_symmetric(problem%c, state%q, cq)
+      moved = matmul(problem%g, state%a)
+      state%r = problem%g0 - cq - d*state%q + moved
+      state%slack = CLOSES*(largest(problem%g0) + largest(cq) + largest(moved))
+   end subroutine set_residual
 
    pure real(wp) function largest(x)
       real(wp), intent(in) :: x(:)

@@ -21,6 +21,7 @@ module atrito_contact_line
       real(wp), allocatable :: known_overlap(:)       !< u_n - s [L] where normal is 0
       real(wp), allocatable :: known_slip(:)          !< u_T [L] where tangential is 0 for prescribed dofs
       integer(ip), allocatable :: point(:)            !< (unknowns) point of each
+      integer(ip), allocatable :: pair(:)             !< (n) contact pair of each, ascending; not allocated: one
       logical :: has_friction = .false.
    end type contact_line_t
 

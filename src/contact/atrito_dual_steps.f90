@@ -9,8 +9,9 @@
 !>         does, there is no equilibrium.
 module atrito_dual_steps
    use atrito_kinds, only: ip, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, closing_slack, &
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, &
                                  FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_line_factor, only: line_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
@@ -26,7 +27,7 @@ module atrito_dual_steps
 contains
 
    !> Goes on from state%state until all conditions hold (solved), there is no equilibrium (solution%moves), or too many solves.
-   subroutine take_dual_steps(problem, bounds, state, history, solution, solved, status)
+   subroutine take_dual_steps(problem, bounds, state, history, solution, solved, status, kept)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
@@ -34,23 +35,24 @@ contains
       type(equality_solution_t), intent(out) :: solution
       logical, intent(out) :: solved
       type(status_t), intent(out) :: status
+      type(line_factor_t), intent(inout), optional :: kept
       integer(ip) :: left, worst, bound
 
       solved = .false.
       left = SOLVES_PER_UNKNOWN*problem%m + 50
-      call release_until_right(problem, bounds, state, history, solution, left, status)
+      call release_until_right(problem, bounds, state, history, solution, left, status, kept)
       do while (is_ok(status) .and. left > 0 .and. .not. solution%moves)
          call find_worst(problem, bounds, state, worst, bound)
          if (worst == 0) then
             solved = .true.
             return
          end if
-         call drive_to_bound(problem, bounds, worst, bound, state, history, solution, left, status)
+         call drive_to_bound(problem, bounds, worst, bound, state, history, solution, left, status, kept)
       end do
    end subroutine take_dual_steps
 
    !> (i) and, where a body is free, (iii).
-   subroutine release_until_right(problem, bounds, state, history, solution, left, status)
+   subroutine release_until_right(problem, bounds, state, history, solution, left, status, kept)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
@@ -58,19 +60,19 @@ contains
       type(equality_solution_t), intent(out) :: solution
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
-      real(wp) :: slack, t
+      type(line_factor_t), intent(inout), optional :: kept
+      real(wp) :: t
       integer(ip) :: i, released, first
 
       do while (left > 0)
          where (state%state == AT_LOWER) state%q = bounds%lower
          where (state%state == AT_UPPER) state%q = bounds%upper
          where (state%state == FROZEN) state%q = 0.0_wp
-         call solve_and_record(problem, bounds, state, history, solution, left, status)
+         call solve_and_record(problem, bounds, state, history, solution, left, status, kept)
          if (.not. is_ok(status)) return
-         slack = closing_slack(problem, state)
          released = 0
          do i = 1, problem%m
-            if (sign_of(state%state(i))*state%r(i) >= -slack) cycle
+            if (sign_of(state%state(i))*state%r(i) >= -state%slack) cycle
             state%state(i) = FREE
             released = released + 1
          end do
@@ -84,7 +86,7 @@ contains
    end subroutine release_until_right
 
    !> (ii) and (iii) for one unknown.
-   subroutine drive_to_bound(problem, bounds, i, bound, state, history, solution, left, status)
+   subroutine drive_to_bound(problem, bounds, i, bound, state, history, solution, left, status, kept)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       integer(ip), intent(in) :: i                   !< free, beyond its bound
@@ -94,6 +96,7 @@ contains
       type(equality_solution_t), intent(out) :: solution
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
+      type(line_factor_t), intent(inout), optional :: kept
       type(box_state_t) :: target
       real(wp) :: t, motion(problem%k)
       integer(ip) :: first
@@ -102,7 +105,7 @@ contains
       do while (left > 0)
          target = state
          target%q(i) = merge(bounds%lower(i), bounds%upper(i), bound == AT_LOWER)
-         call solve_and_record(problem, bounds, target, history, solution, left, status)
+         call solve_and_record(problem, bounds, target, history, solution, left, status, kept)
          if (.not. is_ok(status)) exit
          if (solution%moves) then
             motion = opening_motion(problem, i, bound, solution%motion)
@@ -126,7 +129,7 @@ contains
       state%state(i) = bound
    end subroutine drive_to_bound
 
-   subroutine solve_and_record(problem, bounds, state, history, solution, left, status)
+   subroutine solve_and_record(problem, bounds, state, history, solution, left, status, kept)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
@@ -134,8 +137,9 @@ contains
       type(equality_solution_t), intent(out) :: solution
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
+      type(line_factor_t), intent(inout), optional :: kept
 
-      call solve_free_set(problem, bounds%d, state, solution, status)
+      call solve_free_set(problem, bounds%d, state, solution, status, kept)
       left = left - 1
       if (is_ok(status)) call record_solve(history, problem, bounds, state)
    end subroutine solve_and_record

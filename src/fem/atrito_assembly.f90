@@ -9,7 +9,7 @@ module atrito_assembly
    use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
    use atrito_element_store, only: element_store_t, pack_matrix
-   use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile
+   use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_storage, only: storage_t
    use atrito_threads, only: is_shared, run_count, find_run, RUN_LENGTH
    implicit none (type, external)
@@ -47,7 +47,8 @@ module atrito_assembly
 
 contains
 
-   !> Column heights of a body's matrix.
+   !> Column heights of a body's matrix; where it is not numbered for its profile, those that are to be expected if it were: a
+   !> column reaches over two rows of nodes across the shorter side of the box round the body.
    subroutine body_profile(fem, i_body, profile)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -55,6 +56,11 @@ contains
       integer(ip) :: i
 
       associate (body => fem%bodies%list(i_body))
+         if (.not. body%by_profile) then
+            call expect_profile(profile, body%n, body%n_kept, 4_ip + &
+                                int(2.0_wp*sqrt(real(size(body%nodes), wp)*body%slenderness), ip))
+            return
+         end if
          call begin_profile(profile, body%n, body%n_kept)
          do i = 1, size(body%elements, kind=ip)
             call add_to_profile(profile, element_equations(fem%mesh, fem%bodies, body%elements(i)))

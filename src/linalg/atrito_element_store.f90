@@ -2,6 +2,7 @@
 !>
 !> Elements that share one matrix with the element before share its place in memory: a regular mesh has a single matrix.
 module atrito_element_store
+   use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
@@ -37,11 +38,11 @@ contains
 
       m = size(equations, kind=ip)
       if (store%n + 2 > size(store%start)) then
-         call grow_starts(store%start)
-         call grow_numbers(store%matrix_of, 2*size(store%matrix_of, kind=lp))
+         call grow(store%start, 2*size(store%start, kind=lp))
+         call grow(store%matrix_of, 2*size(store%matrix_of, kind=lp))
       end if
       first = store%start(store%n + 1)
-      if (first + m > size(store%equations, kind=lp)) call grow_numbers(store%equations, 2*(first + m))
+      if (first + m > size(store%equations, kind=lp)) call grow(store%equations, 2*(first + m))
       store%n = store%n + 1
       store%equations(first + 1:first + m) = equations
       store%start(store%n + 1) = first + m
@@ -74,10 +75,10 @@ contains
       real(wp), intent(in) :: matrix(m, m)
       integer(lp) :: first, last
 
-      if (store%n_matrices + 2 > size(store%matrix_start)) call grow_starts(store%matrix_start)
+      if (store%n_matrices + 2 > size(store%matrix_start)) call grow(store%matrix_start, 2*size(store%matrix_start, kind=lp))
       first = store%matrix_start(store%n_matrices + 1)
       last = first + int(m, lp)*int(m + 1, lp)/2
-      if (last > size(store%values, kind=lp)) call grow_values(store%values, 2*last)
+      if (last > size(store%values, kind=lp)) call grow(store%values, 2*last)
       store%n_matrices = store%n_matrices + 1
       call pack_matrix(matrix, store%values(first + 1:last))
       store%matrix_start(store%n_matrices + 1) = last
@@ -129,34 +130,5 @@ contains
       from%n = 0
       from%n_matrices = 0
    end subroutine move_store
-
-   pure subroutine grow_numbers(list, length)
-      integer(ip), allocatable, intent(inout) :: list(:)
-      integer(lp), intent(in) :: length
-      integer(ip), allocatable :: longer(:)
-
-      allocate (longer(length))
-      longer(:size(list)) = list
-      call move_alloc(longer, list)
-   end subroutine grow_numbers
-
-   pure subroutine grow_starts(list)
-      integer(lp), allocatable, intent(inout) :: list(:)
-      integer(lp), allocatable :: longer(:)
-
-      allocate (longer(2*size(list, kind=lp)))
-      longer(:size(list)) = list
-      call move_alloc(longer, list)
-   end subroutine grow_starts
-
-   pure subroutine grow_values(list, length)
-      real(wp), allocatable, intent(inout) :: list(:)
-      integer(lp), intent(in) :: length
-      real(wp), allocatable :: longer(:)
-
-      allocate (longer(length))
-      longer(:size(list)) = list
-      call move_alloc(longer, list)
-   end subroutine grow_values
 
 end module atrito_element_store

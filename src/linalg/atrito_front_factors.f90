@@ -153,13 +153,14 @@ contains
       integer(ip) :: wave, u
 
       do wave = 1, maxval(units%wave)
+         !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
          do u = 1, size(units, kind=ip)
             if (units(u)%wave /= wave) cycle
             !$omp task default(none) shared(tree, store, diagonal, units, factors) firstprivate(u)
             call factor_unit(tree, store, diagonal, units(u), factors)
             !$omp end task
          end do
-         !$omp taskwait
+         !$omp end taskgroup
       end do
    end subroutine factor_waves
 

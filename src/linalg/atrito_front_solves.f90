@@ -6,6 +6,7 @@ module atrito_front_solves
    use atrito_front, only: packed_length
    use atrito_front_factors, only: factor_t
    use atrito_front_tree, only: front_tree_t, HEADER
+   use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
@@ -242,14 +243,10 @@ contains
    pure subroutine make_room(stack, m)
       type(stack_t), intent(inout) :: stack
       integer(ip), intent(in) :: m
-      real(wp), allocatable :: longer(:)
       integer(lp), parameter :: LEAST = 1024_lp
 
       if (.not. allocated(stack%entries)) allocate (stack%entries(max(LEAST, int(m, lp))))
-      if (stack%top + m <= size(stack%entries, kind=lp)) return
-      allocate (longer(2*(stack%top + m)))
-      longer(:stack%top) = stack%entries(:stack%top)
-      call move_alloc(longer, stack%entries)
+      if (stack%top + m > size(stack%entries, kind=lp)) call grow(stack%entries, 2*(stack%top + m))
    end subroutine make_room
 
    pure subroutine add_entries(m, places, entries, front)

@@ -3,7 +3,8 @@ module atrito_lapack
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpbtrf, dpocon, dpotrf, dpotrs, dsyev, dsyrk, dtbtrs, dtrsm, ilaver
+   public :: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpbtrf, dpocon, dpotrf, dpotrs, dsyev, dsymv, dsyrk, dtbtrs, dtrsm, dtrsv, &
+             ilaver
 
    interface
 
@@ -25,6 +26,15 @@ module atrito_lapack
          real(wp), intent(inout) :: y(*)
       end subroutine dgemv
 
+      !> y := alpha a x + beta y, a symmetric, one triangle
+      pure subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: ip, wp
+         character(len=1), intent(in) :: uplo
+         integer(ip), intent(in) :: n, lda, incx, incy
+         real(wp), intent(in) :: alpha, beta, a(lda, *), x(*)
+         real(wp), intent(inout) :: y(*)
+      end subroutine dsymv
+
       !> c := alpha op(a) op(a)' + beta c, one triangle
       pure subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
          import :: ip, wp
@@ -42,6 +52,15 @@ module atrito_lapack
          real(wp), intent(in) :: alpha, a(lda, *)
          real(wp), intent(inout) :: b(ldb, *)
       end subroutine dtrsm
+
+      !> x := op(a)^-1 x, a triangular
+      pure subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
+         import :: ip, wp
+         character(len=1), intent(in) :: uplo, trans, diag
+         integer(ip), intent(in) :: n, lda, incx
+         real(wp), intent(in) :: a(lda, *)
+         real(wp), intent(inout) :: x(*)
+      end subroutine dtrsv
 
       !> LU with partial pivoting, and solution
       pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)

@@ -8,7 +8,7 @@ module atrito_profile
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: profile_t, begin_profile, add_to_profile, close_profile
+   public :: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    public :: profile_length, half_bandwidth, largest_height, mean_height, first_coupled_row
    public :: skyline_flops, banded_flops, sparse_flops, skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    public :: BAND_BLOCK
@@ -74,6 +74,21 @@ contains
          profile%first(j) = min(profile%first(j), n_interior + 1)
       end do
    end subroutine close_profile
+
+   !> A profile of columns of one height, closed.
+   pure subroutine expect_profile(profile, n, n_kept, height)
+      type(profile_t), intent(out) :: profile
+      integer(ip), intent(in) :: n, n_kept
+      integer(ip), intent(in) :: height         !< >= 1
+      integer(ip) :: j
+
+      call begin_profile(profile, n, n_kept)
+      do j = height + 1, n
+         profile%first(j) = j - height + 1
+      end do
+      profile%first(:min(height, n)) = 1
+      call close_profile(profile)
+   end subroutine expect_profile
 
    !> Entries within the profile, diagonals included.
    pure integer(lp) function profile_length(profile)

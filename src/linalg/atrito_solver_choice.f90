@@ -1,6 +1,7 @@
 !> The solvers for the bodies by kind.
 module atrito_solver_choice
    use atrito_banded, only: banded_t
+   use atrito_kinds, only: ip
    use atrito_multifrontal, only: multifrontal_t
    use atrito_mumps, only: mumps_t
    use atrito_skyline, only: skyline_t
@@ -8,14 +9,26 @@ module atrito_solver_choice
    implicit none (type, external)
    private
    public :: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
+   public :: needs_profile
 
    integer, parameter :: STORAGE_SKYLINE = 1
    integer, parameter :: STORAGE_BANDED = 2
    integer, parameter :: STORAGE_SPARSE = 3
    integer, parameter :: STORAGE_MUMPS = 4
    integer, parameter :: N_STORAGES = 4
+   !> Equations from which on a body gets the sparse solver unasked. It pays from a twentieth of that on: docs/performance.md.
+   integer(ip), parameter :: LEAST_SPARSE = 32000_ip
 
 contains
+
+   !> Whether a body of n equations is to be numbered for its profile: it is not when it gets a solver with an order of its own.
+   pure logical function needs_profile(asked, n)
+      integer, intent(in) :: asked                               !< STORAGE_* or 0 for the choice
+      integer(ip), intent(in) :: n
+
+      needs_profile = asked == STORAGE_SKYLINE .or. asked == STORAGE_BANDED
+      if (asked == 0) needs_profile = n < LEAST_SPARSE
+   end function needs_profile
 
    !> An empty storage of a kind; not allocated when the kind is none of STORAGE_*.
    subroutine new_storage(kind, storage)

@@ -16,8 +16,10 @@ module atrito_bodies
       integer(ip), allocatable :: nodes(:)     !< after number_equations in the order of their equations
       integer(ip) :: n = 0                     !< equations
       integer(ip) :: n_kept = 0                !< the last ones: the free dofs of the contact nodes
+      logical :: by_profile = .true.           !< numbered for a small profile, and not as the nodes come
       real(wp) :: centre(2) = 0.0_wp           !< [L], middle of the nodes
       real(wp) :: size = 1.0_wp                !< [L], largest distance from the centre
+      real(wp) :: slenderness = 1.0_wp         !< shorter over longer side of the box round the nodes
       real(wp), allocatable :: modes(:, :)     !< (3, n_modes): translations along 1 and 2, rotation about the centre at `size`
    end type body_t
 
@@ -108,24 +110,27 @@ contains
       high = maxval(mesh%x(:, body%nodes), dim=2)
       body%centre = 0.5_wp*low + 0.5_wp*high
       body%size = 0.5_wp*norm2(high - low)
+      body%slenderness = minval(high - low)/maxval(high - low)
    end subroutine measure_body
 
-   !> Numbers the equations of a body so that the profile is small and the contact nodes come last, in their chain order.
-   subroutine number_equations(mesh, bodies, i_body, held, contact_nodes)
+   !> Numbers the equations of a body so that the profile is small and the contact nodes come last, in their chain order. A solver
+   !> with an order of its own does not need the former: without `by_profile` the other nodes stay in the order they have.
+   subroutine number_equations(mesh, bodies, i_body, held, contact_nodes, by_profile)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(inout) :: bodies
       integer(ip), intent(in) :: i_body
       logical, intent(in) :: held(:, :)             !< (2, n_nodes): prescribed dofs
       integer(ip), intent(in) :: contact_nodes(:)   !< of this body, each once
-      integer(ip), allocatable :: local(:), order(:)
-      type(graph_t) :: graph
+      logical, intent(in) :: by_profile
       integer(ip) :: i, dof, node
 
       associate (body => bodies%list(i_body))
-         call body_graph(mesh, body, local, graph)
-         allocate (order(size(body%nodes)))
-         call order_contact_last(graph, local(contact_nodes), order, connected=.true.)
-         body%nodes = body%nodes(order)
+         body%by_profile = by_profile
+         if (by_profile) then
+            call order_by_profile(mesh, body, contact_nodes)
+         else
+            call put_last(mesh%n_nodes, contact_nodes, body%nodes)
+         end if
          body%n = 0
          body%n_kept = 0
          do i = 1, size(body%nodes, kind=ip)
@@ -140,6 +145,31 @@ contains
          end do
       end associate
    end subroutine number_equations
+
+   subroutine order_by_profile(mesh, body, contact_nodes)
+      type(mesh_t), intent(in) :: mesh
+      type(body_t), intent(inout) :: body
+      integer(ip), intent(in) :: contact_nodes(:)
+      integer(ip), allocatable :: local(:), order(:)
+      type(graph_t) :: graph
+
+      call body_graph(mesh, body, local, graph)
+      allocate (order(size(body%nodes)))
+      call order_contact_last(graph, local(contact_nodes), order, connected=.true.)
+      body%nodes = body%nodes(order)
+   end subroutine order_by_profile
+
+   !> Moves some of the nodes to the end of a list, in their own order.
+   pure subroutine put_last(n_nodes, last, nodes)
+      integer(ip), intent(in) :: n_nodes            !< of the mesh
+      integer(ip), intent(in) :: last(:)
+      integer(ip), intent(inout) :: nodes(:)
+      logical :: comes_last(n_nodes)
+
+      comes_last = .false.
+      comes_last(last) = .true.
+      nodes = [pack(nodes,.not. comes_last(nodes)), last]
+   end subroutine put_last
 
    !> The graph of a body's nodes, numbered by their places in body%nodes.
    pure subroutine body_graph(mesh, body, local, graph)

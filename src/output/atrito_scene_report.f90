@@ -77,8 +77,7 @@ contains
       logical, intent(in) :: factored
 
       if (allocated(body%reason)) then
-         call add_paragraph(page, text_of(body%name)//': '//text_of(body%storage)//', '//body%reason// &
-                            ' (half bandwidth '//to_text(body%half_bandwidth)//')', 3)
+         call add_paragraph(page, text_of(body%name)//': '//text_of(body%storage)//', '//body%reason//bandwidth_text(body), 3)
       end if
       if (.not. factored) return
       if (body%worst_node > 0) then
@@ -90,6 +89,15 @@ contains
                             //' tell where', 3)
       end if
    end subroutine add_solver_remarks
+
+   !> Of a storage that it tells something about.
+   pure function bandwidth_text(body) result(text)
+      type(body_result_t), intent(in) :: body
+      character(len=:), allocatable :: text
+
+      text = ' (half bandwidth '//to_text(body%half_bandwidth)//')'
+      if (text_of(body%storage) == 'sparse' .or. text_of(body%storage) == 'mumps') text = ''
+   end function bandwidth_text
 
    pure function text_of(text) result(given)
       character(len=:), allocatable, intent(in) :: text

@@ -7,19 +7,21 @@ module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
    use atrito_bodies, only: mode_at, order_by_dissection
-   use atrito_dense, only: factor_cholesky, solve_cholesky, orthonormalise, multiply
+   use atrito_dense, only: solve_cholesky, orthonormalise, multiply
+   use atrito_dense_blocks, only: add_inverse_form, factor_in_blocks
    use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, &
-                                   STORAGE_MUMPS
+   use atrito_solver_choice, only: new_storage, needs_profile, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, &
+                                   STORAGE_SPARSE, STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_storage, only: storage_t
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, expand_body, motion_text
+   public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, add_flexibilities, expand_body, &
+             motion_text
 
    type :: condensed_body_t
       class(storage_t), allocatable :: storage
@@ -33,10 +35,9 @@ module atrito_condensed_body
    real(wp), parameter :: BAND_SPEED = 2.2_wp
    !> The same of the fronts of the sparse solver.
    real(wp), parameter :: SPARSE_SPEED = 2.0_wp
-   !> What its order, tree and solves take beyond the skyline's: for an equation, and to begin with.
-   real(wp), parameter :: SPARSE_OVERHEAD = 1500.0_wp, SPARSE_START = 2.0e6_wp
-   !> Equations from which on a body gets the sparse solver unasked. It pays from a twentieth of that on: docs/performance.md.
-   integer(ip), parameter :: LEAST_SPARSE = 32000_ip
+   !> What assembly and solves take in the time of so many of them: for an equation, and for the sparse solver to begin with.
+   real(wp), parameter :: SKYLINE_OVERHEAD = 1600.0_wp, BAND_OVERHEAD = 2500.0_wp, SPARSE_OVERHEAD = 1000.0_wp, &
+                          SPARSE_START = 2.0e6_wp
 
 contains
 
@@ -54,8 +55,8 @@ contains
          kind = asked
          result%reason = 'asked for'
       else
-         kind = minloc(cost(:STORAGE_BANDED), dim=1)
-         if (profile%n >= LEAST_SPARSE .and. cost(STORAGE_SPARSE) < cost(kind)) kind = STORAGE_SPARSE
+         kind = STORAGE_SPARSE
+         if (needs_profile(asked, profile%n)) kind = minloc(cost(:STORAGE_BANDED), dim=1)
          second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
       end if
@@ -72,8 +73,8 @@ contains
       type(profile_t), intent(in) :: profile
       real(wp) :: cost(N_STORAGES)
 
-      cost(STORAGE_SKYLINE) = skyline_flops(profile)
-      cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED
+      cost(STORAGE_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
+      cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
       cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
       cost(STORAGE_MUMPS) = cost(STORAGE_SPARSE)
    end function predict_costs
@@ -227,7 +228,7 @@ contains
          qs = alpha*q(:, :rank)
          call multiply(q(:, :rank), qs, body%factor, transb=.true., beta=1.0_wp)
       end if
-      call factor_cholesky(body%factor, failed)
+      call factor_in_blocks(body%factor, failed)
       if (failed == 0) return
       call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name &
                       //': its stiffness seen from the contact line is not positive')
@@ -282,6 +283,17 @@ contains
 
       call solve_cholesky(body%factor, x)
    end subroutine contact_response
+
+   !> Adds B F B' to C for rows B on the contact dofs.
+   subroutine add_flexibilities(body, forces, first, place, c)
+      type(condensed_body_t), intent(in) :: body
+      real(wp), intent(inout), contiguous :: forces(:, :) !< (n_kept, rows) B'; destroyed
+      integer(ip), intent(in) :: first(:)          !< (rows) first entry of each that is not zero, ascending
+      integer(ip), intent(in) :: place(:)          !< (rows) of each in C
+      real(wp), intent(inout), contiguous :: c(:, :) !< [L/F]
+
+      call add_inverse_form(body%factor, forces, first, place, c)
+   end subroutine add_flexibilities
 
    !> Displacements of all free dofs from those of the contact dofs; without any, the plain solution.
    subroutine expand_body(fem, i_body, body, u_contact, u)

@@ -5,7 +5,7 @@ module atrito_contact_problem
    use atrito_average, only: average_t, build_average, append_average
    use atrito_bodies, only: mode_at
    use atrito_box_problem, only: box_problem_t
-   use atrito_condensed_body, only: condensed_body_t, contact_response
+   use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
@@ -30,11 +30,12 @@ contains
       integer(ip) :: i, j, first
 
       line%n = rows%n
-      allocate (line%weight(line%n), line%delta(line%n), line%law(line%n))
+      allocate (line%weight(line%n), line%delta(line%n), line%law(line%n), line%pair(line%n))
       allocate (line%known_overlap(line%n), line%known_slip(line%n))
       first = 0
       do i = 1, size(points, kind=ip)
          associate (interaction => model%interactions(model%pairs(i)%interaction), last => first + points(i)%n)
+            line%pair(first + 1:last) = i
             line%weight(first + 1:last) = points(i)%weight
             line%delta(first + 1:last) = interaction%delta
             line%law(first + 1:last) = law_of(interaction)
@@ -132,26 +133,53 @@ contains
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(box_problem_t), intent(inout) :: problem
-      real(wp), allocatable :: moved(:, :)
-      integer(ip) :: j, n, m
+      real(wp), allocatable :: forces(:, :), moved(:, :)
+      integer(ip), allocatable :: first(:), order(:)
+      integer(ip) :: i, j, n
       integer(ip) :: dofs(2*(size(rows%node, 1)))
       real(wp) :: coefficients(size(dofs))
 
       n = fem%bodies%list(i_body)%n_kept
-      m = problem%m
       if (n == 0) return
-      allocate (moved(n, m + 1), source=0.0_wp)
-      do j = 1, m
-         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
-         call scatter(dofs, coefficients, moved(:, j))
-      end do
-      moved(:, m + 1) = condensed%load(size(condensed%load, 1) - n + 1:, 1)
+      moved = condensed%load(size(condensed%load, 1) - n + 1:, :)
       call contact_response(condensed, moved)
-      do j = 1, m
+      allocate (first(problem%m))
+      do j = 1, problem%m
          call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
-         call gather(dofs, coefficients, moved, problem%c(j, :), problem%g0(j))
+         first(j) = minval(dofs, mask=dofs > 0)      ! huge where there is none
+         problem%g0(j) = problem%g0(j) + sum(coefficients*moved(max(dofs, 1_ip), 1))
       end do
+      order = places_in_order(first, n)
+      allocate (forces(n, size(order)), source=0.0_wp)
+      do i = 1, size(order, kind=ip)
+         j = order(i)
+         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
+         call scatter(dofs, coefficients, forces(:, i))
+      end do
+      call add_flexibilities(condensed, forces, first(order), order, problem%c)
    end subroutine add_flexibility
+
+   !> The places of the values from 1 to n, in ascending order of the values.
+   pure function places_in_order(value, n) result(order)
+      integer(ip), intent(in) :: value(:), n
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: next(n + 1), i, v
+
+      next = 0
+      do i = 1, size(value, kind=ip)
+         if (value(i) <= n) next(value(i) + 1) = next(value(i) + 1) + 1
+      end do
+      next(1) = 1
+      do v = 1, n
+         next(v + 1) = next(v + 1) + next(v)
+      end do
+      allocate (order(next(n + 1) - 1))
+      do i = 1, size(value, kind=ip)
+         if (value(i) > n) cycle
+         order(next(value(i))) = i
+         next(value(i)) = next(value(i)) + 1
+      end do
+   end function places_in_order
 
    !> The entries of a row on the contact dofs of a body; dof 0 beyond them.
    pure subroutine row_entries(fem, i_body, rows, point, direction, dofs, coefficients)
@@ -188,19 +216,6 @@ contains
          if (dofs(k) > 0) column(dofs(k)) = column(dofs(k)) + coefficients(k)
       end do
    end subroutine scatter
-
-   pure subroutine gather(dofs, coefficients, moved, c_row, g0)
-      integer(ip), intent(in) :: dofs(:)
-      real(wp), intent(in) :: coefficients(:), moved(:, :)
-      real(wp), intent(inout) :: c_row(:), g0
-      integer(ip) :: k
-
-      do k = 1, size(dofs, kind=ip)
-         if (dofs(k) == 0) cycle
-         c_row = c_row + coefficients(k)*moved(dofs(k), :size(c_row))
-         g0 = g0 + coefficients(k)*moved(dofs(k), size(moved, 2))
-      end do
-   end subroutine gather
 
    !> Adds the rigid motions of one body: G = B Z, h = Z' f.
    subroutine add_motions(fem, i_body, rows, line, f, problem)

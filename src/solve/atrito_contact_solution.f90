@@ -5,11 +5,13 @@ module atrito_contact_solution
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, set_friction_bounds
    use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
+   use atrito_line_factor, only: line_factor_t, condition_of
    use atrito_solve_history, only: solve_history_t
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, outer_controls_t, solve_with_bound, has_settled, relative_residual
+   public :: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, may_be_round_off, &
+             relative_residual
 
    real(wp), parameter :: MOST_ROUND_OFF = 1.0e-7_wp
 
@@ -24,7 +26,8 @@ module atrito_contact_solution
       type(box_bounds_t) :: bounds
       type(box_state_t) :: state
       type(solve_history_t) :: history
-      type(box_outcome_t) :: inner                    !< of the last inner problem
+      type(box_outcome_t) :: inner                    !< of the last inner problem; its condition after judge_condition
+      type(line_factor_t) :: factor                   !< of the last solve, or of one near it
       real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
       logical :: converged = .false.
       character(len=:), allocatable :: verdict        !< why not
@@ -45,12 +48,20 @@ contains
 
       solution%tau = tau
       call set_friction_bounds(line, problem, tau, solution%bounds, solution%state)
-      call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status)
+      call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
+                     solution%factor)
       if (.not. is_ok(status)) return
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, tau)
       image = friction_bound(line, solution%p)
    end subroutine solve_with_bound
+
+   !> Estimates the condition of the last solve, which takes as long as some solutions with its factor.
+   subroutine judge_condition(solution)
+      type(contact_solution_t), intent(inout) :: solution
+
+      solution%inner%condition = condition_of(solution%factor)
+   end subroutine judge_condition
 
    !> |image - tau| / |tau|, in the largest norm; 0 when both vanish.
    pure real(wp) function relative_residual(tau, image) result(residual)
@@ -74,8 +85,15 @@ contains
       real(wp), intent(in) :: residual
 
       settled = residual <= tolerance
-      if (last_residual < 0.0_wp .or. residual > min(EPS_MACH*condition, MOST_ROUND_OFF)) return
-      settled = settled .or. residual > 0.5_wp*last_residual
+      if (settled .or. residual > EPS_MACH*condition) return
+      settled = may_be_round_off(last_residual, residual)
    end function has_settled
+
+   !> Whether has_settled depends on the condition where the tolerance is not met.
+   pure logical function may_be_round_off(last_residual, residual)
+      real(wp), intent(in) :: last_residual, residual !< as above
+
+      may_be_round_off = last_residual >= 0.0_wp .and. residual <= MOST_ROUND_OFF .and. residual > 0.5_wp*last_residual
+   end function may_be_round_off
 
 end module atrito_contact_solution

@@ -4,9 +4,9 @@
 !> the law of Oden and Pires), q = +-w tau(q) for slipping ones, G' q = h. The bound tau = nu W p is differentiated, so the matrix
 !> is not symmetric. States change after each step as in the full steps of the active set.
 module atrito_newton
-   use atrito_box_problem, only: box_problem_t, closing_slack, residual, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_box_problem, only: box_problem_t, set_residual, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, has_settled
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, judge_condition, has_settled
    use atrito_dense, only: solve_lu
    use atrito_friction_law, only: stick_compliance, FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp
@@ -29,6 +29,7 @@ contains
       integer(ip) :: iteration, info, changes, i
       real(wp) :: change, last_change, largest_force
 
+      call judge_condition(solution)
       dtau = bound_derivative(problem, line)
       solution%converged = .false.
       last_change = -1.0_wp
@@ -48,7 +49,7 @@ contains
          largest_force = maxval(abs([scaled_forces(problem, active, solution), 0.0_wp]))
          solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
          call update_compliances(problem, line, solution)
-         solution%state%r = residual(problem, solution%bounds%d, solution%state)
+         call set_residual(problem, solution%bounds%d, solution%state)
          call record_solve(solution%history, problem, solution%bounds, solution%state)
          call change_states(problem, line, solution, changes)
          if (largest_force > 0.0_wp) change = change/largest_force
@@ -252,7 +253,7 @@ contains
       real(wp) :: slack, largest_pressure, direction
       integer(ip) :: i, old
 
-      slack = closing_slack(problem, solution%state)
+      slack = solution%state%slack
       largest_pressure = maxval([abs(pressure_of(line, solution%state%q)), 0.0_wp])
       changes = 0
       associate (state => solution%state%state, q => solution%state%q, r => solution%state%r)

@@ -2,10 +2,12 @@
 module atrito_outer_loop
    use atrito_accelerator, only: accelerator_t, picard_t, anderson_t
    use atrito_box_problem, only: box_problem_t, FREE
+   use atrito_coarse_line, only: interpolation_t, coarsen_line, start_from_coarse
    use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, has_settled, relative_residual
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, &
+                                      may_be_round_off, relative_residual
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_model, only: METHOD_PICARD, METHOD_NEWTON
+   use atrito_model, only: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: begin_outer, end_outer
@@ -18,6 +20,7 @@ module atrito_outer_loop
    !> Text of the status when no friction bound of the loop holds a body; solution%inner%motion is the motion.
    character(len=*), parameter :: FREE_MOTION = 'free motion'
 
+   integer(ip), parameter :: MOST_PLAIN = 200             !< points of a line that needs no coarse one to start from
    integer(ip), parameter :: MOST_STEPS_BACK = 6
    integer(ip), parameter :: LAST_RESORT_FACTOR = 4       !< times MAXIT
    real(wp), parameter :: LAST_RESORT_MIXING = 0.3_wp
@@ -36,6 +39,78 @@ contains
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
+
+      if (line%n > MOST_PLAIN .and. (controls%method == METHOD_ANDERSON .or. .not. line%has_friction)) then
+         call solve_from_coarse(problem, line, controls, reporter, solution, status)
+      end if
+      if (.not. solution%converged) call solve_from_plain_start(problem, line, controls, reporter, solution, status)
+      call judge_condition(solution)
+   end subroutine solve_contact_line
+
+   !> Begins where the line's coarse line ends. Whatever does not go well on the way leaves solution%converged false, and the caller
+   !> begins anew.
+   recursive subroutine solve_from_coarse(problem, line, controls, reporter, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      type(interpolation_t) :: interpolation
+      type(box_problem_t) :: coarse_problem
+      type(contact_line_t) :: coarse_line
+      type(contact_solution_t) :: coarse
+      type(anderson_t) :: anderson
+      real(wp) :: tau(line%n), image(line%n)
+
+      call coarsen_line(problem, line, interpolation, coarse_problem, coarse_line)
+      call solve_coarse(coarse_problem, coarse_line, coarse, status)
+      if (.not. coarse%converged) return
+      call report_progress(reporter, 'start from '//to_text(coarse_line%n)//' of '//to_text(line%n)//' contact points')
+      call begin_history(problem, line, solution)
+      call start_from_coarse(problem, line, interpolation, coarse_line, coarse%state, coarse%p, solution%bounds, solution%state, &
+                             tau)
+      if (line%has_friction) then
+         call iterate(problem, line, controls, reporter, anderson, tau, solution, status)
+      else
+         call solve_with_bound(problem, line, tau, solution, image, status)
+         solution%converged = is_ok(status) .and. solution%inner%solved
+      end if
+   end subroutine solve_from_coarse
+
+   !> A coarse line need not be solved to the end, and not at all where that is hard.
+   recursive subroutine solve_coarse(problem, line, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      type(outer_controls_t), parameter :: CONTROLS = outer_controls_t(METHOD_ANDERSON, 1.0e-3_wp, 30_ip, 1.0_wp)
+      type(reporter_t), parameter :: NOBODY = reporter_t(quiet=.true.)
+      type(anderson_t) :: anderson
+      type(contact_solution_t) :: nothing
+      real(wp), allocatable :: tau(:)
+
+      if (line%n > MOST_PLAIN) then
+         call solve_from_coarse(problem, line, CONTROLS, NOBODY, solution, status)
+         if (solution%converged) return
+         solution = nothing
+      end if
+      call start(problem, line, solution, tau, status)
+      if (.not. is_ok(status)) return
+      if (line%has_friction) then
+         call iterate(problem, line, CONTROLS, NOBODY, anderson, tau, solution, status)
+      else
+         solution%converged = solution%inner%solved
+      end if
+   end subroutine solve_coarse
+
+   subroutine solve_from_plain_start(problem, line, controls, reporter, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
+      type(status_t), intent(out) :: status
       real(wp), allocatable :: tau(:)
 
       call start(problem, line, solution, tau, status)
@@ -52,7 +127,15 @@ contains
       case default
          call iterate_with_fallbacks(problem, line, controls, reporter, tau, solution, status)
       end select
-   end subroutine solve_contact_line
+   end subroutine solve_from_plain_start
+
+   subroutine begin_history(problem, line, solution)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(inout) :: solution
+
+      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
+   end subroutine begin_history
 
    !> All points closed without friction. Where that leaves a body free, all closed and stuck without a bound. tau: the first
    !> friction bound.
@@ -65,8 +148,7 @@ contains
       real(wp) :: none(line%n)
 
       allocate (tau(line%n))
-      allocate (solution%history%tangential_of(problem%n_normal))
-      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
+      call begin_history(problem, line, solution)
       call normal_bounds(line, problem, solution%bounds, solution%state)
       none = 0.0_wp
       call solve_with_bound(problem, line, none, solution, tau, status)
@@ -198,6 +280,7 @@ contains
             call measure_rate(line%weight/maxval(line%weight), (tau - good)/maxval(tau), (image - good_image)/maxval(tau), &
                               solution%contraction)
          end if
+         if (may_be_round_off(last_residual, solution%residual)) call judge_condition(solution)
          solution%converged = has_settled(controls%tolerance, solution%inner%condition, last_residual, solution%residual)
          last_residual = solution%residual
          if (solution%residual < 0.5_wp*best_residual) then

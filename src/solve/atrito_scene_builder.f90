@@ -7,6 +7,7 @@ module atrito_scene_builder
    use atrito_faces, only: face_list_t
    use atrito_model, only: model_t, SURFACE_SEGMENTS
    use atrito_points, only: contact_points_t, pair_surfaces
+   use atrito_solver_choice, only: needs_profile
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -40,17 +41,19 @@ contains
    end subroutine build_scene
 
    !> Bodies, equations (contact nodes last) and rigid motions.
-   subroutine build_bodies(model, held, points, fem)
+   subroutine build_bodies(model, held, points, asked, fem)
       type(model_t), intent(in) :: model
       logical, intent(in) :: held(:, :)                        !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
+      integer, intent(in) :: asked                             !< storage asked for, or 0
       type(fem_t), intent(inout) :: fem
-      integer(ip) :: i
+      integer(ip) :: i, n_free
 
       call find_bodies(fem%mesh, fem%bodies)
       call name_bodies(model, fem)
       do i = 1, fem%bodies%n
-         call number_equations(fem%mesh, fem%bodies, i, held, contact_nodes(fem, i, points))
+         n_free = count(.not. held(:, fem%bodies%list(i)%nodes), kind=ip)
+         call number_equations(fem%mesh, fem%bodies, i, held, contact_nodes(fem, i, points), needs_profile(asked, n_free))
          call find_rigid_modes(fem%mesh, fem%bodies%list(i), held)
       end do
    end subroutine build_bodies

@@ -8,7 +8,8 @@
 module atrito_uniqueness
    use atrito_box_problem, only: box_problem_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t
-   use atrito_dense, only: factor_cholesky, solve_cholesky, eigen_symmetric, multiply_vector
+   use atrito_dense, only: eigen_symmetric, multiply_vector
+   use atrito_dense_blocks, only: factor_in_blocks, solve_with_triangle
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -99,7 +100,7 @@ contains
       do i = 1, n
          map%factor(:, i) = map%factor(:, i)*map%scale*map%scale(i)
       end do
-      call factor_cholesky(map%factor, failed)
+      call factor_in_blocks(map%factor, failed)
       possible = failed == 0
       if (.not. possible) return
       map%coupling = problem%c(set, slipping)
@@ -121,7 +122,7 @@ contains
       real(wp) :: y(size(x))
 
       y = x*map%scale
-      call solve_cholesky(map%factor, y)
+      call solve_with_triangle(map%factor, y)
       y = y*map%scale
    end function solved
 

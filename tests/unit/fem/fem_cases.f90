@@ -74,7 +74,7 @@ contains
       allocate (fem%section_of(n), source=1_ip)
       call find_bodies(fem%mesh, fem%bodies)
       allocate (held(2, fem%mesh%n_nodes), source=.false.)
-      call number_equations(fem%mesh, fem%bodies, 1_ip, held, [2*n + 1, 2*n + 2])
+      call number_equations(fem%mesh, fem%bodies, 1_ip, held, [2*n + 1, 2*n + 2], .true.)
    end subroutine row_of_elements
 
    !> nx x ny elements of one section on [0, nx] x [0, ny], nodes row by row; no bodies, no equations.

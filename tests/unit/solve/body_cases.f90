@@ -75,7 +75,7 @@ contains
       call find_bodies(scene%fem%mesh, scene%fem%bodies)
       do b = 1, 2
          scene%fem%bodies%list(b)%name = merge('UPPER', 'LOWER', b == 1)
-         call number_equations(scene%fem%mesh, scene%fem%bodies, b, scene%held, side_nodes(b, n_lower))
+         call number_equations(scene%fem%mesh, scene%fem%bodies, b, scene%held, side_nodes(b, n_lower), .true.)
          call find_rigid_modes(scene%fem%mesh, scene%fem%bodies%list(b), scene%held)
       end do
       call lay_line(scene)

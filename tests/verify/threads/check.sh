@@ -1,6 +1,7 @@
 # The tables of a run are the same to the last digit for any number of threads. The scenes have more elements than those from which
 # on work is shared out (atrito_threads), 4096: example 1 has elements of four nodes on a rigid motion, example 3 of nine nodes in
-# layers of two materials, with prescribed displacements. The tapered block has no two elements that are alike.
+# layers of two materials, with prescribed displacements, scene P of the benchmark a body for the sparse solver. The tapered block has
+# no two elements that are alike.
 . "$(dirname "$0")/../lib.sh"
 
 # same_for_all NAME DECK [options]
@@ -33,6 +34,10 @@ same_for_all four-nodes "$input/ex1-plate-on-support.inp" --refine 3
 deck_has 4096 four-nodes-1
 same_for_all nine-nodes "$input/ex3-pillar-in-ground.inp" --refine 4
 deck_has 4096 nine-nodes-1
+sh "$here/../../bench/scene-p.sh" 100 >fronts.inp
+same_for_all fronts fronts.inp
+deck_has 25000 fronts-1
+says 'listing of the fronts' fronts-1/fronts.lst 'LOWER: sparse'
 same_for_all tapered "$here/tapered.inp" --solver sparse
 deck_has 4096 tapered-1
 finish

@@ -1,0 +1,211 @@
+!> A solve of the contact line with the factor of an earlier one.
+!>
+!> Conjugate gradients in the space of forces that balance the load, preconditioned by P, the earlier factor seen from the present
+!> set (N. I. M. Gould, M. E. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23, 2001). Each step solves
+!>
+!>     [P -G; -G' 0] [dq; da] = [r; -s],       r = rhs + G a - M q,   s = load - G' q
+!>
+!> with s = 0. They go on until r is round-off of the terms it is made of; then comes one refinement, as after a solve with a factor
+!> of its own. All of it is scaled to a unit diagonal of M = C + D.
+module atrito_kept_factor
+   use atrito_dense, only: eigen_symmetric
+   use atrito_dense_blocks, only: multiply_symmetric
+   use atrito_kinds, only: ip, wp
+   use atrito_line_factor, only: line_factor_t, relation_t, relate_sets, apply_inverse
+   implicit none (type, external)
+   private
+   public :: free_system_t, solve_with_kept, scaled_product
+
+   !> The equations of a free set, scaled: M q - G a = rhs, G' q = load.
+   type :: free_system_t
+      integer(ip), allocatable :: set(:)         !< (n) free unknowns
+      real(wp), allocatable :: d(:)              !< (n) D of them [L/F]
+      real(wp), allocatable :: scale(:)          !< (n) of the rows and columns
+      real(wp), allocatable :: g(:, :)           !< (n, k)
+      real(wp), allocatable :: rhs(:)            !< (n)
+      real(wp), allocatable :: load(:)           !< (k) [F]
+   end type free_system_t
+
+   !> P and its complement of the motions.
+   type :: preconditioner_t
+      type(relation_t) :: relation
+      real(wp), allocatable :: y(:, :)           !< P^-1 G
+      real(wp), allocatable :: inverse(:, :)     !< of G' P^-1 G
+   end type preconditioner_t
+
+   !> Steps that take about the time of a factor: n^3/3 operations against n^2 that wait for memory, the more so the larger n is
+   !> (measured for 400 to 3,200 unknowns: 14 to 34).
+   integer(ip), parameter :: FACTOR_IN_STEPS = 20_ip, ORDER_OVER_STEPS = 200_ip
+   integer(ip), parameter :: FEW_STEPS = 3_ip       !< that a near set takes
+   real(wp), parameter :: ROUND_OFF = 1.0e-15_wp    !< of the terms of the residual
+   real(wp), parameter :: FALSE_END = 1.0e-11_wp    !< of the terms of the true residual: the steps did not go where they said
+   real(wp), parameter :: LEAST_CURVATURE = 1.0e-13_wp !< of M; below it points depend on each other, which a factor tells
+   real(wp), parameter :: WEAKLY_HELD = 1.0e-6_wp   !< a motion that the free set hardly holds asks for a factor of its own
+
+contains
+
+   !> Solves from the present q and a. solved is false where the factor's set is not near or has served its time, a motion is held
+   !> weakly, or the steps would take longer than a factor: q and a are then as they were.
+   subroutine solve_with_kept(factor, c, system, q, a, solved)
+      type(line_factor_t), intent(inout) :: factor
+      real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(inout) :: q(:)            !< (n) scaled
+      real(wp), intent(inout) :: a(:)            !< (k) [L]
+      logical, intent(out) :: solved
+      type(preconditioner_t) :: p
+      real(wp) :: x(size(q)), b(size(a)), r(size(q)), terms, remains
+      integer(ip) :: most, steps
+
+      solved = .false.
+      if (.not. allocated(factor%set)) return
+      most = FACTOR_IN_STEPS + size(q, kind=ip)/ORDER_OVER_STEPS
+      if (factor%steps > most) return
+      call relate_sets(factor, size(c, 1, kind=ip), system%set, system%scale, p%relation)
+      if (2*p%relation%differences > size(q)) return
+      call prepare_motions(factor, system, p, solved)
+      if (.not. solved) return
+      x = q
+      b = a
+      call correct(factor, c, system, p, x, b, remains)
+      call true_residual(c, system, x, b, r, terms)
+      call take_steps(factor, c, system, p, most, ROUND_OFF*terms, x, b, r, steps, solved)
+      factor%steps = factor%steps + max(steps - FEW_STEPS, 0_ip)
+      if (.not. solved) return
+      call correct(factor, c, system, p, x, b, remains)
+      solved = remains <= FALSE_END
+      if (.not. solved) return
+      q = x
+      a = b
+   end subroutine solve_with_kept
+
+   !> P^-1 G and the inverse of G' P^-1 G, where the set holds all motions.
+   subroutine prepare_motions(factor, system, p, held)
+      type(line_factor_t), intent(in) :: factor
+      type(free_system_t), intent(in) :: system
+      type(preconditioner_t), intent(inout) :: p
+      logical, intent(out) :: held
+      real(wp), allocatable :: vectors(:, :), values(:), column_scale(:)
+      integer(ip) :: i, j, k, info
+
+      k = size(system%g, 2, kind=ip)
+      allocate (p%y(size(system%g, 1), k), p%inverse(k, k), values(k))
+      held = .true.
+      if (k == 0) return
+      do j = 1, k
+         call apply_inverse(factor, p%relation, system%g(:, j), p%y(:, j))
+      end do
+      vectors = matmul(transpose(system%g), p%y)
+      vectors = 0.5_wp*(vectors + transpose(vectors))
+      held = all([(vectors(j, j) > 0.0_wp, j=1, k)])
+      if (.not. held) return
+      column_scale = [(1.0_wp/sqrt(vectors(j, j)), j=1, k)]
+      do j = 1, k
+         vectors(:, j) = vectors(:, j)*column_scale*column_scale(j)
+      end do
+      call eigen_symmetric(vectors, values, info)
+      held = info == 0 .and. all(values > WEAKLY_HELD)
+      if (.not. held) return
+      p%inverse = 0.0_wp
+      do i = 1, k
+         do j = 1, k
+            p%inverse(:, j) = p%inverse(:, j) + vectors(:, i)*(vectors(j, i)*column_scale(j)/values(i))*column_scale
+         end do
+      end do
+   end subroutine prepare_motions
+
+   !> One step with both residuals.
+   subroutine correct(factor, c, system, p, x, b, remains)
+      type(line_factor_t), intent(in) :: factor
+      real(wp), intent(in), contiguous :: c(:, :)
+      type(free_system_t), intent(in) :: system
+      type(preconditioner_t), intent(in) :: p
+      real(wp), intent(inout) :: x(:), b(:)
+      real(wp), intent(out) :: remains           !< largest entry of the residual before, over its terms
+      real(wp) :: r(size(x)), z(size(x)), db(size(b)), terms
+
+      call true_residual(c, system, x, b, r, terms)
+      remains = 0.0_wp
+      if (terms > 0.0_wp) remains = maxval(abs(r))/terms
+      call apply_inverse(factor, p%relation, r, z)
+      db = matmul(p%inverse, system%load - matmul(transpose(system%g), x) - matmul(transpose(system%g), z))
+      x = x + z + matmul(p%y, db)
+      b = b + db
+   end subroutine correct
+
+   !> r, and the size of what it is the difference of.
+   subroutine true_residual(c, system, x, b, r, terms)
+      real(wp), intent(in), contiguous :: c(:, :)
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: x(:), b(:)
+      real(wp), intent(out) :: r(:), terms
+      real(wp) :: moved(size(x)), product(size(x))
+
+      moved = matmul(system%g, b)
+      product = scaled_product(c, system, x)
+      r = system%rhs + moved - product
+      terms = maxval(abs(system%rhs)) + maxval(abs(moved)) + maxval(abs(product))
+   end subroutine true_residual
+
+   !> Conjugate gradients until the largest entry of r is small enough.
+   subroutine take_steps(factor, c, system, p, most, enough, x, b, r, step, solved)
+      type(line_factor_t), intent(in) :: factor
+      real(wp), intent(in), contiguous :: c(:, :)
+      type(free_system_t), intent(in) :: system
+      type(preconditioner_t), intent(in) :: p
+      integer(ip), intent(in) :: most
+      real(wp), intent(in) :: enough
+      real(wp), intent(inout) :: x(:), b(:), r(:)
+      integer(ip), intent(out) :: step           !< steps that were made
+      logical, intent(out) :: solved
+      real(wp) :: z(size(x)), direction(size(x)), product(size(x)), db(size(b)), begin, now, rz, last_rz, curvature
+
+      direction = 0.0_wp
+      last_rz = 1.0_wp
+      begin = maxval(abs(r))
+      do step = 0, most
+         now = maxval(abs(r))
+         solved = now <= enough
+         if (solved) return
+         if (step >= 2*FEW_STEPS .and. is_slow(step, most, enough, begin, now)) return
+         call apply_inverse(factor, p%relation, r, z)
+         db = -matmul(p%inverse, matmul(transpose(system%g), z))
+         z = z + matmul(p%y, db)
+         r = r + matmul(system%g, db)
+         b = b + db
+         rz = dot_product(r, z)
+         direction = z + (rz/last_rz)*direction
+         product = scaled_product(c, system, direction)
+         curvature = dot_product(direction, product)
+         if (.not. (rz > 0.0_wp .and. curvature > LEAST_CURVATURE*dot_product(direction, direction))) return
+         x = x + (rz/curvature)*direction
+         r = r - (rz/curvature)*product
+         last_rz = rz
+      end do
+   end subroutine take_steps
+
+   !> Whether the steps, going on as they did, would be too many.
+   pure logical function is_slow(step, most, enough, begin, now)
+      integer(ip), intent(in) :: step, most
+      real(wp), intent(in) :: enough, begin, now
+
+      is_slow = now >= begin
+      if (is_slow) return
+      is_slow = real(most - step, wp)*log(begin/now) < real(step, wp)*log(now/enough)
+   end function is_slow
+
+   !> M q.
+   function scaled_product(c, system, q) result(product)
+      real(wp), intent(in), contiguous :: c(:, :)
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: q(:)
+      real(wp) :: product(size(q))
+      real(wp) :: force(size(c, 1)), moved(size(c, 1))
+
+      force = 0.0_wp
+      force(system%set) = q*system%scale
+      call multiply_symmetric(c, force, moved)
+      product = (moved(system%set) + system%d*force(system%set))*system%scale
+   end function scaled_product
+
+end module atrito_kept_factor

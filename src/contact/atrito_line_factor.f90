@@ -1,0 +1,154 @@
+!> The Cholesky factor of C + D on a set of free unknowns, scaled to a unit diagonal.
+!>
+!> From one solve of a contact line to the next few unknowns change their state and D changes little. Restricted to the unknowns
+!> that are still free, with the diagonal for those that have become free, the factor is the preconditioner for the next set
+!> (atrito_kept_factor).
+module atrito_line_factor
+   use atrito_dense, only: estimate_condition
+   use atrito_dense_blocks, only: factor_in_blocks, solve_with_triangle
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: line_factor_t, relation_t, factor_free_set, condition_of, is_worth_keeping, relate_sets, apply_inverse
+
+   type :: line_factor_t
+      integer(ip), allocatable :: set(:)         !< (n) unknowns; not allocated: there is no factor
+      real(wp), allocatable :: scale(:)          !< (n) of the rows and columns
+      real(wp), allocatable :: matrix(:, :)      !< (n, n) factor below and on the diagonal, the scaled matrix above
+      integer(ip) :: steps = 0                   !< more than a near set takes, in all the solves that it served since
+   end type line_factor_t
+
+   !> How a set of unknowns lies in that of a factor.
+   type :: relation_t
+      integer(ip), allocatable :: place(:)       !< (n) of its unknowns in the factor's set; 0: none
+      real(wp), allocatable :: ratio(:)          !< (n) scale of the factor over the present one
+      integer(ip) :: differences = 0             !< unknowns that only one of the two has
+   end type relation_t
+
+   integer(ip), parameter :: LEAST_KEPT = 400_ip    !< free unknowns from which on the factor is kept
+   real(wp), parameter :: LEAST_PIVOT = 1.0e-13_wp  !< scaled; below it points depend on each other
+
+contains
+
+   !> Whether a set is so large that its factor serves again.
+   pure logical function is_worth_keeping(n)
+      integer(ip), intent(in) :: n               !< free unknowns
+
+      is_worth_keeping = n >= LEAST_KEPT
+   end function is_worth_keeping
+
+   !> Factors C + D of the free set.
+   subroutine factor_free_set(c, d, set, factor, dependent)
+      real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      integer(ip), intent(in) :: set(:)
+      type(line_factor_t), intent(inout) :: factor
+      integer(ip), intent(out) :: dependent      !< 0, or an unknown whose row depends on those before; then there is no factor
+      integer(ip) :: i, n, failed
+
+      n = size(set, kind=ip)
+      if (allocated(factor%matrix)) then
+         if (size(factor%matrix, 1) /= n) deallocate (factor%matrix)
+      end if
+      if (.not. allocated(factor%matrix)) allocate (factor%matrix(n, n))
+      factor%set = set
+      factor%steps = 0
+      factor%scale = [(1.0_wp/sqrt(c(set(i), set(i)) + d(set(i))), i=1, n)]
+      call gather(c, set, factor%scale, factor%matrix)
+      call factor_in_blocks(factor%matrix, failed)
+      if (failed == 0) then
+         do i = 1, n
+            if (factor%matrix(i, i)**2 < LEAST_PIVOT) failed = i
+         end do
+      end if
+      dependent = 0
+      if (failed == 0) return
+      dependent = set(failed)
+      deallocate (factor%set)
+   end subroutine factor_free_set
+
+   !> The scaled matrix, by columns.
+   subroutine gather(c, set, scale, m)
+      real(wp), intent(in), contiguous :: c(:, :)
+      integer(ip), intent(in) :: set(:)
+      real(wp), intent(in) :: scale(:)
+      real(wp), intent(out), contiguous :: m(:, :)
+      integer(ip) :: j
+
+      !$omp parallel do schedule(static) default(none) shared(c, set, scale, m) if(size(set) >= LEAST_KEPT)
+      do j = 1, size(set, kind=ip)
+         call gather_column(c(:, set(j)), set, scale*scale(j), m(:, j))
+         m(j, j) = 1.0_wp
+      end do
+      !$omp end parallel do
+   end subroutine gather
+
+   pure subroutine gather_column(c, set, scale, m)
+      real(wp), intent(in), contiguous :: c(:)
+      integer(ip), intent(in) :: set(:)
+      real(wp), intent(in) :: scale(:)
+      real(wp), intent(out) :: m(:)
+
+      m = c(set)*scale
+   end subroutine gather_column
+
+   !> Estimate of the condition of the scaled matrix, in the 1-norm. Its norm is that of the upper triangle, which is still there.
+   real(wp) function condition_of(factor) result(condition)
+      type(line_factor_t), intent(in) :: factor
+      real(wp), allocatable :: sums(:)
+      integer(ip) :: j, n
+
+      condition = 1.0_wp
+      if (.not. allocated(factor%set)) return
+      n = size(factor%set, kind=ip)
+      if (n == 0) return
+      allocate (sums(n), source=1.0_wp)
+      do j = 2, n
+         sums(j) = sums(j) + sum(abs(factor%matrix(:j - 1, j)))
+         sums(:j - 1) = sums(:j - 1) + abs(factor%matrix(:j - 1, j))
+      end do
+      condition = estimate_condition(factor%matrix, maxval(sums))
+   end function condition_of
+
+   !> Where the unknowns of a set stand in a factor.
+   pure subroutine relate_sets(factor, m, set, scale, relation)
+      type(line_factor_t), intent(in) :: factor
+      integer(ip), intent(in) :: m               !< unknowns there are
+      integer(ip), intent(in) :: set(:)
+      real(wp), intent(in) :: scale(:)           !< its present scale
+      type(relation_t), intent(out) :: relation
+      integer(ip) :: place_of(m), i
+
+      place_of = 0
+      place_of(factor%set) = [(i, i=1, size(factor%set, kind=ip))]
+      relation%place = place_of(set)
+      allocate (relation%ratio(size(set)), source=0.0_wp)
+      do i = 1, size(set, kind=ip)
+         if (relation%place(i) > 0) relation%ratio(i) = factor%scale(relation%place(i))/scale(i)
+      end do
+      associate (common => count(relation%place > 0, kind=ip))
+         relation%differences = size(set, kind=ip) + size(factor%set, kind=ip) - 2*common
+      end associate
+   end subroutine relate_sets
+
+   !> P^-1 x in scaled form: the factor's inverse on the unknowns it has, the unit diagonal on the others.
+   subroutine apply_inverse(factor, relation, x, y)
+      type(line_factor_t), intent(in) :: factor
+      type(relation_t), intent(in) :: relation
+      real(wp), intent(in) :: x(:)               !< (n)
+      real(wp), intent(out) :: y(:)              !< (n)
+      real(wp) :: work(size(factor%set))
+      integer(ip) :: i
+
+      work = 0.0_wp
+      do i = 1, size(x, kind=ip)
+         if (relation%place(i) > 0) work(relation%place(i)) = x(i)*relation%ratio(i)
+      end do
+      call solve_with_triangle(factor%matrix, work)
+      do i = 1, size(x, kind=ip)
+         y(i) = x(i)
+         if (relation%place(i) > 0) y(i) = work(relation%place(i))*relation%ratio(i)
+      end do
+   end subroutine apply_inverse
+
+end module atrito_line_factor

@@ -1,0 +1,142 @@
+!> Dense linear algebra of large orders, shared out to the threads by blocks.
+!>
+!> The blocks do not depend on the number of threads, and each entry of a result is computed by one of them: results are the same
+!> to the last bit for any number of threads. All of it works at order 0.
+module atrito_dense_blocks
+   use atrito_front, only: eliminate
+   use atrito_halting, only: halting_t, suspend_halting, restore_halting
+   use atrito_kinds, only: ip, wp
+   use atrito_lapack, only: dgemm, dsymv, dtrsm, dtrsv
+   implicit none (type, external)
+   private
+   public :: factor_in_blocks, solve_with_triangle, multiply_symmetric, add_inverse_form
+
+   integer(ip), parameter :: BLOCK = 96_ip             !< columns of a block
+   integer(ip), parameter :: LARGE = 400_ip            !< order from which on work is shared out
+
+contains
+
+   !> A = L L' in place: reads and writes the lower triangle alone. The caller scales.
+   subroutine factor_in_blocks(a, pivot_failed)
+      real(wp), intent(inout), contiguous :: a(:, :)   !< (n, n)
+      integer(ip), intent(out) :: pivot_failed         !< 0, or the first row whose pivot is not positive
+      type(halting_t) :: halting
+      integer(ip) :: n
+
+      n = size(a, 1, kind=ip)
+      call suspend_halting(halting)
+      !$omp parallel default(none) shared(a, n, pivot_failed) if(n > LARGE)
+      !$omp single
+      call eliminate(n, n, a, pivot_failed)
+      !$omp end single
+      !$omp end parallel
+      call restore_halting(halting)
+   end subroutine factor_in_blocks
+
+   !> x <- A^-1 x with the factor of A, for one x: waits for memory alone (dpotrs packs the factor first).
+   subroutine solve_with_triangle(a, x)
+      real(wp), intent(in), contiguous :: a(:, :)      !< (n, n) factor, lower triangle
+      real(wp), intent(inout), contiguous :: x(:)      !< (n)
+      type(halting_t) :: halting
+      integer(ip) :: n
+
+      n = size(a, 1, kind=ip)
+      if (n == 0) return
+      call suspend_halting(halting)
+      call dtrsv('L', 'N', 'N', n, a, n, x, 1_ip)
+      call dtrsv('L', 'T', 'N', n, a, n, x, 1_ip)
+      call restore_halting(halting)
+   end subroutine solve_with_triangle
+
+   !> y <- A x, A symmetric: reads the lower triangle alone.
+   subroutine multiply_symmetric(a, x, y)
+      real(wp), intent(in), contiguous :: a(:, :)      !< (n, n)
+      real(wp), intent(in), contiguous :: x(:)         !< (n)
+      real(wp), intent(out), contiguous :: y(:)        !< (n)
+      type(halting_t) :: halting
+      integer(ip) :: n
+
+      n = size(a, 1, kind=ip)
+      y = 0.0_wp
+      if (n == 0) return
+      call suspend_halting(halting)
+      call dsymv('L', n, 1.0_wp, a, n, x, 1_ip, 0.0_wp, y, 1_ip)
+      call restore_halting(halting)
+   end subroutine multiply_symmetric
+
+   !> C <- C + B F B' for F = (L L')^-1, as X' X with X = L^-1 B'.
+   !>
+   !> Columns of B' that begin late cost less; they are best sorted. The triangle is inverted on them alone, which keeps C
+   !> symmetric and positive semidefinite to the last bit but one.
+   subroutine add_inverse_form(factor, x, first, place, c)
+      real(wp), intent(in), contiguous :: factor(:, :) !< (n, n) lower triangle L
+      real(wp), intent(inout), contiguous :: x(:, :)   !< (n, k) B'; on return L^-1 B'
+      integer(ip), intent(in) :: first(:)              !< (k) first entry of each column that is not zero, ascending
+      integer(ip), intent(in) :: place(:)              !< (k) row and column of C of each; all different
+      real(wp), intent(inout), contiguous :: c(:, :)   !< symmetric
+      type(halting_t) :: halting
+      integer(ip) :: n, k, m, start, pair, pairs
+
+      n = size(x, 1, kind=ip)
+      k = size(x, 2, kind=ip)
+      m = size(c, 1, kind=ip)
+      pairs = triangle((k + BLOCK - 1)/BLOCK)
+      call suspend_halting(halting)
+      !$omp parallel do schedule(dynamic, 1) default(none) shared(factor, x, first, n, k) if(n > LARGE)
+      do start = 1, k, BLOCK
+         call divide_columns(n, start, min(start + BLOCK - 1, k), first(start), factor, x)
+      end do
+      !$omp end parallel do
+      !$omp parallel do schedule(dynamic, 1) default(none) shared(x, first, place, c, n, k, m, pairs) if(n > LARGE)
+      do pair = 1, pairs
+         call add_pair(n, k, m, pair, x, first, place, c)
+      end do
+      !$omp end parallel do
+      call restore_halting(halting)
+   end subroutine add_inverse_form
+
+   pure integer(ip) function triangle(n)
+      integer(ip), intent(in) :: n
+
+      triangle = n*(n + 1)/2
+   end function triangle
+
+   !> X = L^-1 B' of some columns, from their first entry on.
+   subroutine divide_columns(n, start, end, first, factor, x)
+      integer(ip), intent(in) :: n, start, end, first
+      real(wp), intent(in) :: factor(n, n)
+      real(wp), intent(inout) :: x(n, *)
+
+      if (first > n) return
+      call dtrsm('L', 'L', 'N', 'N', n - first + 1, end - start + 1, 1.0_wp, factor(first, first), n, x(first, start), n)
+   end subroutine divide_columns
+
+   !> One block of X' X and its mirror image. Pairs are counted by rows of the lower triangle of blocks.
+   subroutine add_pair(n, k, m, pair, x, first, place, c)
+      integer(ip), intent(in) :: n, k, m, pair
+      real(wp), intent(in) :: x(n, k)
+      integer(ip), intent(in) :: first(k), place(k)
+      real(wp), intent(inout) :: c(m, m)
+      real(wp) :: product(BLOCK, BLOCK)
+      integer(ip) :: row, column, i, j, rows, columns, a, b, from
+
+      row = int((sqrt(8.0_wp*real(pair, wp) - 7.0_wp) - 1.0_wp)/2.0_wp, ip)
+      if (triangle(row + 1) < pair) row = row + 1       ! should the root have been rounded down
+      if (triangle(row) >= pair) row = row - 1
+      column = pair - triangle(row) - 1
+      i = row*BLOCK
+      j = column*BLOCK
+      rows = min(BLOCK, k - i)
+      columns = min(BLOCK, k - j)
+      from = first(i + 1)                               ! the later of both
+      if (from > n) return
+      call dgemm('T', 'N', rows, columns, n - from + 1, 1.0_wp, x(from, i + 1), n, x(from, j + 1), n, 0.0_wp, product, BLOCK)
+      do b = 1, columns
+         do a = merge(b, 1_ip, row == column), rows
+            c(place(i + a), place(j + b)) = c(place(i + a), place(j + b)) + product(a, b)
+            if (i + a /= j + b) c(place(j + b), place(i + a)) = c(place(j + b), place(i + a)) + product(a, b)
+         end do
+      end do
+   end subroutine add_pair
+
+end module atrito_dense_blocks

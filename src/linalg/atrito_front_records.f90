@@ -1,0 +1,337 @@
+!> The fronts of the parts of an elimination as records of whole numbers.
+!>
+!>     pivots, border, children, elements,
+!>     for each child:   its number, entries of its border, the place of each of them in the front
+!>     for each element: its matrix, its equations, the place of each of them in the front (0: prescribed)
+!>
+!> The border of a part are the equations of its ancestors that its subtree couples to, in the order of their places.
+module atrito_front_records
+   use atrito_element_store, only: element_store_t
+   use atrito_elimination, only: elimination_t
+   use atrito_growth, only: grow
+   use atrito_kinds, only: ip, lp
+   implicit none (type, external)
+   private
+   public :: part_tree_t, record_writer_t, plant_tree, begin_writer, write_part, push_border, top_border, HEADER
+
+   !> Numbers before the children in a record.
+   integer(ip), parameter :: HEADER = 4_ip
+
+   !> The parts with their elements. The last one holds the kept equations.
+   type :: part_tree_t
+      integer(ip) :: n_parts = 0
+      integer(ip), allocatable :: first(:)       !< (n_parts + 1) places of part p: first(p)..first(p + 1) - 1
+      integer(ip), allocatable :: parent(:)      !< (n_parts) 0 for the last
+      integer(ip), allocatable :: n_descendants(:) !< (n_parts) they stand just before the part
+      integer(ip), allocatable :: first_child(:), next_child(:) !< (n_parts) in the order of the parts; 0: none
+      integer(lp), allocatable :: first_element(:) !< (n_parts + 1) elements of part p: element(first_element(p) + 1:...)
+      integer(ip), allocatable :: element(:)
+   end type part_tree_t
+
+   !> Writes the records of parts that follow one another: of a subtree, or of what stands above subtrees.
+   type :: record_writer_t
+      integer(ip), allocatable :: record(:)      !< one behind the other
+      integer(lp) :: written = 0
+      integer(ip), allocatable, private :: at(:) !< (n) place in the front of the part in hand; 0: not in it
+      integer(ip), allocatable, private :: border(:), buffer(:) !< (n) of that part
+      integer(ip), private :: n_border = 0
+      integer(ip), allocatable, private :: stack(:) !< borders of finished parts, the last one on top
+      integer(lp), private :: top = 0
+   end type record_writer_t
+
+contains
+
+   !> Sets up the tree of an elimination.
+   pure subroutine plant_tree(elimination, n, n_kept, store, tree)
+      type(elimination_t), intent(in) :: elimination
+      integer(ip), intent(in) :: n, n_kept
+      type(element_store_t), intent(in) :: store
+      type(part_tree_t), intent(out) :: tree
+      integer(ip) :: p
+
+      tree%n_parts = size(elimination%last, kind=ip) + 1
+      allocate (tree%first(tree%n_parts + 1))
+      tree%first(1) = 1
+      tree%first(2:tree%n_parts) = elimination%last + 1
+      tree%first(tree%n_parts) = n - n_kept + 1
+      tree%first(tree%n_parts + 1) = n + 1
+      allocate (tree%parent(tree%n_parts), tree%n_descendants(tree%n_parts), source=0_ip)
+      allocate (tree%first_child(tree%n_parts), tree%next_child(tree%n_parts), source=0_ip)
+      do p = 1, tree%n_parts - 1
+         tree%parent(p) = elimination%parent(p)
+         if (tree%parent(p) == 0) tree%parent(p) = tree%n_parts
+         tree%n_descendants(tree%parent(p)) = tree%n_descendants(tree%parent(p)) + 1 + tree%n_descendants(p)
+      end do
+      do p = tree%n_parts - 1, 1, -1
+         tree%next_child(p) = tree%first_child(tree%parent(p))
+         tree%first_child(tree%parent(p)) = p
+      end do
+      call sort_elements(elimination, n, store, tree)
+   end subroutine plant_tree
+
+   !> An element belongs to the part that eliminates the first of its equations.
+   pure subroutine sort_elements(elimination, n, store, tree)
+      type(elimination_t), intent(in) :: elimination
+      integer(ip), intent(in) :: n
+      type(element_store_t), intent(in) :: store
+      type(part_tree_t), intent(inout) :: tree
+      integer(ip) :: part_at(n), part_of(store%n), p, e
+      integer(lp) :: k, next(tree%n_parts)
+
+      do p = 1, tree%n_parts
+         part_at(tree%first(p):tree%first(p + 1) - 1) = p
+      end do
+      allocate (tree%first_element(tree%n_parts + 1), source=0_lp)
+      allocate (tree%element(store%n))
+      do e = 1, store%n
+         p = tree%n_parts + 1
+         do k = store%start(e) + 1, store%start(e + 1)
+            if (store%equations(k) > 0) p = min(p, part_at(elimination%place(store%equations(k))))
+         end do
+         part_of(e) = p
+         if (p <= tree%n_parts) tree%first_element(p + 1) = tree%first_element(p + 1) + 1
+      end do
+      do p = 1, tree%n_parts
+         next(p) = tree%first_element(p)
+         tree%first_element(p + 1) = tree%first_element(p + 1) + tree%first_element(p)
+      end do
+      do e = 1, store%n
+         p = part_of(e)
+         if (p > tree%n_parts) cycle             ! all of its equations are prescribed
+         next(p) = next(p) + 1
+         tree%element(next(p)) = e
+      end do
+   end subroutine sort_elements
+
+   pure subroutine begin_writer(writer, n)
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip), intent(in) :: n               !< equations
+      integer(ip), parameter :: ROOM = 1024_ip
+
+      if (.not. allocated(writer%at)) then
+         allocate (writer%at(n), source=0_ip)
+         allocate (writer%border(n), writer%buffer(n), writer%stack(ROOM))
+      end if
+      writer%written = 0
+      writer%top = 0
+      allocate (writer%record(ROOM))
+   end subroutine begin_writer
+
+   !> Writes the record of a part; its children are the last ones that were written or pushed. Its border takes the place of theirs
+   !> on the stack.
+   subroutine write_part(elimination, store, tree, p, waiting, writer)
+      type(elimination_t), intent(in) :: elimination
+      type(element_store_t), intent(in) :: store
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p
+      integer(ip), intent(inout) :: waiting(:)   !< (n_parts) entries of the borders of finished parts
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip) :: child, i
+
+      call collect_border(elimination, store, tree, p, waiting, writer)
+      call write_record(elimination, store, tree, p, waiting, writer)
+      child = tree%first_child(p)
+      do while (child /= 0)
+         writer%top = writer%top - waiting(child)
+         child = tree%next_child(child)
+      end do
+      do i = 1, writer%n_border
+         writer%at(writer%border(i)) = 0
+      end do
+      call push_border(writer, writer%border(:writer%n_border))
+      waiting(p) = writer%n_border
+   end subroutine write_part
+
+   !> The border on top of the stack.
+   pure function top_border(writer, n) result(border)
+      type(record_writer_t), intent(in) :: writer
+      integer(ip), intent(in) :: n               !< its entries
+      integer(ip) :: border(n)
+
+      border = writer%stack(writer%top - n + 1:writer%top)
+   end function top_border
+
+   !> Puts a border on the stack.
+   pure subroutine push_border(writer, border)
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip), intent(in) :: border(:)
+      integer(ip) :: n
+
+      n = size(border, kind=ip)
+      if (writer%top + n > size(writer%stack, kind=lp)) call grow(writer%stack, 2*(writer%top + n))
+      writer%stack(writer%top + 1:writer%top + n) = border
+      writer%top = writer%top + n
+   end subroutine push_border
+
+   !> The border of a part: the borders of its children and the equations of its elements, beyond its own, in order. `at` then
+   !> holds the place in the front of each.
+   subroutine collect_border(elimination, store, tree, p, waiting, writer)
+      type(elimination_t), intent(in) :: elimination
+      type(element_store_t), intent(in) :: store
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p
+      integer(ip), intent(in) :: waiting(:)
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip) :: child, n_new, last, place, i, e
+      integer(lp) :: k, base
+
+      last = tree%first(p + 1) - 1
+      writer%n_border = 0
+      base = writer%top
+      child = tree%first_child(p)
+      do while (child /= 0)
+         base = base - waiting(child)
+         child = tree%next_child(child)
+      end do
+      child = tree%first_child(p)
+      do while (child /= 0)
+         n_new = 0
+         do k = base + 1, base + waiting(child)
+            call take_place(writer%stack(k))
+         end do
+         base = base + waiting(child)
+         call merge_new(writer, n_new)
+         child = tree%next_child(child)
+      end do
+      n_new = 0
+      do i = int(tree%first_element(p), ip) + 1, int(tree%first_element(p + 1), ip)
+         e = tree%element(i)
+         do k = store%start(e) + 1, store%start(e + 1)
+            if (store%equations(k) == 0) cycle
+            place = elimination%place(store%equations(k))
+            call take_place(place)
+         end do
+      end do
+      call sort_new(writer%buffer(:n_new))
+      call merge_new(writer, n_new)
+      do i = 1, writer%n_border
+         writer%at(writer%border(i)) = tree%first(p + 1) - tree%first(p) + i
+      end do
+
+   contains
+
+      subroutine take_place(place)
+         integer(ip), intent(in) :: place
+
+         if (place <= last) return
+         if (writer%at(place) /= 0) return
+         writer%at(place) = 1
+         n_new = n_new + 1
+         writer%buffer(n_new) = place
+      end subroutine take_place
+
+   end subroutine collect_border
+
+   !> Sorts a list, by insertion: it is short, and nearly in order.
+   pure subroutine sort_new(list)
+      integer(ip), intent(inout) :: list(:)
+      integer(ip) :: i, j, item
+
+      do i = 2, size(list, kind=ip)
+         item = list(i)
+         do j = i - 1, 1, -1
+            if (list(j) <= item) exit
+            list(j + 1) = list(j)
+         end do
+         list(j + 1) = item
+      end do
+   end subroutine sort_new
+
+   !> Merges the first n_new places of the buffer, which are sorted, into the border.
+   pure subroutine merge_new(writer, n_new)
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip), intent(in) :: n_new
+      integer(ip) :: i, j, k
+
+      i = writer%n_border
+      j = n_new
+      writer%n_border = i + j
+      do k = writer%n_border, 1, -1
+         if (j == 0) exit
+         if (i > 0) then
+            if (writer%border(i) > writer%buffer(j)) then
+               writer%border(k) = writer%border(i)
+               i = i - 1
+               cycle
+            end if
+         end if
+         writer%border(k) = writer%buffer(j)
+         j = j - 1
+      end do
+   end subroutine merge_new
+
+   !> Writes the record of a part behind those before.
+   subroutine write_record(elimination, store, tree, p, waiting, writer)
+      type(elimination_t), intent(in) :: elimination
+      type(element_store_t), intent(in) :: store
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p
+      integer(ip), intent(in) :: waiting(:)
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip) :: child, n_children, i, e
+      integer(lp) :: k, base, needed
+
+      n_children = 0
+      needed = HEADER
+      base = writer%top
+      child = tree%first_child(p)
+      do while (child /= 0)
+         n_children = n_children + 1
+         needed = needed + 2 + waiting(child)
+         base = base - waiting(child)
+         child = tree%next_child(child)
+      end do
+      do i = int(tree%first_element(p), ip) + 1, int(tree%first_element(p + 1), ip)
+         e = tree%element(i)
+         needed = needed + 2 + store%start(e + 1) - store%start(e)
+      end do
+      if (writer%written + needed > size(writer%record, kind=lp)) call grow(writer%record, 2*(writer%written + needed))
+      call put(tree%first(p + 1) - tree%first(p))
+      call put(writer%n_border)
+      call put(n_children)
+      call put(int(tree%first_element(p + 1) - tree%first_element(p), ip))
+      child = tree%first_child(p)
+      do while (child /= 0)
+         call put(child)
+         call put(waiting(child))
+         do k = base + 1, base + waiting(child)
+            call put(place_in_front(writer%stack(k)))
+         end do
+         base = base + waiting(child)
+         child = tree%next_child(child)
+      end do
+      do i = int(tree%first_element(p), ip) + 1, int(tree%first_element(p + 1), ip)
+         e = tree%element(i)
+         call put(store%matrix_of(e))
+         call put(int(store%start(e + 1) - store%start(e), ip))
+         do k = store%start(e) + 1, store%start(e + 1)
+            if (store%equations(k) == 0) then
+               call put(0_ip)
+            else
+               call put(place_in_front(elimination%place(store%equations(k))))
+            end if
+         end do
+      end do
+
+   contains
+
+      subroutine put(number)
+         integer(ip), intent(in) :: number
+
+         writer%written = writer%written + 1
+         writer%record(writer%written) = number
+      end subroutine put
+
+      pure integer(ip) function place_in_front(place)
+         integer(ip), intent(in) :: place
+
+         if (place < tree%first(p + 1)) then
+            place_in_front = place - tree%first(p) + 1
+         else
+            place_in_front = writer%at(place)
+         end if
+      end function place_in_front
+
+   end subroutine write_record
+
+end module atrito_front_records
