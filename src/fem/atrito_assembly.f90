@@ -11,7 +11,7 @@ module atrito_assembly
    use atrito_element_store, only: element_store_t, pack_matrix
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_storage, only: storage_t
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, run_count, find_run, RUN_LENGTH
    implicit none (type, external)
    private
    public :: fem_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
@@ -99,7 +99,7 @@ contains
       call compare_runs(fem, elements, runs, store%matrix_of)
       store%n_matrices = sum(runs%n)
       allocate (different(store%n_matrices))
-      !$omp parallel do schedule(static) if (is_shared(store%n))
+      !$omp parallel do schedule(dynamic) if (is_shared(store%n))
       do i = 1, size(runs, kind=ip)
          call number_matrices(elements, i, runs(i), store%matrix_of, different)
       end do
@@ -114,7 +114,7 @@ contains
       integer(ip) :: i
 
       allocate (store%equations(store%start(store%n + 1)))
-      !$omp parallel do schedule(static) if (is_shared(store%n))
+      !$omp parallel do schedule(dynamic, RUN_LENGTH) if (is_shared(store%n))
       do i = 1, store%n
          call fetch_equations(fem, elements(i), store%equations(store%start(i) + 1:store%start(i + 1)))
       end do
@@ -229,7 +229,7 @@ contains
          store%matrix_start(m + 1) = store%matrix_start(m) + n*(n + 1)/2
       end do
       allocate (store%values(store%matrix_start(store%n_matrices + 1)))
-      !$omp parallel do schedule(static) if (is_shared(store%n_matrices))
+      !$omp parallel do schedule(dynamic, RUN_LENGTH) if (is_shared(store%n_matrices))
       do m = 1, store%n_matrices
          call compute_matrix(fem, different(m), store%values(store%matrix_start(m) + 1:store%matrix_start(m + 1)))
       end do

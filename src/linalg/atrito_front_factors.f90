@@ -7,8 +7,8 @@ module atrito_front_factors
    use atrito_element_store, only: element_store_t
    use atrito_front, only: clear_front, eliminate, add_element, add_update, pack_columns, packed_length
    use atrito_front_tree, only: front_tree_t, HEADER
-   use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_storage, only: SMALLEST_RATIO
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_storage, only: smallest_ratio
    implicit none (type, external)
    private
    public :: factor_t, factor_fronts, front_flops
@@ -256,7 +256,7 @@ contains
       real(wp) :: pivot, tolerance, lost, most_lost
       integer(ip) :: i
 
-      tolerance = max(real(n, wp)*EPS_MACH, SMALLEST_RATIO)
+      tolerance = smallest_ratio(n)
       factor%smallest_pivot = huge(pivot)
       most_lost = 0.0_wp
       do i = 1, n_pivots

@@ -16,10 +16,10 @@ module atrito_mumps
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_ptr
    use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
-   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
-   use atrito_storage, only: storage_t, pivot_report_t, ALL_DIGITS, SMALLEST_RATIO
+   use atrito_storage, only: storage_t, pivot_report_t, ALL_DIGITS, smallest_ratio
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -303,7 +303,7 @@ contains
             report%sign_changes = mumps%infog(12)
             report%smallest_pivot = mumps%rinfog(19)
             report%largest_pivot = mumps%rinfog(21)
-            singular = report%smallest_pivot <= max(real(self%n, wp)*EPS_MACH, SMALLEST_RATIO)
+            singular = report%smallest_pivot <= smallest_ratio(self%n)
          end if
          report%digits_lost = ALL_DIGITS
          if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)

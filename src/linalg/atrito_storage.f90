@@ -14,7 +14,7 @@ module atrito_storage
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status, SMALLEST_RATIO, ALL_DIGITS
+   public :: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status, smallest_ratio, ALL_DIGITS
 
    !> What the pivots of a factorisation tell.
    type :: pivot_report_t
@@ -101,12 +101,17 @@ module atrito_storage
 
    end interface
 
-   !> A pivot that lost 15 digits is round-off alone.
-   real(wp), parameter :: SMALLEST_RATIO = 1e-15_wp
    !> Digits of a double: the loss reported for a zero pivot.
    real(wp), parameter :: ALL_DIGITS = 16.0_wp
 
 contains
+
+   !> A pivot of at most this share of its original diagonal is round-off alone: n eps, and 15 digits in any case.
+   pure real(wp) function smallest_ratio(n)
+      integer(ip), intent(in) :: n                 !< order of the matrix
+
+      smallest_ratio = max(real(n, wp)*EPS_MACH, 1.0e-15_wp)
+   end function smallest_ratio
 
    !> Adds the matrices of a store, in their order. The storage may empty the store.
    subroutine add_one_by_one(self, store)
@@ -142,7 +147,7 @@ contains
       logical, intent(out) :: usable
       real(wp) :: tolerance, lost
 
-      tolerance = max(real(n, wp)*EPS_MACH, SMALLEST_RATIO)
+      tolerance = smallest_ratio(n)
       usable = abs(pivot) > tolerance*abs(original)
       lost = ALL_DIGITS
       if (usable) lost = max(log10(abs(original/pivot) + tiny(pivot)), 0.0_wp)

@@ -15,7 +15,7 @@ module atrito_condensed_body
    use atrito_solver_choice, only: new_storage, needs_profile, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, &
                                    STORAGE_SPARSE, STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
-   use atrito_storage, only: storage_t
+   use atrito_storage, only: storage_t, smallest_ratio
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
@@ -155,7 +155,7 @@ contains
          return
       end if
       call factor_contact(fem, i_body, body, status)
-      if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result)
+      if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result, status)
    end subroutine factor_body
 
    subroutine report_pivots(fem, i_body, storage, result)
@@ -187,12 +187,14 @@ contains
       end associate
    end subroutine name_equation
 
-   !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the interior.
-   subroutine report_contact_pivots(fem, i_body, body, result)
+   !> The contact dofs are eliminated last, by the Cholesky factor; digits that their pivots lose count like those of the interior,
+   !> and a pivot that is round-off alone there is none here. status: STATUS_SINGULAR then.
+   subroutine report_contact_pivots(fem, i_body, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       type(condensed_body_t), intent(in) :: body
       type(body_result_t), intent(inout) :: result
+      type(status_t), intent(inout) :: status
       real(wp) :: original(size(body%factor, 1)), lost
       integer(ip) :: i, first
 
@@ -205,6 +207,10 @@ contains
          result%digits_lost = lost
          call name_equation(fem, i_body, first + i, result)
       end do
+      if (10.0_wp**(-result%digits_lost) > smallest_ratio(fem%bodies%list(i_body)%n)) return
+      call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': its stiffness seen from the contact' &
+                      //' line is round-off alone at node '//to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
+                      //': it is too slender, or hardly held')
    end subroutine report_contact_pivots
 
    !> Cholesky factor of the Schur complement; for a floating body with alpha Q Q' added, alpha = trace(S)/n.
