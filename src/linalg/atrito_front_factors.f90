@@ -20,6 +20,7 @@ module atrito_front_factors
       real(wp), allocatable :: update(:)         !< what is left of the border, packed, until the last parent has taken it
       integer(ip) :: waiting = 0                 !< fronts that have not taken it
       logical :: done = .false.                  !< with usable pivots
+      logical :: enough = .true.                 !< memory for it, its front and its update
       integer(ip) :: failed = 0                  !< pivot that could not be used
       integer(ip) :: worst = 0                   !< pivot that lost most
       real(wp) :: worst_pivot = 0.0_wp, smallest_pivot = 0.0_wp, largest_pivot = 0.0_wp
@@ -39,16 +40,20 @@ module atrito_front_factors
 contains
 
    !> Factors all classes. The last one, of the kept equations, is assembled only: its lower triangle, packed, is its update.
-   subroutine factor_fronts(tree, store, diagonal, factors)
+   subroutine factor_fronts(tree, store, diagonal, factors, enough)
       type(front_tree_t), intent(in) :: tree
       type(element_store_t), intent(in) :: store
       real(wp), intent(in) :: diagonal(:)        !< (n) of the matrix, by places
       type(factor_t), allocatable, intent(out) :: factors(:)
+      logical, intent(out) :: enough             !< memory; the factors are of no use without
       type(unit_t), allocatable :: units(:)
       real(wp) :: work(tree%n_classes)
       integer(ip) :: c
+      integer :: no_memory
 
-      allocate (factors(tree%n_classes))
+      allocate (factors(tree%n_classes), stat=no_memory)
+      enough = no_memory == 0
+      if (.not. enough) return
       do c = 1, tree%n_classes
          factors(c)%n_pivots = tree%record(tree%start(c) + 1)
          factors(c)%order = factors(c)%n_pivots + tree%record(tree%start(c) + 2)
@@ -62,6 +67,7 @@ contains
       call factor_waves(tree, store, diagonal, units, factors)
       !$omp end single
       !$omp end parallel
+      enough = all(factors%enough)
    end subroutine factor_fronts
 
    !> Operations of the elimination of a front.
@@ -172,8 +178,13 @@ contains
       type(factor_t), intent(inout) :: factors(:)
       real(wp), allocatable :: front(:)
       integer(ip) :: c
+      integer :: no_memory
 
-      allocate (front(int(maxval(factors(unit%first:unit%last)%order), lp)**2))
+      allocate (front(int(maxval(factors(unit%first:unit%last)%order), lp)**2), stat=no_memory)
+      if (no_memory /= 0) then
+         factors(unit%first)%enough = .false.
+         return
+      end if
       do c = unit%first, unit%last
          call factor_class(tree, store, diagonal, c, factors(c)%order, factors, front)
       end do
@@ -187,6 +198,7 @@ contains
       type(factor_t), intent(inout) :: factors(:)
       real(wp), intent(inout) :: front(order, order)
       integer(ip) :: n_pivots, place
+      integer :: no_memory
       logical :: complete
 
       call assemble_front(tree, store, c, order, factors, front, complete)
@@ -197,14 +209,16 @@ contains
       place = tree%first(tree%representative(c))
       call judge_pivots(order, n_pivots, front, diagonal(place:place + n_pivots - 1), size(diagonal, kind=ip), factors(c))
       if (factors(c)%failed > 0) return
+      allocate (factors(c)%columns(packed_length(order, n_pivots)), &
+                factors(c)%update(packed_length(order - n_pivots, order - n_pivots)), stat=no_memory)
+      factors(c)%enough = no_memory == 0
+      if (.not. factors(c)%enough) return
       factors(c)%done = .true.
-      allocate (factors(c)%columns(packed_length(order, n_pivots)))
-      allocate (factors(c)%update(packed_length(order - n_pivots, order - n_pivots)))
       call pack_columns(order, front, 1_ip, n_pivots, factors(c)%columns)
       call pack_columns(order, front, n_pivots + 1, order, factors(c)%update)
    end subroutine factor_class
 
-   !> `complete` is false when a child has no factor.
+   !> `complete` is false when a child has no factor: its pivots failed, or the memory did.
    subroutine assemble_front(tree, store, c, order, factors, front, complete)
       type(front_tree_t), intent(in) :: tree
       type(element_store_t), intent(in) :: store
@@ -241,7 +255,7 @@ contains
       type(factor_t), intent(inout) :: factor
       integer(ip) :: waiting
 
-      !$omp atomic capture
+      !$omp atomic capture seq_cst              ! others have read all of it when the last one comes
       factor%waiting = factor%waiting - 1
       waiting = factor%waiting
       !$omp end atomic
