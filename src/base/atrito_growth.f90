@@ -6,6 +6,7 @@ module atrito_growth
    public :: grow
 
    !> call grow(list, length): makes an allocated list longer; the new entries are undefined.
+   !> call grow(list, length, enough): the same; where the memory does not suffice `enough` is false, and the list stays.
    interface grow
       module procedure grow_numbers
       module procedure grow_long_numbers
@@ -14,32 +15,56 @@ module atrito_growth
 
 contains
 
-   pure subroutine grow_numbers(list, length)
+   pure subroutine grow_numbers(list, length, enough)
       integer(ip), allocatable, intent(inout) :: list(:)
       integer(lp), intent(in) :: length          !< >= the present one
+      logical, intent(out), optional :: enough
       integer(ip), allocatable :: longer(:)
+      integer :: no_memory
 
-      allocate (longer(length))
+      if (present(enough)) then
+         allocate (longer(length), stat=no_memory)
+         enough = no_memory == 0
+         if (.not. enough) return
+      else
+         allocate (longer(length))
+      end if
       longer(:size(list)) = list
       call move_alloc(longer, list)
    end subroutine grow_numbers
 
-   pure subroutine grow_long_numbers(list, length)
+   pure subroutine grow_long_numbers(list, length, enough)
       integer(lp), allocatable, intent(inout) :: list(:)
       integer(lp), intent(in) :: length          !< >= the present one
+      logical, intent(out), optional :: enough
       integer(lp), allocatable :: longer(:)
+      integer :: no_memory
 
-      allocate (longer(length))
+      if (present(enough)) then
+         allocate (longer(length), stat=no_memory)
+         enough = no_memory == 0
+         if (.not. enough) return
+      else
+         allocate (longer(length))
+      end if
       longer(:size(list)) = list
       call move_alloc(longer, list)
    end subroutine grow_long_numbers
 
-   pure subroutine grow_reals(list, length)
+   pure subroutine grow_reals(list, length, enough)
       real(wp), allocatable, intent(inout) :: list(:)
       integer(lp), intent(in) :: length          !< >= the present one
+      logical, intent(out), optional :: enough
       real(wp), allocatable :: longer(:)
+      integer :: no_memory
 
-      allocate (longer(length))
+      if (present(enough)) then
+         allocate (longer(length), stat=no_memory)
+         enough = no_memory == 0
+         if (.not. enough) return
+      else
+         allocate (longer(length))
+      end if
       longer(:size(list)) = list
       call move_alloc(longer, list)
    end subroutine grow_reals

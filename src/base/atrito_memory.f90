@@ -48,13 +48,15 @@ contains
       character(len=*), intent(in) :: path, label
       integer(lp), intent(in) :: unit                  !< bytes
       character(len=:), allocatable :: line
+      character(len=*), parameter :: BLANKS = ' '//achar(9)  ! a tab follows the labels of /proc/self/status
       logical :: found
       integer :: i, d
 
       bytes = UNLIMITED
       call read_system_line(path, label, line, found)
       if (.not. found) return
-      line = adjustl(line(len(label) + 1:))
+      line = line(len(label) + 1:)
+      line = line(max(verify(line, BLANKS), 1):)
       if (verify(line(:min(1, len(line))), '0123456789') > 0 .or. len(line) == 0) return
       bytes = 0_lp
       do i = 1, min(len(line), 15)

@@ -16,6 +16,7 @@ module atrito_element_store
       integer(ip) :: n_matrices = 0              !< different ones
       integer(lp), allocatable :: matrix_start(:) !< (n_matrices + 1 or more) matrix m: values(matrix_start(m) + 1:)
       real(wp), allocatable :: values(:)         !< lower triangles by columns
+      logical :: enough = .true.                 !< memory, for all elements so far; the others are left out
    end type element_store_t
 
 contains
@@ -35,20 +36,47 @@ contains
       real(wp), intent(in) :: matrix(:, :)       !< symmetric
       integer(lp) :: first
       integer(ip) :: m
+      logical :: is_new
 
       m = size(equations, kind=ip)
-      if (store%n + 2 > size(store%start)) then
-         call grow(store%start, 2*size(store%start, kind=lp))
-         call grow(store%matrix_of, 2*size(store%matrix_of, kind=lp))
-      end if
+      is_new = .not. is_newest(store, m, matrix)
+      if (store%enough) call make_room(store, m)
+      if (store%enough .and. is_new) call make_room_for_values(store, m)
+      if (.not. store%enough) return
       first = store%start(store%n + 1)
-      if (first + m > size(store%equations, kind=lp)) call grow(store%equations, 2*(first + m))
       store%n = store%n + 1
       store%equations(first + 1:first + m) = equations
       store%start(store%n + 1) = first + m
-      if (.not. is_newest(store, m, matrix)) call add_values(store, m, matrix)
+      if (is_new) call add_values(store, m, matrix)
       store%matrix_of(store%n) = store%n_matrices
    end subroutine add_to_store
+
+   !> Room for one element more.
+   pure subroutine make_room(store, m)
+      type(element_store_t), intent(inout) :: store
+      integer(ip), intent(in) :: m               !< its equations
+      integer(lp) :: needed
+
+      if (store%n + 2 > size(store%start)) call grow(store%start, 2*size(store%start, kind=lp), store%enough)
+      if (store%enough .and. store%n + 1 > size(store%matrix_of)) then
+         call grow(store%matrix_of, 2*size(store%matrix_of, kind=lp), store%enough)
+      end if
+      needed = store%start(store%n + 1) + m
+      if (store%enough .and. needed > size(store%equations, kind=lp)) call grow(store%equations, 2*needed, store%enough)
+   end subroutine make_room
+
+   !> Room for one matrix more.
+   pure subroutine make_room_for_values(store, m)
+      type(element_store_t), intent(inout) :: store
+      integer(ip), intent(in) :: m               !< its order
+      integer(lp) :: needed
+
+      if (store%n_matrices + 2 > size(store%matrix_start)) then
+         call grow(store%matrix_start, 2*size(store%matrix_start, kind=lp), store%enough)
+      end if
+      needed = store%matrix_start(store%n_matrices + 1) + int(m, lp)*int(m + 1, lp)/2
+      if (store%enough .and. needed > size(store%values, kind=lp)) call grow(store%values, 2*needed, store%enough)
+   end subroutine make_room_for_values
 
    !> Whether a matrix is the one that was stored last.
    pure logical function is_newest(store, m, matrix)
@@ -75,10 +103,8 @@ contains
       real(wp), intent(in) :: matrix(m, m)
       integer(lp) :: first, last
 
-      if (store%n_matrices + 2 > size(store%matrix_start)) call grow(store%matrix_start, 2*size(store%matrix_start, kind=lp))
       first = store%matrix_start(store%n_matrices + 1)
       last = first + int(m, lp)*int(m + 1, lp)/2
-      if (last > size(store%values, kind=lp)) call grow(store%values, 2*last)
       store%n_matrices = store%n_matrices + 1
       call pack_matrix(matrix, store%values(first + 1:last))
       store%matrix_start(store%n_matrices + 1) = last

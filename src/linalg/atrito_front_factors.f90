@@ -9,6 +9,7 @@ module atrito_front_factors
    use atrito_front_tree, only: front_tree_t, HEADER
    use atrito_kinds, only: ip, lp, wp
    use atrito_storage, only: smallest_ratio
+   use atrito_threads, only: n_threads, this_thread
    implicit none (type, external)
    private
    public :: factor_t, factor_fronts, front_flops
@@ -20,6 +21,7 @@ module atrito_front_factors
       real(wp), allocatable :: update(:)         !< what is left of the border, packed, until the last parent has taken it
       integer(ip) :: waiting = 0                 !< fronts that have not taken it
       logical :: done = .false.                  !< with usable pivots
+      logical :: enough = .true.                 !< memory for it, its front and its update
       integer(ip) :: failed = 0                  !< pivot that could not be used
       integer(ip) :: worst = 0                   !< pivot that lost most
       real(wp) :: worst_pivot = 0.0_wp, smallest_pivot = 0.0_wp, largest_pivot = 0.0_wp
@@ -31,6 +33,12 @@ module atrito_front_factors
       integer(ip) :: wave = 1
    end type unit_t
 
+   !> Where a thread assembles the fronts of its units, one after the other: memory that is asked for anew for each large front
+   !> has to be made by the system every time. A unit is a tied task, so no other one of its thread comes between.
+   type :: workspace_t
+      real(wp), allocatable :: front(:)
+   end type workspace_t
+
    !> A unit has at most this share of the work, unless it is a single class.
    real(wp), parameter :: SHARE = 1.0_wp/64.0_wp
    !> Operations that are worth waking other threads.
@@ -39,16 +47,20 @@ module atrito_front_factors
 contains
 
    !> Factors all classes. The last one, of the kept equations, is assembled only: its lower triangle, packed, is its update.
-   subroutine factor_fronts(tree, store, diagonal, factors)
+   subroutine factor_fronts(tree, store, diagonal, factors, enough)
       type(front_tree_t), intent(in) :: tree
       type(element_store_t), intent(in) :: store
       real(wp), intent(in) :: diagonal(:)        !< (n) of the matrix, by places
       type(factor_t), allocatable, intent(out) :: factors(:)
+      logical, intent(out) :: enough             !< memory; the factors are of no use without
       type(unit_t), allocatable :: units(:)
       real(wp) :: work(tree%n_classes)
       integer(ip) :: c
+      integer :: no_memory
 
-      allocate (factors(tree%n_classes))
+      allocate (factors(tree%n_classes), stat=no_memory)
+      enough = no_memory == 0
+      if (.not. enough) return
       do c = 1, tree%n_classes
          factors(c)%n_pivots = tree%record(tree%start(c) + 1)
          factors(c)%order = factors(c)%n_pivots + tree%record(tree%start(c) + 2)
@@ -62,6 +74,7 @@ contains
       call factor_waves(tree, store, diagonal, units, factors)
       !$omp end single
       !$omp end parallel
+      enough = all(factors%enough)
    end subroutine factor_fronts
 
    !> Operations of the elimination of a front.
@@ -150,30 +163,39 @@ contains
       real(wp), intent(in) :: diagonal(:)
       type(unit_t), intent(in) :: units(:)
       type(factor_t), intent(inout) :: factors(:)
+      type(workspace_t), allocatable :: workspaces(:)
       integer(ip) :: wave, u
 
+      allocate (workspaces(n_threads()))
       do wave = 1, maxval(units%wave)
          !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
          do u = 1, size(units, kind=ip)
             if (units(u)%wave /= wave) cycle
-            !$omp task default(none) shared(tree, store, diagonal, units, factors) firstprivate(u)
-            call factor_unit(tree, store, diagonal, units(u), factors)
+            !$omp task default(none) shared(tree, store, diagonal, units, factors, workspaces) firstprivate(u)
+            call factor_unit(tree, store, diagonal, units(u), factors, workspaces(this_thread())%front)
             !$omp end task
          end do
          !$omp end taskgroup
       end do
    end subroutine factor_waves
 
-   subroutine factor_unit(tree, store, diagonal, unit, factors)
+   subroutine factor_unit(tree, store, diagonal, unit, factors, front)
       type(front_tree_t), intent(in) :: tree
       type(element_store_t), intent(in) :: store
       real(wp), intent(in) :: diagonal(:)
       type(unit_t), intent(in) :: unit
       type(factor_t), intent(inout) :: factors(:)
-      real(wp), allocatable :: front(:)
+      real(wp), allocatable, intent(inout) :: front(:)
       integer(ip) :: c
+      integer :: no_memory
 
-      allocate (front(int(maxval(factors(unit%first:unit%last)%order), lp)**2))
+      if (.not. allocated(front)) then           ! room for the largest; what is not touched takes no memory
+         allocate (front(int(maxval(factors%order), lp)**2), stat=no_memory)
+         if (no_memory /= 0) then
+            factors(unit%first)%enough = .false.
+            return
+         end if
+      end if
       do c = unit%first, unit%last
          call factor_class(tree, store, diagonal, c, factors(c)%order, factors, front)
       end do
@@ -187,6 +209,7 @@ contains
       type(factor_t), intent(inout) :: factors(:)
       real(wp), intent(inout) :: front(order, order)
       integer(ip) :: n_pivots, place
+      integer :: no_memory
       logical :: complete
 
       call assemble_front(tree, store, c, order, factors, front, complete)
@@ -197,14 +220,16 @@ contains
       place = tree%first(tree%representative(c))
       call judge_pivots(order, n_pivots, front, diagonal(place:place + n_pivots - 1), size(diagonal, kind=ip), factors(c))
       if (factors(c)%failed > 0) return
+      allocate (factors(c)%columns(packed_length(order, n_pivots)), &
+                factors(c)%update(packed_length(order - n_pivots, order - n_pivots)), stat=no_memory)
+      factors(c)%enough = no_memory == 0
+      if (.not. factors(c)%enough) return
       factors(c)%done = .true.
-      allocate (factors(c)%columns(packed_length(order, n_pivots)))
-      allocate (factors(c)%update(packed_length(order - n_pivots, order - n_pivots)))
       call pack_columns(order, front, 1_ip, n_pivots, factors(c)%columns)
       call pack_columns(order, front, n_pivots + 1, order, factors(c)%update)
    end subroutine factor_class
 
-   !> `complete` is false when a child has no factor.
+   !> `complete` is false when a child has no factor: its pivots failed, or the memory did.
    subroutine assemble_front(tree, store, c, order, factors, front, complete)
       type(front_tree_t), intent(in) :: tree
       type(element_store_t), intent(in) :: store
@@ -241,7 +266,7 @@ contains
       type(factor_t), intent(inout) :: factor
       integer(ip) :: waiting
 
-      !$omp atomic capture
+      !$omp atomic capture seq_cst              ! others have read all of it when the last one comes
       factor%waiting = factor%waiting - 1
       waiting = factor%waiting
       !$omp end atomic

@@ -26,12 +26,14 @@ module atrito_front_records
       integer(ip), allocatable :: first_child(:), next_child(:) !< (n_parts) in the order of the parts; 0: none
       integer(lp), allocatable :: first_element(:) !< (n_parts + 1) elements of part p: element(first_element(p) + 1:...)
       integer(ip), allocatable :: element(:)
+      logical :: enough = .true.                 !< memory; the tree is of no use without
    end type part_tree_t
 
    !> Writes the records of parts that follow one another: of a subtree, or of what stands above subtrees.
    type :: record_writer_t
       integer(ip), allocatable :: record(:)      !< one behind the other
       integer(lp) :: written = 0
+      logical :: enough = .true.                 !< memory, for all parts so far; nothing more is written without
       integer(ip), allocatable, private :: at(:) !< (n) place in the front of the part in hand; 0: not in it
       integer(ip), allocatable, private :: border(:), buffer(:) !< (n) of that part
       integer(ip), private :: n_border = 0
@@ -50,13 +52,12 @@ contains
       integer(ip) :: p
 
       tree%n_parts = size(elimination%last, kind=ip) + 1
-      allocate (tree%first(tree%n_parts + 1))
+      call begin_parts(store%n, tree)
+      if (.not. tree%enough) return
       tree%first(1) = 1
       tree%first(2:tree%n_parts) = elimination%last + 1
       tree%first(tree%n_parts) = n - n_kept + 1
       tree%first(tree%n_parts + 1) = n + 1
-      allocate (tree%parent(tree%n_parts), tree%n_descendants(tree%n_parts), source=0_ip)
-      allocate (tree%first_child(tree%n_parts), tree%next_child(tree%n_parts), source=0_ip)
       do p = 1, tree%n_parts - 1
          tree%parent(p) = elimination%parent(p)
          if (tree%parent(p) == 0) tree%parent(p) = tree%n_parts
@@ -69,20 +70,41 @@ contains
       call sort_elements(elimination, n, store, tree)
    end subroutine plant_tree
 
+   !> Room for the parts, without elements and children.
+   pure subroutine begin_parts(n_elements, tree)
+      integer(ip), intent(in) :: n_elements
+      type(part_tree_t), intent(inout) :: tree
+      integer :: no_memory
+
+      allocate (tree%first(tree%n_parts + 1), tree%parent(tree%n_parts), tree%n_descendants(tree%n_parts), &
+                tree%first_child(tree%n_parts), tree%next_child(tree%n_parts), tree%first_element(tree%n_parts + 1), &
+                tree%element(n_elements), stat=no_memory)
+      tree%enough = no_memory == 0
+      if (.not. tree%enough) return
+      tree%parent = 0
+      tree%n_descendants = 0
+      tree%first_child = 0
+      tree%next_child = 0
+      tree%first_element = 0
+   end subroutine begin_parts
+
    !> An element belongs to the part that eliminates the first of its equations.
    pure subroutine sort_elements(elimination, n, store, tree)
       type(elimination_t), intent(in) :: elimination
       integer(ip), intent(in) :: n
       type(element_store_t), intent(in) :: store
       type(part_tree_t), intent(inout) :: tree
-      integer(ip) :: part_at(n), part_of(store%n), p, e
+      integer(ip), allocatable :: part_at(:), part_of(:)
+      integer(ip) :: p, e
       integer(lp) :: k, next(tree%n_parts)
+      integer :: no_memory
 
+      allocate (part_at(n), part_of(store%n), stat=no_memory)
+      tree%enough = no_memory == 0
+      if (.not. tree%enough) return
       do p = 1, tree%n_parts
          part_at(tree%first(p):tree%first(p + 1) - 1) = p
       end do
-      allocate (tree%first_element(tree%n_parts + 1), source=0_lp)
-      allocate (tree%element(store%n))
       do e = 1, store%n
          p = tree%n_parts + 1
          do k = store%start(e) + 1, store%start(e + 1)
@@ -107,14 +129,17 @@ contains
       type(record_writer_t), intent(inout) :: writer
       integer(ip), intent(in) :: n               !< equations
       integer(ip), parameter :: ROOM = 1024_ip
+      integer :: no_memory
 
-      if (.not. allocated(writer%at)) then
-         allocate (writer%at(n), source=0_ip)
-         allocate (writer%border(n), writer%buffer(n), writer%stack(ROOM))
-      end if
       writer%written = 0
       writer%top = 0
-      allocate (writer%record(ROOM))
+      no_memory = 0
+      if (.not. allocated(writer%at)) then
+         allocate (writer%at(n), writer%border(n), writer%buffer(n), writer%stack(ROOM), stat=no_memory)
+         if (no_memory == 0) writer%at = 0
+      end if
+      if (no_memory == 0) allocate (writer%record(ROOM), stat=no_memory)
+      writer%enough = writer%enough .and. no_memory == 0
    end subroutine begin_writer
 
    !> Writes the record of a part; its children are the last ones that were written or pushed. Its border takes the place of theirs
@@ -128,8 +153,10 @@ contains
       type(record_writer_t), intent(inout) :: writer
       integer(ip) :: child, i
 
+      if (.not. writer%enough) return
       call collect_border(elimination, store, tree, p, waiting, writer)
       call write_record(elimination, store, tree, p, waiting, writer)
+      if (.not. writer%enough) return
       child = tree%first_child(p)
       do while (child /= 0)
          writer%top = writer%top - waiting(child)
@@ -158,7 +185,8 @@ contains
       integer(ip) :: n
 
       n = size(border, kind=ip)
-      if (writer%top + n > size(writer%stack, kind=lp)) call grow(writer%stack, 2*(writer%top + n))
+      if (writer%top + n > size(writer%stack, kind=lp)) call grow(writer%stack, 2*(writer%top + n), writer%enough)
+      if (.not. writer%enough) return
       writer%stack(writer%top + 1:writer%top + n) = border
       writer%top = writer%top + n
    end subroutine push_border
@@ -285,7 +313,10 @@ contains
          e = tree%element(i)
          needed = needed + 2 + store%start(e + 1) - store%start(e)
       end do
-      if (writer%written + needed > size(writer%record, kind=lp)) call grow(writer%record, 2*(writer%written + needed))
+      if (writer%written + needed > size(writer%record, kind=lp)) then
+         call grow(writer%record, 2*(writer%written + needed), writer%enough)
+         if (.not. writer%enough) return
+      end if
       call put(tree%first(p + 1) - tree%first(p))
       call put(writer%n_border)
       call put(n_children)

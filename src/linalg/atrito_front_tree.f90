@@ -29,12 +29,13 @@ module atrito_front_tree
       integer(lp), allocatable :: start(:)       !< (n_classes + 1 or more) record of class c: record(start(c) + 1:start(c + 1))
       integer(ip), allocatable :: record(:)      !< records of atrito_front_records, with the classes of the children
       integer(ip), allocatable :: representative(:) !< (n_classes or more) the first part of the class
+      logical :: enough = .true.                 !< memory; the tree is of no use without
    end type front_tree_t
 
    !> A subtree whose records are written by one thread.
    type :: unit_t
       integer(ip) :: first = 0, last = 0         !< parts
-      integer(ip), allocatable :: record(:)
+      integer(ip), allocatable :: record(:)      !< not allocated: the memory did not suffice
       integer(ip), allocatable :: border(:)      !< of the last part
    end type unit_t
 
@@ -53,7 +54,10 @@ contains
       type(unit_t), allocatable :: units(:)
       integer(ip), allocatable :: waiting(:)
 
-      call plant_tree(elimination, n, n_kept, store, parts)
+      tree%enough = store%enough
+      if (tree%enough) call plant_tree(elimination, n, n_kept, store, parts)
+      tree%enough = tree%enough .and. parts%enough
+      if (.not. tree%enough) return
       allocate (waiting(parts%n_parts))
       call find_units(parts, units)
       call write_units(elimination, store, parts, n, waiting, units)
@@ -118,6 +122,7 @@ contains
       do p = unit%first, unit%last
          call write_part(elimination, store, parts, p, waiting, writer)
       end do
+      if (.not. writer%enough) return
       call move_alloc(writer%record, unit%record)
       unit%border = top_border(writer, waiting(unit%last))
    end subroutine write_unit
@@ -133,25 +138,22 @@ contains
       type(front_tree_t), intent(inout) :: tree
       type(record_writer_t) :: writer
       integer(ip), allocatable :: table(:)
-      integer(ip) :: p, u, q
-      integer(lp) :: next, length
+      integer(ip) :: p, u
 
-      call begin_tree(parts%n_parts, tree)
-      allocate (table(0:2**ceiling(log(2.0*real(parts%n_parts))/log(2.0))), source=0_ip)
-      call begin_writer(writer, n)
+      do u = 1, size(units, kind=ip)
+         tree%enough = tree%enough .and. allocated(units(u)%record)
+      end do
+      if (tree%enough) call begin_tree(parts%n_parts, tree, table)
+      if (tree%enough) call begin_writer(writer, n)
       p = 1
       u = 1
       do while (p <= parts%n_parts)
+         tree%enough = tree%enough .and. writer%enough
+         if (.not. tree%enough) return
          if (u <= size(units)) then
             if (p == units(u)%first) then
-               next = 0
-               do q = units(u)%first, units(u)%last
-                  length = record_length(units(u)%record(next + 1:))
-                  call find_class(units(u)%record(next + 1:next + length), q, table, tree)
-                  next = next + length
-               end do
+               call find_classes_of_unit(units(u), table, tree)
                call push_border(writer, units(u)%border)
-               deallocate (units(u)%record, units(u)%border)
                p = units(u)%last + 1
                u = u + 1
                cycle
@@ -159,19 +161,47 @@ contains
          end if
          writer%written = 0
          call write_part(elimination, store, parts, p, waiting, writer)
-         call find_class(writer%record(:writer%written), p, table, tree)
+         if (writer%enough) call find_class(writer%record(:writer%written), p, table, tree)
          p = p + 1
       end do
+      tree%enough = tree%enough .and. writer%enough
    end subroutine find_classes
 
-   pure subroutine begin_tree(n_parts, tree)
+   pure subroutine find_classes_of_unit(unit, table, tree)
+      type(unit_t), intent(inout) :: unit        !< its record is given back
+      integer(ip), intent(inout) :: table(0:)
+      type(front_tree_t), intent(inout) :: tree
+      integer(ip) :: p
+      integer(lp) :: next, length
+
+      next = 0
+      do p = unit%first, unit%last
+         length = record_length(unit%record(next + 1:))
+         call find_class(unit%record(next + 1:next + length), p, table, tree)
+         next = next + length
+      end do
+      deallocate (unit%record)
+   end subroutine find_classes_of_unit
+
+   pure subroutine begin_tree(n_parts, tree, table)
       integer(ip), intent(in) :: n_parts
       type(front_tree_t), intent(inout) :: tree
+      integer(ip), allocatable, intent(out) :: table(:) !< (0:) a power of two from twice the parts on, and one
       integer(ip), parameter :: ROOM = 256_ip
+      integer(ip) :: slots
+      integer :: no_memory
 
       tree%n_parts = n_parts
-      allocate (tree%class_of(n_parts), tree%start(ROOM), tree%representative(ROOM), tree%record(ROOM))
+      slots = 2
+      do while (slots/2 < n_parts)
+         slots = 2*slots
+      end do
+      allocate (tree%class_of(n_parts), tree%start(ROOM), tree%representative(ROOM), tree%record(ROOM), table(0:slots), &
+                stat=no_memory)
+      tree%enough = no_memory == 0
+      if (.not. tree%enough) return
       tree%start(1) = 0
+      table = 0
    end subroutine begin_tree
 
    !> Looks the record of a part up among the classes; it becomes a class when it is new, and always for the last part, which is
@@ -183,6 +213,7 @@ contains
       type(front_tree_t), intent(inout) :: tree
       integer(ip) :: slot, class
 
+      if (.not. tree%enough) return
       call name_classes(tree%class_of, record)
       slot = hash(record, size(table, kind=ip) - 1)
       do
@@ -193,6 +224,7 @@ contains
       end do
       if (class == 0 .or. p == tree%n_parts) then
          call add_class(tree, p, record)
+         if (.not. tree%enough) return
          class = tree%n_classes
          table(slot) = class
       end if
@@ -213,12 +245,13 @@ contains
       integer(lp) :: first, last
 
       if (tree%n_classes + 2 > size(tree%start)) then
-         call grow(tree%start, 2*size(tree%start, kind=lp))
-         call grow(tree%representative, 2*size(tree%representative, kind=lp))
+         call grow(tree%start, 2*size(tree%start, kind=lp), tree%enough)
+         if (tree%enough) call grow(tree%representative, 2*size(tree%representative, kind=lp), tree%enough)
       end if
       first = tree%start(tree%n_classes + 1)
       last = first + size(record, kind=lp)
-      if (last > size(tree%record, kind=lp)) call grow(tree%record, 2*last)
+      if (tree%enough .and. last > size(tree%record, kind=lp)) call grow(tree%record, 2*last, tree%enough)
+      if (.not. tree%enough) return
       tree%record(first + 1:last) = record
       tree%n_classes = tree%n_classes + 1
       tree%start(tree%n_classes + 1) = last

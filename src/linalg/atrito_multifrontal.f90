@@ -13,7 +13,7 @@ module atrito_multifrontal
    use atrito_front_tree, only: front_tree_t, build_front_tree
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
-   use atrito_status, only: status_t
+   use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    use atrito_storage, only: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status
    implicit none (type, external)
    private
@@ -45,6 +45,7 @@ contains
       class(multifrontal_t), intent(inout) :: self
       type(profile_t), intent(in) :: profile
       type(status_t), intent(out) :: status
+      integer :: no_memory
 
       self%n = profile%n
       self%n_kept = profile%n_kept
@@ -56,8 +57,12 @@ contains
       end if
       call begin_store(self%store)
       if (allocated(self%diagonal)) deallocate (self%diagonal)
-      allocate (self%diagonal(self%n), source=0.0_wp)
-      status = status_t()
+      allocate (self%diagonal(self%n), stat=no_memory)
+      if (no_memory /= 0) then
+         call tell_of_memory(status)
+         return
+      end if
+      self%diagonal = 0.0_wp
    end subroutine create_fronts
 
    subroutine add_to_fronts(self, equations, matrix)
@@ -112,14 +117,27 @@ contains
    subroutine factor_and_report(self, status)
       class(multifrontal_t), intent(inout) :: self
       type(status_t), intent(out) :: status
+      logical :: enough
 
+      self%report = pivot_report_t()
       call build_front_tree(self%elimination, self%n, self%n_kept, self%store, self%tree)
-      call factor_fronts(self%tree, self%store, self%diagonal, self%factors)
+      enough = self%tree%enough
+      if (enough) call factor_fronts(self%tree, self%store, self%diagonal, self%factors, enough)
+      self%store = element_store_t()
+      if (.not. enough) then
+         call tell_of_memory(status)
+         return
+      end if
       call report_pivots(self, status)
       call plan_solves(self%tree, self%plan)
-      call begin_store(self%store)
       deallocate (self%diagonal)
    end subroutine factor_and_report
+
+   subroutine tell_of_memory(status)
+      type(status_t), intent(inout) :: status
+
+      call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
+   end subroutine tell_of_memory
 
    !> The report of the pivots, class by class; the equation named is that of the first part of its class.
    subroutine report_pivots(self, status)
@@ -128,7 +146,6 @@ contains
       integer(ip) :: c, place
       logical :: usable
 
-      self%report = pivot_report_t()
       usable = .true.
       do c = 1, self%tree%n_classes
          associate (factor => self%factors(c))

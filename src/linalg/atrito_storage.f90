@@ -60,7 +60,7 @@ module atrito_storage
       end subroutine add_matrix
 
       !> Factors K_ii and forms S, in place. status: STATUS_SINGULAR when K_ii is singular or indefinite; `report` then names
-      !> the equation, and the matrix is lost.
+      !> the equation, and the matrix is lost. STATUS_INTERNAL when the memory is too small.
       subroutine factor_interior(self, status)
          import :: storage_t, status_t
          class(storage_t), intent(inout) :: self

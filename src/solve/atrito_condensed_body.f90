@@ -14,7 +14,7 @@ module atrito_condensed_body
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: new_storage, needs_profile, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, &
                                    STORAGE_SPARSE, STORAGE_MUMPS
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_storage, only: storage_t, smallest_ratio
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
@@ -102,7 +102,7 @@ contains
 
    !> Assembles, factors and condenses a body, by the storage that was chosen for `result` or that is chosen now.
    !>
-   !> status: STATUS_SINGULAR with the body, node and motion in words.
+   !> status: STATUS_SINGULAR with the body, node and motion in words; STATUS_INTERNAL when the memory does not suffice.
    subroutine condense_body(fem, i_body, asked, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -147,6 +147,7 @@ contains
       type(status_t), intent(out) :: status
 
       call body%storage%factor(status)
+      if (status%code == STATUS_INTERNAL) return
       call report_pivots(fem, i_body, body%storage, result)
       if (.not. is_ok(status)) then
          call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': '//status%text//', node ' &
