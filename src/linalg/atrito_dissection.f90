@@ -1,6 +1,6 @@
 !> Elimination order for the sparse solver: nested dissection by the places of the elements.
 !>
-!> A set of elements is cut across its longer side; the nodes that both parts have are the separator and are eliminated last, after
+!> A set of elements is cut across its longer side, counted in elements; the nodes that both parts have are the separator and are eliminated last, after
 !> the two parts, which are cut in turn (George, SIAM J. Numer. Anal. 10 (1973) 345-363). Near the optimum for plane meshes,
 !> whatever the numbering, in n log n steps: minimum degree takes 0.7 to 3 times the operations, depending on the numbering, and
 !> METIS ten times as long to find an order no better (docs/developer). Sets of the same shape are cut alike, so that regular
@@ -24,6 +24,7 @@ module atrito_dissection
    type :: pieces_t
       integer(ip), allocatable :: element(:)
       real(wp), allocatable :: centre(:, :)      !< (2, elements) [L]
+      real(wp), allocatable :: extent(:, :)      !< (2, all elements) [L] of those in the list
    end type pieces_t
 
    !> What is known of the nodes.
@@ -36,7 +37,7 @@ module atrito_dissection
    integer(ip), parameter :: LEAF = 64_ip
    !> Sets of so many elements are worth a task of their own.
    integer(ip), parameter :: LARGE = 4096_ip
-   !> Elements whose median stands for that of all.
+   !> Elements whose median and mean stand for those of all.
    integer, parameter :: MOST_SAMPLES = 63
    !> Elements closer to the cut than this share of the extent lie on it: round-off of a regular mesh.
    real(wp), parameter :: ON_CUT = 1.0e-6_wp
@@ -59,10 +60,11 @@ contains
       type(marks_t) :: marks
       integer(ip) :: i, root
 
-      allocate (pieces%centre(2, size(elements)))
+      allocate (pieces%centre(2, size(elements)), pieces%extent(2, size(n_nodes_of)))
       pieces%element = elements
       do i = 1, size(elements, kind=ip)
-         pieces%centre(:, i) = centre_of(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)))
+         call measure(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)), pieces%centre(:, i), &
+                      pieces%extent(:, elements(i)))
       end do
       marks%taken = .not. wanted
       allocate (marks%upper_of(size(wanted)), source=0_lp)
@@ -70,22 +72,28 @@ contains
       if (size(elements) == 0) return
       !$omp parallel default(none) shared(nodes, n_nodes_of, pieces, marks, parts, root) if(size(pieces%element) > LARGE)
       !$omp single
-      call cut(nodes, n_nodes_of, pieces%element, pieces%centre, 1_lp, marks%taken, marks%upper_of, parts, root)
+      call cut(nodes, n_nodes_of, pieces%element, pieces%centre, pieces%extent, 1_lp, marks%taken, marks%upper_of, parts, root)
       !$omp end single
       !$omp end parallel
    end subroutine dissect
 
-   pure function centre_of(x, corners) result(centre)
+   pure subroutine measure(x, corners, centre, extent)
       real(wp), intent(in) :: x(:, :)
       integer(ip), intent(in) :: corners(:)
-      real(wp) :: centre(2)
+      real(wp), intent(out) :: centre(2), extent(2)
+      real(wp) :: low(2), high(2)
       integer(ip) :: i
 
       centre = 0.0_wp
+      low = x(:, corners(1))
+      high = low
       do i = 1, size(corners, kind=ip)
          centre = centre + x(:, corners(i))/real(size(corners), wp)
+         low = min(low, x(:, corners(i)))
+         high = max(high, x(:, corners(i)))
       end do
-   end function centre_of
+      extent = high - low
+   end subroutine measure
 
    pure subroutine begin_parts(parts, n_nodes)
       type(dissection_t), intent(inout) :: parts
@@ -96,10 +104,11 @@ contains
    end subroutine begin_parts
 
    !> Appends the nodes of a set to the parts. The depth of the recursion is that of the tree, about log2 of the elements.
-   recursive subroutine cut(nodes, n_nodes_of, element, centre, number, taken, upper_of, parts, root)
+   recursive subroutine cut(nodes, n_nodes_of, element, centre, extent, number, taken, upper_of, parts, root)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
+      real(wp), intent(in), contiguous :: extent(:, :)
       integer(lp), intent(in) :: number          !< of the cut: 2 number and 2 number + 1 are those of its parts
       logical, intent(inout), contiguous :: taken(:)
       integer(lp), intent(inout), contiguous :: upper_of(:)
@@ -110,17 +119,18 @@ contains
 
       n = size(element, kind=ip)
       n_lower = 0
-      if (is_large(n_nodes_of, element) .and. number < LAST_CUT) call split(element, centre, n_lower)
+      if (is_large(n_nodes_of, element) .and. number < LAST_CUT) call split(element, centre, extent, n_lower)
       if (n_lower == 0) then
          call take_rest(nodes, n_nodes_of, element, taken, parts, root)
          return
       end if
       call take_separator(nodes, n_nodes_of, element, n_lower, number, taken, upper_of, separator)
       if (n > LARGE) then
-         call cut_side_by_side(nodes, n_nodes_of, element, centre, n_lower, number, taken, upper_of, parts, lower, upper)
+         call cut_side_by_side(nodes, n_nodes_of, element, centre, extent, n_lower, number, taken, upper_of, parts, lower, upper)
       else
-         call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), 2*number, taken, upper_of, parts, lower)
-         call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), 2*number + 1, taken, upper_of, parts, upper)
+         call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, taken, upper_of, parts, lower)
+         call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, taken, upper_of, parts, &
+                  upper)
       end if
       call add_part(parts, separator, lower, upper, root)
    end subroutine cut
@@ -133,10 +143,12 @@ contains
    end function is_large
 
    !> Both parts of a large set, as two tasks. They have no node in common that is not taken.
-   recursive subroutine cut_side_by_side(nodes, n_nodes_of, element, centre, n_lower, number, taken, upper_of, parts, lower, upper)
+   recursive subroutine cut_side_by_side(nodes, n_nodes_of, element, centre, extent, n_lower, number, taken, upper_of, parts, &
+                                         lower, upper)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
+      real(wp), intent(in), contiguous :: extent(:, :)
       integer(ip), intent(in) :: n_lower
       integer(lp), intent(in) :: number
       logical, intent(inout), contiguous :: taken(:)
@@ -148,10 +160,11 @@ contains
       call begin_parts(of_lower, count_free(nodes, n_nodes_of, element(:n_lower), taken))
       call begin_parts(of_upper, count_free(nodes, n_nodes_of, element(n_lower + 1:), taken))
       !$omp task default(shared)
-      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), 2*number, taken, upper_of, of_lower, lower)
+      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, taken, upper_of, of_lower, lower)
       !$omp end task
       !$omp task default(shared)
-      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), 2*number + 1, taken, upper_of, of_upper, upper)
+      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, taken, upper_of, of_upper, &
+               upper)
       !$omp end task
       !$omp taskwait
       if (lower > 0) lower = lower + parts%n
@@ -175,15 +188,16 @@ contains
    end function count_free
 
    !> Puts the elements below the cut first; their order stays. n_lower = 0: there is no cut.
-   pure subroutine split(element, centre, n_lower)
+   pure subroutine split(element, centre, extent, n_lower)
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
+      real(wp), intent(in), contiguous :: extent(:, :)
       integer(ip), intent(out) :: n_lower
       integer(ip) :: upper(size(element)), i, n_upper
       real(wp) :: upper_centre(2, size(element)), place
       integer :: along
 
-      call choose_cut(centre, along, place)
+      call choose_cut(element, centre, extent, along, place)
       n_lower = 0
       n_upper = 0
       do i = 1, size(element, kind=ip)
@@ -203,11 +217,12 @@ contains
    end subroutine split
 
    !> Where to cut: across the longer side, in the middle, or where that leaves too few on one side, at the median of a sample.
-   pure subroutine choose_cut(centre, along, place)
-      real(wp), intent(in), contiguous :: centre(:, :)
+   pure subroutine choose_cut(element, centre, extent, along, place)
+      integer(ip), intent(in), contiguous :: element(:)
+      real(wp), intent(in), contiguous :: centre(:, :), extent(:, :)
       integer, intent(out) :: along              !< 1 or 2
       real(wp), intent(out) :: place             !< [L]
-      real(wp) :: low(2), high(2), margin, share
+      real(wp) :: low(2), high(2), one(2), margin, share
       integer(ip) :: i
 
       low = centre(:, 1)
@@ -216,15 +231,41 @@ contains
          low = min(low, centre(:, i))
          high = max(high, centre(:, i))
       end do
-      along = merge(1, 2, high(1) - low(1) >= high(2) - low(2))
+      one = sample_mean(element, extent)
+      ! longer in elements, not in length: flat elements are few along their long side; as many both ways: across the same one always
+      along = merge(1, 2, (high(1) - low(1))*one(2) >= (high(2) - low(2))*one(1)*(1.0_wp - ON_CUT))
+      if (.not. high(along) > low(along)) along = 3 - along
       margin = ON_CUT*(high(along) - low(along))
       place = 0.5_wp*low(along) + 0.5_wp*high(along) + margin
       share = real(count(centre(along, :) <= place), wp)/real(size(centre, 2), wp)
       if (share >= BALANCED .and. share <= 1.0_wp - BALANCED) return
       place = sample_median(centre, along) + margin
-      ! more than half of the elements at the upper end: any cut between is better than none
-      if (place >= high(along) - margin) place = 0.5_wp*low(along) + 0.5_wp*high(along)
+      ! more than half of the elements at the upper end: it is cut off
+      if (place >= high(along) - margin) place = place - 2.0_wp*margin
+      if (.not. place >= low(along)) place = 0.5_wp*low(along) + 0.5_wp*high(along)
    end subroutine choose_cut
+
+   !> The element that is taken for the i-th of n at equal distances in a list.
+   pure integer function sample_place(i, n, length)
+      integer, intent(in) :: i, n
+      integer, intent(in) :: length              !< of the list
+
+      sample_place = 1 + int((real(i, wp) - 0.5_wp)*real(length, wp)/real(n, wp))
+   end function sample_place
+
+   !> Mean extents of some elements of a list.
+   pure function sample_mean(element, extent) result(mean)
+      integer(ip), intent(in), contiguous :: element(:)
+      real(wp), intent(in), contiguous :: extent(:, :)
+      real(wp) :: mean(2)
+      integer :: i, n
+
+      n = min(MOST_SAMPLES, size(element))
+      mean = 0.0_wp
+      do i = 1, n
+         mean = mean + extent(:, element(sample_place(i, n, size(element))))/real(n, wp)
+      end do
+   end function sample_mean
 
    !> Median of coordinates of elements taken at equal distances from the list.
    pure real(wp) function sample_median(centre, along) result(median)
@@ -235,7 +276,7 @@ contains
 
       n = min(MOST_SAMPLES, size(centre, 2))
       do i = 1, n
-         next = centre(along, 1 + int((real(i, wp) - 0.5_wp)*real(size(centre, 2), wp)/real(n, wp)))
+         next = centre(along, sample_place(i, n, size(centre, 2)))
          do j = i - 1, 1, -1
             if (sorted(j) <= next) exit
             sorted(j + 1) = sorted(j)
