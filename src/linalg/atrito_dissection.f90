@@ -1,10 +1,10 @@
 !> Elimination order for the sparse solver: nested dissection by the places of the elements.
 !>
-!> A set of elements is cut across its longer side, counted in elements; the nodes that both parts have are the separator and are eliminated last, after
-!> the two parts, which are cut in turn (George, SIAM J. Numer. Anal. 10 (1973) 345-363). Near the optimum for plane meshes,
-!> whatever the numbering, in n log n steps: minimum degree takes 0.7 to 3 times the operations, depending on the numbering, and
-!> METIS ten times as long to find an order no better (docs/developer). Sets of the same shape are cut alike, so that regular
-!> meshes have few different fronts.
+!> A set of elements is cut across its longer side, counted in elements; the nodes that both parts have are the separator and are
+!> eliminated last, after the two parts, which are cut in turn (George, SIAM J. Numer. Anal. 10 (1973) 345-363). Near the optimum
+!> for plane meshes, whatever the numbering, in n log n steps: minimum degree takes 0.7 to 3 times the operations, depending on the
+!> numbering, and METIS ten times as long to find an order no better (docs/developer). Sets of the same shape are cut alike, so
+!> that regular meshes have few different fronts.
 module atrito_dissection
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
@@ -232,7 +232,7 @@ contains
          high = max(high, centre(:, i))
       end do
       one = sample_mean(element, extent)
-      ! longer in elements, not in length: flat elements are few along their long side; as many both ways: across the same one always
+      ! longer in elements, not in length: flat elements are few along their long side; as many both ways: always across the same
       along = merge(1, 2, (high(1) - low(1))*one(2) >= (high(2) - low(2))*one(1)*(1.0_wp - ON_CUT))
       if (.not. high(along) > low(along)) along = 3 - along
       margin = ON_CUT*(high(along) - low(along))
