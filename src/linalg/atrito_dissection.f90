@@ -6,6 +6,7 @@
 !> numbering, and METIS ten times as long to find an order no better (docs/developer). Sets of the same shape are cut alike, so
 !> that regular meshes have few different fronts.
 module atrito_dissection
+   use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
@@ -294,7 +295,6 @@ contains
       integer(lp), intent(inout) :: upper_of(:)
       integer(ip), allocatable, intent(out) :: separator(:)
       integer(ip) :: i, k, n, node
-      integer(ip), allocatable :: longer(:)
 
       do i = n_lower + 1, size(element, kind=ip)
          do k = 1, n_nodes_of(element(i))
@@ -310,11 +310,7 @@ contains
             if (taken(node)) cycle
             if (upper_of(node) /= number) cycle
             taken(node) = .true.
-            if (n == size(separator)) then
-               allocate (longer(2*n))
-               longer(:n) = separator
-               call move_alloc(longer, separator)
-            end if
+            if (n == size(separator)) call grow(separator, 2*int(n, lp))
             n = n + 1
             separator(n) = node
          end do
@@ -390,15 +386,10 @@ contains
    pure subroutine make_room(parts, n)
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(in) :: n
-      integer(ip), allocatable :: longer(:)
 
       if (parts%n + n <= size(parts%last)) return
-      allocate (longer(2*(parts%n + n)))
-      longer(:parts%n) = parts%last(:parts%n)
-      call move_alloc(longer, parts%last)
-      allocate (longer(2*(parts%n + n)))
-      longer(:parts%n) = parts%parent(:parts%n)
-      call move_alloc(longer, parts%parent)
+      call grow(parts%last, 2*int(parts%n + n, lp))
+      call grow(parts%parent, 2*int(parts%n + n, lp))
    end subroutine make_room
 
 end module atrito_dissection

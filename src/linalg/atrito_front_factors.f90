@@ -12,7 +12,7 @@ module atrito_front_factors
    use atrito_threads, only: n_threads, this_thread
    implicit none (type, external)
    private
-   public :: factor_t, factor_fronts, front_flops
+   public :: factor_t, factor_fronts
 
    !> The factor of a class of fronts.
    type :: factor_t

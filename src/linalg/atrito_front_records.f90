@@ -151,23 +151,34 @@ contains
       integer(ip), intent(in) :: p
       integer(ip), intent(inout) :: waiting(:)   !< (n_parts) entries of the borders of finished parts
       type(record_writer_t), intent(inout) :: writer
-      integer(ip) :: child, i
+      integer(ip) :: i
 
       if (.not. writer%enough) return
       call collect_border(elimination, store, tree, p, waiting, writer)
       call write_record(elimination, store, tree, p, waiting, writer)
       if (.not. writer%enough) return
-      child = tree%first_child(p)
-      do while (child /= 0)
-         writer%top = writer%top - waiting(child)
-         child = tree%next_child(child)
-      end do
+      writer%top = below_children(tree, p, waiting, writer)
       do i = 1, writer%n_border
          writer%at(writer%border(i)) = 0
       end do
       call push_border(writer, writer%border(:writer%n_border))
       waiting(p) = writer%n_border
    end subroutine write_part
+
+   !> The height of the stack below the borders of a part's children, which are on top.
+   pure integer(lp) function below_children(tree, p, waiting, writer) result(height)
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p, waiting(:)
+      type(record_writer_t), intent(in) :: writer
+      integer(ip) :: child
+
+      height = writer%top
+      child = tree%first_child(p)
+      do while (child /= 0)
+         height = height - waiting(child)
+         child = tree%next_child(child)
+      end do
+   end function below_children
 
    !> The border on top of the stack.
    pure function top_border(writer, n) result(border)
@@ -205,12 +216,7 @@ contains
 
       last = tree%first(p + 1) - 1
       writer%n_border = 0
-      base = writer%top
-      child = tree%first_child(p)
-      do while (child /= 0)
-         base = base - waiting(child)
-         child = tree%next_child(child)
-      end do
+      base = below_children(tree, p, waiting, writer)
       child = tree%first_child(p)
       do while (child /= 0)
          n_new = 0
@@ -301,12 +307,11 @@ contains
 
       n_children = 0
       needed = HEADER
-      base = writer%top
+      base = below_children(tree, p, waiting, writer)
       child = tree%first_child(p)
       do while (child /= 0)
          n_children = n_children + 1
          needed = needed + 2 + waiting(child)
-         base = base - waiting(child)
          child = tree%next_child(child)
       end do
       do i = int(tree%first_element(p), ip) + 1, int(tree%first_element(p + 1), ip)

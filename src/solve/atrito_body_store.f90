@@ -108,16 +108,18 @@ contains
       if (allocated(store%bodies) .and. .not. store%keeps) deallocate (store%bodies)
    end subroutine release_bodies
 
-   !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same.
-   subroutine take_numbering(store, held, points, fem, taken)
+   !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same: how they
+   !> are numbered depends on the storage.
+   subroutine take_numbering(store, held, points, asked, fem, taken)
       type(body_store_t), intent(in) :: store
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
+      integer, intent(in) :: asked                     !< STORAGE_* or 0
       type(fem_t), intent(inout) :: fem                !< with mesh and sections
       logical, intent(out) :: taken
 
       taken = .false.
-      if (store%holds) taken = has_same_numbering(store, held, points, fem)
+      if (store%holds) taken = store%asked == asked .and. has_same_numbering(store, held, points, fem)
       if (taken) fem%bodies = store%fem%bodies
    end subroutine take_numbering
 

@@ -29,8 +29,8 @@ module atrito_condensed_body
       real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
    end type condensed_body_t
 
-   ! Costs in operations of the skyline, fitted to blocks and strips of 200 to 900,000 equations with OpenBLAS; the crossing lies
-   ! near 4,000 equations for a square, and never for a strip of few elements across (docs/developer/solvers.md).
+   ! Costs in operations of the skyline, fitted to blocks and strips of 200 to 900,000 equations with OpenBLAS
+   ! (docs/developer/solvers.md).
    !> Floating-point operations that LAPACK's band routines do in the time of one of the skyline's.
    real(wp), parameter :: BAND_SPEED = 2.2_wp
    !> The same of the fronts of the sparse solver.

@@ -155,7 +155,7 @@ contains
       logical :: known
 
       call build_scene(model, data%fem, data%held, data%value, data%points)
-      call take_numbering(store, data%held, data%points, data%fem, known)
+      call take_numbering(store, data%held, data%points, options%storage_kind, data%fem, known)
       if (.not. known) call build_bodies(model, data%held, data%points, options%storage_kind, data%fem)
       call build_rows(data%points, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
