@@ -19,7 +19,7 @@ module atrito_assembly
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
-      type(mesh_t) :: mesh
+      type(mesh_t), pointer :: mesh => null()      !< the model's: a mesh is large, and nothing changes it
       type(bodies_t) :: bodies
       type(elastic_t), allocatable :: sections(:)
       integer(ip), allocatable :: section_of(:)    !< (n_elements)

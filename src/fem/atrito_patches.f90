@@ -5,9 +5,10 @@
 module atrito_patches
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: elastic_t
-   use atrito_kinds, only: ip, lp
+   use atrito_incidence, only: list_holders
+   use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t, Q1_NODES
-   use atrito_threads, only: n_threads, is_shared, run_count, find_run
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: patches_t, build_patches
@@ -140,24 +141,9 @@ contains
    subroutine list_elements_at_corners(mesh, patches)
       type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(inout) :: patches
-      integer(ip), allocatable :: at(:, :)           !< (n, n_parts): counts, then where the part's next element goes
-      integer(ip) :: part, n_parts, e, k
+      integer(ip) :: e, k
 
-      n_parts = 1
-      if (is_shared(mesh%n_elements)) n_parts = n_threads()
-      allocate (at(patches%n, n_parts), patches%first(patches%n + 1))
-      !$omp parallel do schedule(static, 1)
-      do part = 1, n_parts
-         call count_at_corners(patches%place, part, n_parts, at(:, part))
-      end do
-      !$omp end parallel do
-      call counts_to_starts(at, patches%first)
-      allocate (patches%element(patches%first(patches%n + 1) - 1), patches%corner(patches%first(patches%n + 1) - 1))
-      !$omp parallel do schedule(static, 1)
-      do part = 1, n_parts
-         call fill_corners(part, n_parts, at(:, part), patches)
-      end do
-      !$omp end parallel do
+      call list_holders(patches%n, patches%place(:CORNERS, :), patches%first, patches%element, patches%corner)
       allocate (patches%owner(patches%n))
       !$omp parallel do schedule(static) if (is_shared(patches%n))
       do k = 1, patches%n
@@ -172,88 +158,6 @@ contains
          end do
       end do
    end subroutine list_elements_at_corners
-
-   !> The last element of a part; that of part 0 is 0.
-   pure integer(ip) function part_end(part, n_parts, n)
-      integer(ip), intent(in) :: part, n_parts, n
-
-      part_end = int((int(n, lp)*part)/n_parts, ip)
-   end function part_end
-
-   pure subroutine count_at_corners(place, part, n_parts, count)
-      integer(ip), intent(in) :: place(:, :), part, n_parts
-      integer(ip), intent(out) :: count(:)
-      integer(ip) :: e, k, n
-
-      n = size(place, 2, kind=ip)
-      count = 0
-      do e = part_end(part - 1, n_parts, n) + 1, part_end(part, n_parts, n)
-         do k = 1, CORNERS
-            count(place(k, e)) = count(place(k, e)) + 1
-         end do
-      end do
-   end subroutine count_at_corners
-
-   !> From the lengths of the lists, by parts, to their starts; run by run of the places.
-   subroutine counts_to_starts(at, first)
-      integer(ip), intent(inout) :: at(:, :)         !< (n, n_parts)
-      integer(ip), intent(out) :: first(:)           !< (n + 1)
-      integer(ip) :: start(run_count(size(at, 1, kind=ip)) + 1)
-      integer(ip) :: run, low, high, n
-
-      n = size(at, 1, kind=ip)
-      start(1) = 1
-      !$omp parallel do schedule(static) private(low, high) if (is_shared(n))
-      do run = 1, run_count(n)
-         call find_run(run, n, low, high)
-         start(run + 1) = sum(at(low:high, :))
-      end do
-      !$omp end parallel do
-      do run = 2, size(start, kind=ip)
-         start(run) = start(run) + start(run - 1)
-      end do
-      !$omp parallel do schedule(static) private(low, high) if (is_shared(n))
-      do run = 1, run_count(n)
-         call find_run(run, n, low, high)
-         call starts_in_run(start(run), at(low:high, :), first(low:high))
-      end do
-      !$omp end parallel do
-      first(n + 1) = start(size(start))
-   end subroutine counts_to_starts
-
-   pure subroutine starts_in_run(start, at, first)
-      integer(ip), intent(in) :: start
-      integer(ip), intent(inout) :: at(:, :)
-      integer(ip), intent(out) :: first(:)
-      integer(ip) :: i, part, next, count
-
-      next = start
-      do i = 1, size(first, kind=ip)
-         first(i) = next
-         do part = 1, size(at, 2, kind=ip)
-            count = at(i, part)
-            at(i, part) = next
-            next = next + count
-         end do
-      end do
-   end subroutine starts_in_run
-
-   pure subroutine fill_corners(part, n_parts, at, patches)
-      integer(ip), intent(in) :: part, n_parts
-      integer(ip), intent(inout) :: at(:)
-      type(patches_t), intent(inout) :: patches      !< the places of this part's corners in element and corner
-      integer(ip) :: e, k, n, i
-
-      n = size(patches%place, 2, kind=ip)
-      do e = part_end(part - 1, n_parts, n) + 1, part_end(part, n_parts, n)
-         do k = 1, CORNERS
-            i = patches%place(k, e)
-            patches%element(at(i)) = e
-            patches%corner(at(i)) = k
-            at(i) = at(i) + 1
-         end do
-      end do
-   end subroutine fill_corners
 
    !> Interior nodes have patches. Elements that touch none (a zone one or two elements wide) get patches at their nodes that
    !> have a neighbour; those that still have none are alone.

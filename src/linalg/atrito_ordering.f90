@@ -2,6 +2,7 @@
 !>
 !> Reference: A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4.
 module atrito_ordering
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
@@ -24,14 +25,14 @@ module atrito_ordering
 contains
 
    !> Graph of a mesh, in time linear in the number of pairs of nodes within elements.
-   pure subroutine build_graph(n, elements, graph)
+   subroutine build_graph(n, elements, graph)
       integer(ip), intent(in) :: n               !< nodes
       integer(ip), intent(in) :: elements(:, :)  !< (nodes per element, elements): 1..n, 0 beyond the count
       type(graph_t), intent(out) :: graph
       integer(ip), allocatable :: start(:), list(:), last_seen_from(:)
       integer(ip) :: i, used
 
-      call list_elements(n, elements, start, list)
+      call list_holders(n, elements, start, list)
       graph%n = n
       allocate (graph%xadj(n + 1), last_seen_from(n))
       ! a node shares an element with at most all others of each of its elements; what is not touched takes no memory
@@ -44,38 +45,6 @@ contains
       end do
       graph%xadj(n + 1) = used + 1
    end subroutine build_graph
-
-   !> The elements at each node: list(start(i):start(i + 1) - 1).
-   pure subroutine list_elements(n, elements, start, list)
-      integer(ip), intent(in) :: n, elements(:, :)
-      integer(ip), allocatable, intent(out) :: start(:), list(:)
-      integer(ip) :: e, k, node
-      integer(ip) :: next(n)
-
-      allocate (start(n + 1))
-      start = 0
-      do e = 1, size(elements, 2, kind=ip)
-         do k = 1, size(elements, 1, kind=ip)
-            node = elements(k, e)
-            if (node == 0) exit
-            start(node + 1) = start(node + 1) + 1
-         end do
-      end do
-      start(1) = 1
-      do node = 1, n
-         start(node + 1) = start(node) + start(node + 1)
-      end do
-      allocate (list(start(n + 1) - 1))
-      next = start(:n)
-      do e = 1, size(elements, 2, kind=ip)
-         do k = 1, size(elements, 1, kind=ip)
-            node = elements(k, e)
-            if (node == 0) exit
-            list(next(node)) = e
-            next(node) = next(node) + 1
-         end do
-      end do
-   end subroutine list_elements
 
    !> Appends the neighbours of node i.
    pure subroutine take_neighbours(i, elements, around, last_seen_from, neighbours, used)

@@ -1,11 +1,13 @@
 !> Bodies: the connected components of the elements, their equations and their rigid motions.
 module atrito_bodies
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_dense, only: null_space
    use atrito_dissection, only: dissect, dissection_t
    use atrito_elimination, only: elimination_t
    use atrito_ordering, only: graph_t, build_graph, mesh_components, order_contact_last
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: body_t, bodies_t, find_bodies, number_equations, order_by_dissection, find_rigid_modes, element_equations, mode_at
@@ -55,9 +57,13 @@ contains
          end if
          bodies%of_element(e) = number(i)
       end do
-      bodies%of_node = number(component)
-      allocate (bodies%list(bodies%n), bodies%equation(2, mesh%n_nodes))
-      bodies%equation = 0
+      !$omp parallel do default(none) shared(mesh, bodies, number, component) if(is_shared(mesh%n_nodes))
+      do i = 1, mesh%n_nodes
+         bodies%of_node(i) = number(component(i))
+      end do
+      !$omp end parallel do
+      allocate (bodies%list(bodies%n))
+      allocate (bodies%equation(2, mesh%n_nodes), source=0_ip)
       call list_members(bodies)
       do i = 1, bodies%n
          call measure_body(mesh, bodies%list(i))
@@ -65,49 +71,46 @@ contains
    end subroutine find_bodies
 
    !> The elements and nodes of each body, in their order, in linear time for any number of bodies.
-   pure subroutine list_members(bodies)
+   subroutine list_members(bodies)
       type(bodies_t), intent(inout) :: bodies
-      integer(ip) :: n_elements(bodies%n), n_nodes(bodies%n), e, i
+      integer(ip), allocatable :: first(:), member(:)
+      integer(ip) :: i
 
-      n_elements = counts(bodies%of_element, bodies%n)
-      n_nodes = counts(bodies%of_node, bodies%n)
+      call list_parts(bodies%n, size(bodies%of_element, kind=ip), bodies%of_element, first, member)
       do i = 1, bodies%n
-         allocate (bodies%list(i)%elements(n_elements(i)), bodies%list(i)%nodes(n_nodes(i)))
+         bodies%list(i)%elements = member(first(i):first(i + 1) - 1)
       end do
-      n_elements = 0
-      do e = 1, size(bodies%of_element, kind=ip)
-         i = bodies%of_element(e)
-         n_elements(i) = n_elements(i) + 1
-         bodies%list(i)%elements(n_elements(i)) = e
-      end do
-      n_nodes = 0
-      do e = 1, size(bodies%of_node, kind=ip)
-         i = bodies%of_node(e)
-         if (i == 0) cycle
-         n_nodes(i) = n_nodes(i) + 1
-         bodies%list(i)%nodes(n_nodes(i)) = e
+      call list_parts(bodies%n, size(bodies%of_node, kind=ip), bodies%of_node, first, member)
+      do i = 1, bodies%n
+         bodies%list(i)%nodes = member(first(i):first(i + 1) - 1)
       end do
    end subroutine list_members
 
-   !> How often 1 .. n stand in a list.
-   pure function counts(list, n)
-      integer(ip), intent(in) :: list(:)            !< 0 .. n
-      integer(ip), intent(in) :: n
-      integer(ip) :: counts(n), i
+   !> The members of parts that have none in common.
+   subroutine list_parts(n_parts, n, part_of, first, member)
+      integer(ip), intent(in) :: n_parts, n
+      integer(ip), intent(in) :: part_of(1, n)      !< 0 .. n_parts; 0: in none
+      integer(ip), allocatable, intent(out) :: first(:)    !< (n_parts + 1)
+      integer(ip), allocatable, intent(out) :: member(:)   !< those of part i are member(first(i):first(i + 1) - 1)
 
-      counts = 0
-      do i = 1, size(list, kind=ip)
-         if (list(i) > 0) counts(list(i)) = counts(list(i)) + 1
-      end do
-   end function counts
+      call list_holders(n_parts, part_of, first, member)
+   end subroutine list_parts
 
-   pure subroutine measure_body(mesh, body)
+   subroutine measure_body(mesh, body)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(inout) :: body
       real(wp) :: low(2), high(2)
+      integer(ip) :: i
 
-      low = minval(mesh%x(:, body%nodes), dim=2)
-      high = maxval(mesh%x(:, body%nodes), dim=2)
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      !$omp parallel do default(none) shared(mesh, body) reduction(min:low) reduction(max:high) &
+      !$omp if(is_shared(size(body%nodes, kind=ip)))
+      do i = 1, size(body%nodes, kind=ip)
+         low = min(low, mesh%x(:, body%nodes(i)))
+         high = max(high, mesh%x(:, body%nodes(i)))
+      end do
+      !$omp end parallel do
       body%centre = 0.5_wp*low + 0.5_wp*high
       body%size = 0.5_wp*norm2(high - low)
       body%slenderness = minval(high - low)/maxval(high - low)
@@ -165,14 +168,21 @@ contains
       integer(ip), intent(in) :: last(:)
       integer(ip), intent(inout) :: nodes(:)
       logical :: comes_last(n_nodes)
+      integer(ip) :: i, n
 
       comes_last = .false.
       comes_last(last) = .true.
-      nodes = [pack(nodes,.not. comes_last(nodes)), last]
+      n = 0
+      do i = 1, size(nodes, kind=ip)
+         if (comes_last(nodes(i))) cycle
+         n = n + 1
+         nodes(n) = nodes(i)
+      end do
+      nodes(n + 1:) = last
    end subroutine put_last
 
    !> The graph of a body's nodes, numbered by their places in body%nodes.
-   pure subroutine body_graph(mesh, body, local, graph)
+   subroutine body_graph(mesh, body, local, graph)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(in) :: body
       integer(ip), allocatable, intent(out) :: local(:)   !< (n_nodes) place of a node in body%nodes

@@ -1,6 +1,7 @@
 !> Faces of elements: which lie on the outline, and chains of them.
 module atrito_faces
    use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_end, opposite_face_count, FACES
    implicit none (type, external)
@@ -28,32 +29,11 @@ module atrito_faces
 contains
 
    !> Lists the elements round each node, in linear time.
-   pure function list_node_elements(mesh) result(around)
+   function list_node_elements(mesh) result(around)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t) :: around
-      integer(ip), allocatable :: next(:)
-      integer(ip) :: e, k, node
 
-      allocate (around%first(mesh%n_nodes + 1), source=0_ip)
-      do e = 1, mesh%n_elements
-         do k = 1, mesh%shape(e)
-            node = mesh%nodes(k, e)
-            around%first(node + 1) = around%first(node + 1) + 1
-         end do
-      end do
-      around%first(1) = 1
-      do node = 1, mesh%n_nodes
-         around%first(node + 1) = around%first(node + 1) + around%first(node)
-      end do
-      next = around%first
-      allocate (around%list(around%first(mesh%n_nodes + 1) - 1))
-      do e = 1, mesh%n_elements
-         do k = 1, mesh%shape(e)
-            node = mesh%nodes(k, e)
-            around%list(next(node)) = e
-            next(node) = next(node) + 1
-         end do
-      end do
+      call list_holders(mesh%n_nodes, mesh%nodes(:, :mesh%n_elements), around%first, around%list)
    end function list_node_elements
 
    !> True when no other element shares the face.

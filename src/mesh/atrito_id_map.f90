@@ -6,7 +6,7 @@ module atrito_id_map
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
-   public :: id_map_t, add_id, find_id
+   public :: id_map_t, add_id, add_sequence, find_id
 
    type :: id_map_t
       integer(ip) :: n = 0
@@ -45,6 +45,25 @@ contains
       map%place(slot) = place
       map%n = map%n + 1
    end subroutine add_id
+
+   !> Keeps first_id -> first_place, first_id + 1 -> first_place + 1, ...; none of the ids may be there yet.
+   pure subroutine add_sequence(map, first_id, first_place, n)
+      type(id_map_t), intent(inout) :: map
+      integer(ip), intent(in) :: first_id, first_place   !< > 0
+      integer(ip), intent(in) :: n
+      integer(ip) :: i
+      logical :: known
+
+      if (n < 1) return
+      call add_id(map, first_id, first_place, known)
+      if (.not. allocated(map%key)) then
+         map%n = map%n + n - 1             ! the first goes on with the sequence, and so do the others
+      else
+         do i = 1, n - 1
+            call add_id(map, first_id + i, first_place + i, known)
+         end do
+      end if
+   end subroutine add_sequence
 
    !> Place of an id; 0 when it is not there.
    pure integer(ip) function find_id(map, id) result(place)

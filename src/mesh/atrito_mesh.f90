@@ -1,10 +1,12 @@
 !> The mesh: nodes, quadrilateral elements and their topology.
 module atrito_mesh
    use atrito_kinds, only: ip, wp
-   use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
-   public :: mesh_t, reserve_mesh, add_node, add_element, find_node, find_element, trim_mesh, face_nodes, face_end
+   public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
+   public :: face_nodes, face_end
    public :: opposite_face_count, nodes_of_square
    public :: Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS, FACES, element_coordinates, signed_area
 
@@ -81,6 +83,57 @@ contains
       mesh%nodes(:, e) = 0
       mesh%nodes(:size(nodes), e) = nodes
    end subroutine add_element
+
+   !> Adds nodes with the numbers first_id, first_id + 1, ..., none of which is there yet.
+   subroutine add_nodes(mesh, first_id, x)
+      type(mesh_t), intent(inout) :: mesh
+      integer(ip), intent(in) :: first_id           !< > 0
+      real(wp), intent(in) :: x(:, :)               !< (2, new nodes) [L]
+      integer(ip) :: k, n, before
+
+      n = size(x, 2, kind=ip)
+      before = mesh%n_nodes
+      call reserve_mesh(mesh, n, 0_ip)
+      call add_sequence(mesh%node_map, first_id, before + 1, n)
+      !$omp parallel do default(none) shared(mesh, first_id, x, n, before) if(is_shared(n))
+      do k = 1, n
+         mesh%node_id(before + k) = first_id + k - 1
+         mesh%x(:, before + k) = x(:, k)
+      end do
+      !$omp end parallel do
+      mesh%n_nodes = before + n
+   end subroutine add_nodes
+
+   !> Adds the elements of a block, row by row, with the numbers first_id, first_id + 1, ..., none of which is there yet.
+   subroutine add_block(mesh, first_id, state, order, nodes)
+      type(mesh_t), intent(inout) :: mesh
+      integer(ip), intent(in) :: first_id           !< > 0
+      integer(ip), intent(in) :: state              !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: order              !< 1 for Q1, 2 for Q2
+      integer(ip), intent(in) :: nodes(0:, 0:)      !< places, in lines along the block, (order nx + 1, order ny + 1)
+      integer(ip) :: i, j, k, e, nx, ny, before
+
+      nx = ubound(nodes, 1, kind=ip)/order
+      ny = ubound(nodes, 2, kind=ip)/order
+      before = mesh%n_elements
+      call reserve_mesh(mesh, 0_ip, nx*ny)
+      call add_sequence(mesh%element_map, first_id, before + 1, nx*ny)
+      k = (order + 1)**2
+      !$omp parallel do default(none) private(i, e) shared(mesh, first_id, state, order, nodes, nx, ny, before, k) &
+      !$omp if(is_shared(nx*ny))
+      do j = 0, ny - 1
+         do i = 0, nx - 1
+            e = before + j*nx + i + 1
+            mesh%element_id(e) = first_id + j*nx + i
+            mesh%state(e) = state
+            mesh%shape(e) = k
+            mesh%nodes(:k, e) = nodes_of_square(nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
+            mesh%nodes(k + 1:, e) = 0
+         end do
+      end do
+      !$omp end parallel do
+      mesh%n_elements = before + nx*ny
+   end subroutine add_block
 
    !> Gives back the room that was kept for growing; to be called when the mesh is complete.
    pure subroutine trim_mesh(mesh)

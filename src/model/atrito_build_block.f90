@@ -4,16 +4,16 @@
 !> those of *SURFACE; a draft keeps the block in between.
 module atrito_build_block
    use atrito_block, only: graded_lines, block_nodes
-   use atrito_build_elements, only: place_element, read_element_type
-   use atrito_build_nodes, only: place_node, put_node_set, MOST_NODES
+   use atrito_build_elements, only: read_element_type
+   use atrito_build_nodes, only: put_node_set, MOST_NODES
    use atrito_coincidence, only: match_points
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item
    use atrito_diagnostics, only: report_error, report_warning
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_block, report_unknown
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, note_places, spoil_block, report_unknown
    use atrito_items, only: get_real, option_text, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: reserve_mesh, nodes_of_square, Q2_NODES
+   use atrito_mesh, only: add_nodes, add_block, reserve_mesh, Q2_NODES
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -294,7 +294,7 @@ contains
       type(block_t), intent(inout) :: block
       logical, intent(out) :: ok
       real(wp), allocatable :: x(:, :)
-      integer(ip) :: i, j, k, n(2)
+      integer(ip) :: i, j, k, n(2), n_new
 
       n = spec%order*spec%n
       allocate (x(2, (n(1) + 1)*(n(2) + 1)))
@@ -303,19 +303,26 @@ contains
       allocate (block%nodes(0:n(1), 0:n(2)), source=0_ip)
       call share_nodes(deck, i_card, x, model, draft, block%nodes, ok)
       if (.not. ok) return
-      call reserve_mesh(model%mesh, size(x, 2, kind=ip), 0_ip)
-      ok = draft%greatest_node <= huge(1_ip) - size(x, 2)
       k = 0
+      n_new = 0
       do j = 0, n(2)
          do i = 0, n(1)
             k = k + 1
             if (block%nodes(i, j) > 0) cycle
-            if (ok) call place_node(deck, model, draft, draft%greatest_node + 1, x(:, k), -i_card, ok, 'BLOCK')
-            block%nodes(i, j) = model%mesh%n_nodes
+            n_new = n_new + 1
+            x(:, n_new) = x(:, k)
+            block%nodes(i, j) = model%mesh%n_nodes + n_new
          end do
       end do
-      if (.not. ok) call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the node numbers of the block, which '// &
-                                      'follow the greatest so far, are too large', keyword='BLOCK')
+      ok = draft%greatest_node <= huge(1_ip) - n_new
+      if (ok) then
+         call add_nodes(model%mesh, draft%greatest_node + 1, x(:, :n_new))
+         call note_places(draft%node_place, model%mesh%n_nodes - n_new + 1, model%mesh%n_nodes, -i_card)
+         draft%greatest_node = draft%greatest_node + n_new
+      else
+         call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the node numbers of the block, which follow the greatest '// &
+                           'so far, are too large', keyword='BLOCK')
+      end if
    end subroutine place_block_nodes
 
    !> Lines of nodes: for Q2 also those in the middle between the lines of the elements.
@@ -451,28 +458,28 @@ contains
       integer(ip), intent(in) :: i_card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      integer(ip) :: b, i, j, k, m
+      integer(ip) :: b, k, n
       logical :: ok
 
       do b = 1, size(draft%blocks, kind=ip)
          if (draft%blocks(b)%card == i_card) exit
       end do
       if (b > size(draft%blocks)) return
-      draft%blocks(b)%first_element = model%mesh%n_elements + 1
-      ok = draft%greatest_element <= huge(1_ip) - size(draft%blocks(b)%nodes)
-      if (.not. ok) call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the element numbers of the block, which '// &
-                                      'follow the greatest so far, are too large', keyword='BLOCK')
-      call reserve_mesh(model%mesh, 0_ip, sum(count_elements(draft%blocks(b:))))   ! with those of the blocks that follow
-      m = draft%blocks(b)%order
-      associate (nodes => draft%blocks(b)%nodes)
-         do j = 0, ubound(nodes, 2, kind=ip) - m, m
-            do i = 0, ubound(nodes, 1, kind=ip) - m, m
-               if (ok) call place_element(deck, model, draft, draft%greatest_element + 1, draft%blocks(b)%state, &
-                                          nodes_of_square(nodes(i:i + m, j:j + m)), -i_card, ok, 'BLOCK')
-            end do
-         end do
+      associate (block => draft%blocks(b))
+         n = count_elements(block)
+         block%first_element = model%mesh%n_elements + 1
+         ok = draft%greatest_element <= huge(1_ip) - n
+         if (ok) then
+            call reserve_mesh(model%mesh, 0_ip, sum(count_elements(draft%blocks(b:))))   ! with those of the blocks that follow
+            call add_block(model%mesh, draft%greatest_element + 1, block%state, block%order, block%nodes)
+            call note_places(draft%element_place, block%first_element, model%mesh%n_elements, -i_card)
+            draft%greatest_element = draft%greatest_element + n
+         else
+            call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the element numbers of the block, which follow the '// &
+                              'greatest so far, are too large', keyword='BLOCK')
+         end if
+         call grow_set(model%element_sets, block%name, [(k, k=block%first_element, model%mesh%n_elements)])
       end associate
-      call grow_set(model%element_sets, draft%blocks(b)%name, [(k, k=draft%blocks(b)%first_element, model%mesh%n_elements)])
    end subroutine place_block_elements
 
    elemental integer(ip) function count_elements(block) result(n)

@@ -8,6 +8,7 @@ module atrito_check_shapes
    use atrito_messages, only: MOST_ERRORS
    use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point, gauss_count
    use atrito_strings, only: to_text
+   use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
    public :: check_shapes, corner_jacobians, judge_nine_nodes, nine_node_order
@@ -28,19 +29,45 @@ contains
       type(deck_t), intent(in) :: deck
       type(mesh_t), intent(in) :: mesh
       type(draft_t), intent(in) :: draft
-      integer(ip) :: e, shape, node, n
+      logical, allocatable :: good(:)                  !< (runs of elements)
+      integer(ip) :: run, first, last, e, shape, node, n
 
+      allocate (good(run_count(mesh%n_elements)))
+      !$omp parallel do default(none) private(first, last) shared(mesh, good) if(is_shared(mesh%n_elements))
+      do run = 1, size(good, kind=ip)
+         call find_run(run, mesh%n_elements, first, last)
+         good(run) = all_good(mesh, first, last)
+      end do
+      !$omp end parallel do
       n = 0
-      do e = 1, mesh%n_elements
-         call judge_shape(mesh, e, shape, node)
-         if (shape == SHAPE_GOOD) cycle
-         n = n + 1
-         if (n <= MOST_ERRORS) call report_shape(deck, mesh, e, shape, node, place_token(deck, draft%element_place(e)))
+      do run = 1, size(good, kind=ip)
+         if (good(run)) cycle
+         call find_run(run, mesh%n_elements, first, last)
+         do e = first, last
+            call judge_shape(mesh, e, shape, node)
+            if (shape == SHAPE_GOOD) cycle
+            n = n + 1
+            if (n <= MOST_ERRORS) call report_shape(deck, mesh, e, shape, node, place_token(deck, draft%element_place(e)))
+         end do
       end do
       if (n > MOST_ERRORS) call report_deck_error(deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &
                                                   ' further elements are clockwise or degenerate', &
                                                   expected='corners counter-clockwise', keyword='ELEMENT')
    end subroutine check_shapes
+
+   !> Whether some elements, one after the other, all have a good shape.
+   pure logical function all_good(mesh, first, last)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: first, last
+      integer(ip) :: e, shape, node
+
+      all_good = .false.
+      do e = first, last
+         call judge_shape(mesh, e, shape, node)
+         if (shape /= SHAPE_GOOD) return
+      end do
+      all_good = .true.
+   end function all_good
 
    subroutine report_shape(deck, mesh, e, shape, node, place)
       type(deck_t), intent(in) :: deck
@@ -103,11 +130,16 @@ contains
       integer(ip), intent(in) :: e
       integer(ip), intent(out) :: shape                !< SHAPE_*
       integer(ip), intent(out) :: node                 !< 1..9, the worst one
+      real(wp) :: x(2, Q2_NODES)
+      integer(ip) :: k
 
+      do k = 1, mesh%shape(e)
+         x(:, k) = mesh%x(:, mesh%nodes(k, e))
+      end do
       if (mesh%shape(e) == Q1_NODES) then
-         call judge_corners(mesh%x(:, mesh%nodes(:FACES, e)), shape, node)
+         call judge_corners(x(:, :FACES), shape, node)
       else
-         call judge_nine_nodes(mesh%x(:, mesh%nodes(:, e)), shape, node)
+         call judge_nine_nodes(x, shape, node)
       end if
    end subroutine judge_shape
 

@@ -22,7 +22,7 @@ module atrito_draft
    private
    public :: draft_t, block_t, BLOCK_SIDES
    public :: prepare_draft, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, has_errors
-   public :: place_token, place_text, note_place, keep_token, ids_text
+   public :: place_token, place_text, note_place, note_places, keep_token, ids_text
    public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, report_unknown
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
@@ -286,6 +286,16 @@ contains
       end if
       places(i) = place
    end subroutine note_place
+
+   !> Keeps that the i-th to the j-th come from one place.
+   pure subroutine note_places(places, i, j, place)
+      integer(ip), allocatable, intent(inout) :: places(:)
+      integer(ip), intent(in) :: i, j, place
+
+      if (j < i) return
+      call note_place(places, j, place)
+      places(i:j) = place
+   end subroutine note_places
 
    !> Appends the place of a material, section, surface, ...: there are few of them.
    pure subroutine keep_token(list, token)

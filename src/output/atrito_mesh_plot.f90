@@ -97,7 +97,7 @@ contains
    end subroutine collect_lines
 
    !> The element beyond each face; 0 where there is none.
-   pure subroutine find_neighbours(mesh, neighbour)
+   subroutine find_neighbours(mesh, neighbour)
       type(mesh_t), intent(in) :: mesh
       integer(ip), allocatable, intent(out) :: neighbour(:, :)  !< (FACES, n_elements)
       type(node_elements_t) :: around

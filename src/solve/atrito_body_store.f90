@@ -4,9 +4,11 @@
 !> again when its materials are, too; its reduced load when the load is the same as well. Nothing is guessed from what was varied.
 module atrito_body_store
    use atrito_assembly, only: fem_t
+   use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
    use atrito_elasticity, only: elastic_t
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: body_result_t
@@ -22,7 +24,10 @@ module atrito_body_store
       integer(ip) :: factorisations = 0                !< of the last call of provide_bodies
       type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
       logical, private :: holds = .false.              !< the rest is there: what they were made of
-      type(fem_t), private :: fem
+      type(mesh_t), private :: mesh
+      type(bodies_t), private :: numbering             !< of the bodies
+      type(elastic_t), allocatable, private :: sections(:)
+      integer(ip), allocatable, private :: section_of(:)   !< (n_elements)
       logical, allocatable, private :: held(:, :)      !< (2, n_nodes)
       type(contact_points_t), allocatable, private :: points(:)
       integer, private :: asked = 0                    !< storage asked for
@@ -91,14 +96,13 @@ contains
       store%asked = asked
       store%load = load
       store%results = results
-      if (same_bodies) then
-         store%fem%sections = fem%sections
-         store%fem%section_of = fem%section_of
-      else
-         store%fem = fem
-         store%held = held
-         store%points = points
-      end if
+      store%sections = fem%sections
+      store%section_of = fem%section_of
+      if (same_bodies) return
+      store%mesh = fem%mesh
+      store%numbering = fem%bodies
+      store%held = held
+      store%points = points
    end subroutine remember
 
    !> Gives the memory of the factored bodies back, unless they are kept for a next run.
@@ -120,7 +124,7 @@ contains
 
       taken = .false.
       if (store%holds) taken = store%asked == asked .and. has_same_numbering(store, held, points, fem)
-      if (taken) fem%bodies = store%fem%bodies
+      if (taken) fem%bodies = store%numbering
    end subroutine take_numbering
 
    !> Mesh, supports and contact nodes decide on bodies and numbering.
@@ -132,11 +136,11 @@ contains
       integer(ip) :: i
 
       same = .false.
-      if (size(store%points) /= size(points) .or. store%fem%mesh%n_nodes /= fem%mesh%n_nodes &
-          .or. store%fem%mesh%n_elements /= fem%mesh%n_elements) return
-      if (any(store%held .neqv. held) .or. any(store%fem%mesh%x /= fem%mesh%x)) return
-      if (any(store%fem%mesh%shape /= fem%mesh%shape) .or. any(store%fem%mesh%state /= fem%mesh%state)) return
-      if (any(store%fem%mesh%nodes /= fem%mesh%nodes)) return
+      if (size(store%points) /= size(points) .or. store%mesh%n_nodes /= fem%mesh%n_nodes &
+          .or. store%mesh%n_elements /= fem%mesh%n_elements) return
+      if (any(store%held .neqv. held) .or. any(store%mesh%x /= fem%mesh%x)) return
+      if (any(store%mesh%shape /= fem%mesh%shape) .or. any(store%mesh%state /= fem%mesh%state)) return
+      if (any(store%mesh%nodes /= fem%mesh%nodes)) return
       do i = 1, size(points, kind=ip)
          associate (old => store%points(i), new => points(i))
             if (old%n /= new%n) return
@@ -161,7 +165,7 @@ contains
       if (.not. allocated(store%bodies(b)%storage)) return
       do i = 1, size(fem%bodies%list(b)%elements, kind=ip)
          e = fem%bodies%list(b)%elements(i)
-         if (.not. is_same_section(store%fem%sections(store%fem%section_of(e)), fem%sections(fem%section_of(e)))) return
+         if (.not. is_same_section(store%sections(store%section_of(e)), fem%sections(fem%section_of(e)))) return
       end do
       again = .true.
    end function serves_again

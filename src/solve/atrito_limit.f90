@@ -31,7 +31,7 @@ contains
    !> Measures. status: STATUS_USAGE where the bodies cannot be glued, STATUS_DECK where the memory is too small (told by a
    !> message), STATUS_SINGULAR where the glued bodies are free to move.
    subroutine measure_limit(model, limit, status)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(limit_t), intent(out) :: limit
       type(status_t), intent(out) :: status
       type(fem_t) :: fem

@@ -17,14 +17,14 @@ contains
 
    !> Mesh and sections, prescribed dofs and values, and the points of every pair; build_bodies adds the bodies.
    subroutine build_scene(model, fem, held, value, points)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(fem_t), intent(out) :: fem
       logical, allocatable, intent(out) :: held(:, :)          !< (2, n_nodes)
       real(wp), allocatable, intent(out) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       type(contact_points_t), allocatable, intent(out) :: points(:) !< one a pair
       integer(ip) :: i
 
-      fem%mesh = model%mesh
+      fem%mesh => model%mesh
       fem%section_of = model%section_of
       allocate (fem%sections(size(model%sections)))
       do i = 1, size(model%sections, kind=ip)

@@ -66,7 +66,7 @@ contains
 
    !> What a scene needs, without solving it: for `check`, and for the listing. status: STATUS_DECK as in solve_static.
    subroutine survey_scene(model, options, scene, status)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(scene_t), intent(out) :: scene
       type(status_t), intent(out) :: status
@@ -83,7 +83,7 @@ contains
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.
    subroutine solve_static(model, options, reporter, results, status, kept)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
       type(results_t), intent(out) :: results
@@ -99,7 +99,7 @@ contains
    end subroutine solve_static
 
    subroutine solve_with_store(model, options, reporter, store, results, status)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
       type(body_store_t), intent(inout) :: store
@@ -147,7 +147,7 @@ contains
    end subroutine solve_with_store
 
    subroutine prepare(model, store, options, data, status)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(body_store_t), intent(in) :: store
       type(solve_options_t), intent(in) :: options
       type(scene_data_t), intent(out) :: data

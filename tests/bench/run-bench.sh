@@ -105,6 +105,11 @@ measure_run() {
 spread() {
    sort -g | awk '{ t[NR] = $1 } END { m = int((NR + 1)/2); printf "%s %s %s\n", t[1], NR % 2 ? t[m] : (t[m] + t[m + 1])/2, t[NR] }'
 }
+
+# Three numbers, each in at most five characters up to 99999: those of 100 and more, as on a busy machine, without decimals.
+narrow() {
+   awk '{ for (i = 1; i <= 3; i++) printf ($i < 99.995 ? "%.2f " : "%.0f "), $i; print "" }'
+}
 median() {
    spread | cut -d ' ' -f 2
 }
@@ -147,9 +152,9 @@ bench_cpu() {
    done
    limit=$(cut -d ' ' -f 1 "$work/rows" | median)
    run=$(cut -d ' ' -f 2 "$work/rows" | median)
-   ratios=$(awk '{ print $2/$1 }' "$work/rows" | spread)
+   ratios=$(awk '{ print $2/$1 }' "$work/rows" | spread | narrow)
    echo "$scene $size $limit $run $ratios $(facts)" | awk '
-      { printf "%-8s %7d %6d %8.4f %8.4f  %5.2f %5.2f %5.2f %5.0f %5d %6d  %s\n", $1 " " $2, $8, $9, $3, $4, $5, $6, $7, $10, $11, $12, $13 }'
+      { printf "%-8s %7d %6d %8.4f %8.4f  %5s %5s %5s %5.0f %5d %6d  %s\n", $1 " " $2, $8, $9, $3, $4, $5, $6, $7, $10, $11, $12, $13 }'
    echo "$scene $size $run $(facts)" >>"$work/results"
 }
 
@@ -173,7 +178,7 @@ bench_threads() {
    done
    row=$(printf '%-8s %7.4f ' "$scene $size" "$(cut -d ' ' -f 1 "$work/rows" | median)")
    for t in 2 3 4; do row=$row$(printf ' %7.4f' "$(cut -d ' ' -f $t "$work/rows" | median)"); done
-   for t in 2 3 4; do row=$row$(awk -v t=$t '{ print $t/$1 }' "$work/rows" | spread | awk '{ printf "  %5.2f %5.2f %5.2f", $1, $2, $3 }'); done
+   for t in 2 3 4; do row=$row$(awk -v t=$t '{ print $t/$1 }' "$work/rows" | spread | narrow | awk '{ printf "  %5s %5s %5s", $1, $2, $3 }'); done
    echo "$row"
 }
 

@@ -61,6 +61,7 @@ contains
       logical :: known
       integer(ip) :: i, n
 
+      allocate (fem%mesh)
       n = size(widths, kind=ip)
       do i = 0, n
          call add_node(fem%mesh, 2*i + 1, [sum(widths(:i)), 0.0_wp], known)
@@ -86,6 +87,7 @@ contains
       integer(ip) :: square(3, 3), p, i, j, k, row
       logical :: known
 
+      allocate (fem%mesh)
       p = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
       row = p*nx + 1
       do j = 0, p*ny

@@ -51,6 +51,7 @@ contains
       real(wp) :: thickness(8 + 2*n_lower), no_points(2, 0)
       integer(ip) :: i, n, b
 
+      allocate (scene%fem%mesh)
       call add_block(scene%fem%mesh, [0.0_wp, 1.0_wp], [2.0_wp, 2.0_wp], [4_ip, 2_ip])
       call add_block(scene%fem%mesh, [-0.5_wp, 0.0_wp], [2.5_wp, 1.0_wp], [n_lower, 2_ip])
       call trim_mesh(scene%fem%mesh)
