@@ -31,7 +31,7 @@ module atrito_front_records
 
    !> Writes the records of parts that follow one another: of a subtree, or of what stands above subtrees.
    type :: record_writer_t
-      integer(ip), allocatable :: record(:)      !< one behind the other
+      integer(ip), allocatable :: record(:)      !< (written or more) of the part in hand
       integer(lp) :: written = 0
       logical :: enough = .true.                 !< memory, for all parts so far; nothing more is written without
       integer(ip), allocatable, private :: at(:) !< (n) place in the front of the part in hand; 0: not in it
@@ -131,15 +131,11 @@ contains
       integer(ip), parameter :: ROOM = 1024_ip
       integer :: no_memory
 
-      writer%written = 0
       writer%top = 0
-      no_memory = 0
-      if (.not. allocated(writer%at)) then
-         allocate (writer%at(n), writer%border(n), writer%buffer(n), writer%stack(ROOM), stat=no_memory)
-         if (no_memory == 0) writer%at = 0
-      end if
-      if (no_memory == 0) allocate (writer%record(ROOM), stat=no_memory)
-      writer%enough = writer%enough .and. no_memory == 0
+      if (allocated(writer%at)) return
+      allocate (writer%at(n), writer%border(n), writer%buffer(n), writer%stack(ROOM), writer%record(ROOM), stat=no_memory)
+      writer%enough = no_memory == 0
+      if (writer%enough) writer%at = 0
    end subroutine begin_writer
 
    !> Writes the record of a part; its children are the last ones that were written or pushed. Its border takes the place of theirs
@@ -294,7 +290,7 @@ contains
       end do
    end subroutine merge_new
 
-   !> Writes the record of a part behind those before.
+   !> Writes the record of a part.
    subroutine write_record(elimination, store, tree, p, waiting, writer)
       type(elimination_t), intent(in) :: elimination
       type(element_store_t), intent(in) :: store
@@ -318,10 +314,9 @@ contains
          e = tree%element(i)
          needed = needed + 2 + store%start(e + 1) - store%start(e)
       end do
-      if (writer%written + needed > size(writer%record, kind=lp)) then
-         call grow(writer%record, 2*(writer%written + needed), writer%enough)
-         if (.not. writer%enough) return
-      end if
+      if (needed > size(writer%record, kind=lp)) call grow(writer%record, 2*needed, writer%enough)
+      if (.not. writer%enough) return
+      writer%written = 0
       call put(tree%first(p + 1) - tree%first(p))
       call put(writer%n_border)
       call put(n_children)
