@@ -256,16 +256,24 @@ contains
       integer(ip), intent(in) :: i_body
       real(wp), intent(out) :: diagonal(:)         !< (n_kept) [F/L]
       type(stiffness_cache_t) :: cache
+      logical, allocatable :: has_kept(:)          !< (elements of the body)
       integer(ip) :: equations(2*Q2_NODES), i, k, e, n, first
 
       diagonal = 0.0_wp
       associate (body => fem%bodies%list(i_body))
          first = body%n - body%n_kept
+         allocate (has_kept(size(body%elements)))
+         !$omp parallel do default(shared) private(n) if(is_shared(size(has_kept, kind=ip)))
          do i = 1, size(body%elements, kind=ip)
+            n = fem%mesh%shape(body%elements(i))
+            has_kept(i) = any(fem%bodies%equation(:, fem%mesh%nodes(:n, body%elements(i))) > first)
+         end do
+         !$omp end parallel do
+         do i = 1, size(body%elements, kind=ip)
+            if (.not. has_kept(i)) cycle
             e = body%elements(i)
             n = 2*fem%mesh%shape(e)
             equations(:n) = element_equations(fem%mesh, fem%bodies, e)
-            if (all(equations(:n) <= first)) cycle
             call cached_stiffness(fem, e, cache)
             do k = 1, n
                if (equations(k) > first) diagonal(equations(k) - first) = diagonal(equations(k) - first) + cache%k(k, k)

@@ -8,6 +8,7 @@
 module atrito_dissection
    use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: dissect, dissection_t
@@ -63,10 +64,12 @@ contains
 
       allocate (pieces%centre(2, size(elements)), pieces%extent(2, size(n_nodes_of)))
       pieces%element = elements
+      !$omp parallel do default(none) shared(elements, x, nodes, n_nodes_of, pieces) if(is_shared(size(elements, kind=ip)))
       do i = 1, size(elements, kind=ip)
          call measure(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)), pieces%centre(:, i), &
                       pieces%extent(:, elements(i)))
       end do
+      !$omp end parallel do
       marks%taken = .not. wanted
       allocate (marks%upper_of(size(wanted)), source=0_lp)
       call begin_parts(parts, count(wanted, kind=ip))

@@ -10,6 +10,7 @@ module atrito_front_records
    use atrito_elimination, only: elimination_t
    use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: part_tree_t, record_writer_t, plant_tree, begin_writer, write_part, push_border, top_border, HEADER
@@ -44,7 +45,7 @@ module atrito_front_records
 contains
 
    !> Sets up the tree of an elimination.
-   pure subroutine plant_tree(elimination, n, n_kept, store, tree)
+   subroutine plant_tree(elimination, n, n_kept, store, tree)
       type(elimination_t), intent(in) :: elimination
       integer(ip), intent(in) :: n, n_kept
       type(element_store_t), intent(in) :: store
@@ -89,7 +90,7 @@ contains
    end subroutine begin_parts
 
    !> An element belongs to the part that eliminates the first of its equations.
-   pure subroutine sort_elements(elimination, n, store, tree)
+   subroutine sort_elements(elimination, n, store, tree)
       type(elimination_t), intent(in) :: elimination
       integer(ip), intent(in) :: n
       type(element_store_t), intent(in) :: store
@@ -105,12 +106,17 @@ contains
       do p = 1, tree%n_parts
          part_at(tree%first(p):tree%first(p + 1) - 1) = p
       end do
+      !$omp parallel do default(none) private(p, k) shared(elimination, store, tree, part_at, part_of) if(is_shared(store%n))
       do e = 1, store%n
          p = tree%n_parts + 1
          do k = store%start(e) + 1, store%start(e + 1)
             if (store%equations(k) > 0) p = min(p, part_at(elimination%place(store%equations(k))))
          end do
          part_of(e) = p
+      end do
+      !$omp end parallel do
+      do e = 1, store%n
+         p = part_of(e)
          if (p <= tree%n_parts) tree%first_element(p + 1) = tree%first_element(p + 1) + 1
       end do
       do p = 1, tree%n_parts

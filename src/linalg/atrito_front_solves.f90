@@ -1,7 +1,8 @@
 !> Solving with the factors of fronts: down the tree of the parts, and up.
 !>
 !> A subtree of little work is a unit, and units are shared out among the threads; the parts above them follow one after the
-!> other. What a part leaves for its parent waits on a stack, and is added in the order of the children.
+!> other, each shared out by its rows or columns. What a part leaves for its parent waits on a stack, and is added in the order of
+!> the children.
 module atrito_front_solves
    use atrito_front, only: packed_length
    use atrito_front_factors, only: factor_t
@@ -33,6 +34,12 @@ module atrito_front_solves
    real(wp), parameter :: SHARE = 1.0_wp/48.0_wp
    !> Entries of factors that are worth waking other threads.
    real(wp), parameter :: WORTH_SHARING = 1.0e6_wp
+   !> Entries of the factor of one part that are.
+   integer(lp), parameter :: LARGE_PART = 60000_lp
+   !> Pivots that are dealt with at a time: what lies beyond them can be shared out.
+   integer(ip), parameter :: BLOCK = 64_ip
+   !> Rows that a thread takes at a time.
+   integer(ip), parameter :: ROWS = 256_ip
 
 contains
 
@@ -83,13 +90,13 @@ contains
       next = 1
       do u = 1, plan%n
          do p = next, plan%first(u) - 1
-            call forward_part(tree, factors, p, x, stack)
+            call forward_part(tree, factors, p, plan%shares_out, x, stack)
          end do
          call push(stack, waiting(u)%entries)
          next = plan%last(u) + 1
       end do
       do p = next, tree%n_parts
-         call forward_part(tree, factors, p, x, stack)
+         call forward_part(tree, factors, p, plan%shares_out, x, stack)
       end do
    end subroutine forward
 
@@ -103,15 +110,16 @@ contains
       integer(ip) :: p
 
       do p = first, last
-         call forward_part(tree, factors, p, x, stack)
+         call forward_part(tree, factors, p, .false., x, stack)
       end do
       waiting%entries = stack%entries(:stack%top)
    end subroutine forward_unit
 
-   subroutine forward_part(tree, factors, p, x, stack)
+   subroutine forward_part(tree, factors, p, by_threads, x, stack)
       type(front_tree_t), intent(in) :: tree
       type(factor_t), intent(in) :: factors(:)
       integer(ip), intent(in) :: p
+      logical, intent(in) :: by_threads          !< whether there are threads to share with
       real(wp), intent(inout) :: x(:)
       type(stack_t), intent(inout) :: stack
       real(wp) :: front(factors(tree%class_of(p))%order)
@@ -137,7 +145,8 @@ contains
             from = from + m
             k = k + 2 + m
          end do
-         if (p < tree%n_parts) call eliminate_load(order, n_pivots, factors(c)%columns, front)
+         if (p < tree%n_parts) call eliminate_load(order, n_pivots, factors(c)%columns, &
+                                                   by_threads .and. packed_length(order, n_pivots) > LARGE_PART, front)
          x(tree%first(p):tree%first(p + 1) - 1) = front(:n_pivots)
          call push(stack, front(n_pivots + 1:))
       end associate
@@ -156,7 +165,7 @@ contains
       next = tree%n_parts
       do u = plan%n, 1, -1
          do p = next, plan%last(u) + 1, -1
-            call backward_part(tree, factors, p, x, stack)
+            call backward_part(tree, factors, p, plan%shares_out, x, stack)
          end do
          m = tree%record(tree%start(tree%class_of(plan%last(u))) + 2)
          waiting(u)%entries = stack%entries(stack%top - m + 1:stack%top)
@@ -164,7 +173,7 @@ contains
          next = plan%first(u) - 1
       end do
       do p = next, 1, -1
-         call backward_part(tree, factors, p, x, stack)
+         call backward_part(tree, factors, p, plan%shares_out, x, stack)
       end do
       !$omp parallel do schedule(dynamic, 1) default(none) shared(tree, factors, plan, x, waiting) if(plan%shares_out)
       do u = 1, plan%n
@@ -184,14 +193,15 @@ contains
 
       call push(stack, waiting%entries)
       do p = last, first, -1
-         call backward_part(tree, factors, p, x, stack)
+         call backward_part(tree, factors, p, .false., x, stack)
       end do
    end subroutine backward_unit
 
-   subroutine backward_part(tree, factors, p, x, stack)
+   subroutine backward_part(tree, factors, p, by_threads, x, stack)
       type(front_tree_t), intent(in) :: tree
       type(factor_t), intent(in) :: factors(:)
       integer(ip), intent(in) :: p
+      logical, intent(in) :: by_threads          !< whether there are threads to share with
       real(wp), intent(inout) :: x(:)
       type(stack_t), intent(inout) :: stack
       real(wp) :: front(factors(tree%class_of(p))%order)
@@ -205,7 +215,8 @@ contains
          front(:n_pivots) = x(tree%first(p):tree%first(p + 1) - 1)
          front(n_pivots + 1:) = stack%entries(stack%top - m + 1:stack%top)
          stack%top = stack%top - m
-         if (p < tree%n_parts) call solve_back(order, n_pivots, factors(c)%columns, front)
+         if (p < tree%n_parts) call solve_back(order, n_pivots, factors(c)%columns, &
+                                               by_threads .and. packed_length(order, n_pivots) > LARGE_PART, front)
          x(tree%first(p):tree%first(p + 1) - 1) = front(:n_pivots)
          k = start + HEADER
          do i = 1, tree%record(start + 3)
@@ -260,42 +271,95 @@ contains
       end do
    end subroutine add_entries
 
-   pure subroutine eliminate_load(order, n_pivots, columns, front)
+   !> front <- L^-1 front for the pivots; the border takes what they leave for it.
+   subroutine eliminate_load(order, n_pivots, columns, by_threads, front)
       integer(ip), intent(in) :: order, n_pivots
       real(wp), intent(in) :: columns(*)
+      logical, intent(in) :: by_threads
       real(wp), intent(inout) :: front(order)
-      integer(ip) :: i, j
-      integer(lp) :: k
+      integer(ip) :: first, last, low, j
 
-      k = 0
-      do j = 1, n_pivots
-         front(j) = front(j)/columns(k + 1)
-         !$omp simd
-         do i = j + 1, order
-            front(i) = front(i) - columns(k + 1 + i - j)*front(j)
+      do first = 1, n_pivots, BLOCK
+         last = min(first + BLOCK - 1, n_pivots)
+         do j = first, last
+            front(j) = front(j)/columns(packed_length(order, j - 1) + 1)
+            call subtract_columns(order, j, j, columns, j + 1, last, front)
          end do
-         k = k + order - j + 1
+         if (by_threads) then
+            !$omp parallel do default(none) shared(order, first, last, columns, front)
+            do low = last + 1, order, ROWS
+               call subtract_columns(order, first, last, columns, low, min(low + ROWS - 1, order), front)
+            end do
+            !$omp end parallel do
+         else
+            call subtract_columns(order, first, last, columns, last + 1, order, front)
+         end if
       end do
    end subroutine eliminate_load
 
-   pure subroutine solve_back(order, n_pivots, columns, front)
-      integer(ip), intent(in) :: order, n_pivots
+   !> Takes some columns, times their solved pivots, from some rows below them.
+   pure subroutine subtract_columns(order, first, last, columns, low, high, front)
+      integer(ip), intent(in) :: order
+      integer(ip), intent(in) :: first, last     !< columns
       real(wp), intent(in) :: columns(*)
+      integer(ip), intent(in) :: low, high       !< rows
       real(wp), intent(inout) :: front(order)
       integer(ip) :: i, j
       integer(lp) :: k
-      real(wp) :: s
 
-      k = packed_length(order, n_pivots)
-      do j = n_pivots, 1, -1
-         k = k - (order - j + 1)
-         s = 0.0_wp
-         !$omp simd reduction(+:s)
-         do i = j + 1, order
-            s = s + columns(k + 1 + i - j)*front(i)
+      do j = first, last
+         k = packed_length(order, j - 1) + 1 - j
+         !$omp simd
+         do i = low, high
+            front(i) = front(i) - columns(k + i)*front(j)
          end do
-         front(j) = (front(j) - s)/columns(k + 1)
+      end do
+   end subroutine subtract_columns
+
+   !> front <- L^-T (front - L_b' border) for the pivots.
+   subroutine solve_back(order, n_pivots, columns, by_threads, front)
+      integer(ip), intent(in) :: order, n_pivots
+      real(wp), intent(in) :: columns(*)
+      logical, intent(in) :: by_threads
+      real(wp), intent(inout) :: front(order)
+      integer(ip) :: first, last, j
+      real(wp) :: beyond(BLOCK)                  !< what the rows beyond the block take from its pivots
+
+      do first = 1 + BLOCK*((n_pivots - 1)/BLOCK), 1, -BLOCK
+         last = min(first + BLOCK - 1, n_pivots)
+         if (by_threads) then
+            !$omp parallel do default(none) shared(order, first, last, columns, front, beyond)
+            do j = first, last
+               beyond(j - first + 1) = column_product(order, j, columns, last + 1, order, front)
+            end do
+            !$omp end parallel do
+         else
+            do j = first, last
+               beyond(j - first + 1) = column_product(order, j, columns, last + 1, order, front)
+            end do
+         end if
+         do j = last, first, -1
+            front(j) = (front(j) - (beyond(j - first + 1) + column_product(order, j, columns, j + 1, last, front))) &
+                       /columns(packed_length(order, j - 1) + 1)
+         end do
       end do
    end subroutine solve_back
+
+   !> Product of a column with a front, over some rows below its pivot.
+   pure real(wp) function column_product(order, j, columns, low, high, front) result(s)
+      integer(ip), intent(in) :: order, j
+      real(wp), intent(in) :: columns(*)
+      integer(ip), intent(in) :: low, high       !< rows
+      real(wp), intent(in) :: front(order)
+      integer(ip) :: i
+      integer(lp) :: k
+
+      k = packed_length(order, j - 1) + 1 - j
+      s = 0.0_wp
+      !$omp simd reduction(+:s)
+      do i = low, high
+         s = s + columns(k + i)*front(i)
+      end do
+   end function column_product
 
 end module atrito_front_solves

@@ -15,6 +15,7 @@ module atrito_multifrontal
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    use atrito_storage, only: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status
+   use atrito_threads, only: n_threads, is_shared
    implicit none (type, external)
    private
    public :: multifrontal_t
@@ -83,34 +84,42 @@ contains
    subroutine add_store_to_fronts(self, store)
       class(multifrontal_t), intent(inout) :: self
       type(element_store_t), intent(inout) :: store
-      integer(ip) :: e
+      integer(ip) :: part, n_parts
 
       if (self%store%n > 0) then
          call add_one_by_one(self, store)
          return
       end if
       call move_store(store, self%store)
-      do e = 1, self%store%n
-         call add_to_diagonal(self, e)
+      n_parts = 1
+      if (is_shared(self%store%n)) n_parts = n_threads()
+      !$omp parallel do schedule(static, 1) default(none) shared(self, n_parts)
+      do part = 1, n_parts
+         call add_to_diagonal(self, part, n_parts)
       end do
+      !$omp end parallel do
    end subroutine add_store_to_fronts
 
-   !> Adds the diagonal of the matrix of an element to that of all.
-   pure subroutine add_to_diagonal(self, e)
+   !> Adds the diagonals of the matrices of all elements, at the equations of a part.
+   pure subroutine add_to_diagonal(self, part, n_parts)
       type(multifrontal_t), intent(inout) :: self
-      integer(ip), intent(in) :: e
+      integer(ip), intent(in) :: part, n_parts
       integer(lp) :: k, at
-      integer(ip) :: place, n
+      integer(ip) :: first, last, e, place, n
 
-      n = int(self%store%start(e + 1) - self%store%start(e), ip)
-      at = self%store%matrix_start(self%store%matrix_of(e)) + 1
-      do k = self%store%start(e) + 1, self%store%start(e + 1)
-         if (self%store%equations(k) > 0) then
-            place = self%elimination%place(self%store%equations(k))
-            self%diagonal(place) = self%diagonal(place) + self%store%values(at)
-         end if
-         at = at + n                             ! the next column is shorter by one
-         n = n - 1
+      first = int((int(self%n, lp)*(part - 1))/n_parts, ip) + 1
+      last = int((int(self%n, lp)*part)/n_parts, ip)
+      do e = 1, self%store%n
+         n = int(self%store%start(e + 1) - self%store%start(e), ip)
+         at = self%store%matrix_start(self%store%matrix_of(e)) + 1
+         do k = self%store%start(e) + 1, self%store%start(e + 1)
+            if (self%store%equations(k) >= first .and. self%store%equations(k) <= last) then
+               place = self%elimination%place(self%store%equations(k))
+               self%diagonal(place) = self%diagonal(place) + self%store%values(at)
+            end if
+            at = at + n                          ! the next column is shorter by one
+            n = n - 1
+         end do
       end do
    end subroutine add_to_diagonal
 
@@ -174,11 +183,16 @@ contains
    subroutine reduce_by_fronts(self, f)
       class(multifrontal_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: f(:, :)
-      real(wp) :: x(self%n)
-      integer(ip) :: load
+      real(wp), allocatable :: x(:)
+      integer(ip) :: load, i
 
+      allocate (x(self%n))
       do load = 1, size(f, 2, kind=ip)
-         x(self%elimination%place) = f(:, load)
+         !$omp parallel do default(none) shared(self, x, f, load) if(is_shared(self%n))
+         do i = 1, self%n
+            x(self%elimination%place(i)) = f(i, load)
+         end do
+         !$omp end parallel do
          call forward(self%tree, self%factors, self%plan, x)
          f(:, load) = x
       end do
@@ -187,11 +201,17 @@ contains
    subroutine expand_by_fronts(self, x)
       class(multifrontal_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
-      integer(ip) :: load
+      real(wp), allocatable :: by_place(:)
+      integer(ip) :: load, i
 
       do load = 1, size(x, 2, kind=ip)
-         call backward(self%tree, self%factors, self%plan, x(:, load))
-         x(:, load) = x(self%elimination%place, load)
+         by_place = x(:, load)
+         call backward(self%tree, self%factors, self%plan, by_place)
+         !$omp parallel do default(none) shared(self, x, by_place, load) if(is_shared(self%n))
+         do i = 1, self%n
+            x(i, load) = by_place(self%elimination%place(i))
+         end do
+         !$omp end parallel do
       end do
    end subroutine expand_by_fronts
 

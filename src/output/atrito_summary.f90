@@ -5,6 +5,7 @@ module atrito_summary
    use atrito_strings, only: string_t, append_string
    use atrito_model, only: model_t
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
@@ -176,7 +177,7 @@ contains
    end function counted
 
    !> Finds the scales of all fields. What is not there counts as 0.
-   pure function measure_fields(model, results) result(scales)
+   function measure_fields(model, results) result(scales)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(scales_t) :: scales
@@ -205,11 +206,16 @@ contains
    end function number_of
 
    !> Largest absolute value; 0 for an empty array.
-   pure real(wp) function largest(values)
+   real(wp) function largest(values)
       real(wp), intent(in) :: values(:, :)
+      integer(ip) :: i
 
       largest = 0.0_wp
-      if (size(values) > 0) largest = maxval(abs(values))
+      !$omp parallel do default(none) shared(values) reduction(max:largest) if(is_shared(size(values, 2, kind=ip)))
+      do i = 1, size(values, 2, kind=ip)
+         largest = max(largest, maxval(abs(values(:, i))))
+      end do
+      !$omp end parallel do
    end function largest
 
 end module atrito_summary

@@ -17,6 +17,7 @@ module atrito_condensed_body
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_storage, only: storage_t, smallest_ratio
    use atrito_strings, only: to_text
+   use atrito_threads, only: is_shared
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
@@ -273,12 +274,14 @@ contains
       associate (list => fem%bodies%list(i_body))
          if (allocated(body%load)) deallocate (body%load)
          allocate (body%load(list%n, 1))
+         !$omp parallel do default(shared) private(dof, equation) if(is_shared(size(list%nodes, kind=ip)))
          do i = 1, size(list%nodes, kind=ip)
             do dof = 1, 2
                equation = fem%bodies%equation(dof, list%nodes(i))
                if (equation > 0) body%load(equation, 1) = f(dof, list%nodes(i))
             end do
          end do
+         !$omp end parallel do
       end associate
       call body%storage%reduce(body%load)
    end subroutine set_load
@@ -316,12 +319,14 @@ contains
          x = body%load
          x(list%n - list%n_kept + 1:, 1) = u_contact
          call body%storage%expand(x)
+         !$omp parallel do default(shared) private(dof, equation) if(is_shared(size(list%nodes, kind=ip)))
          do i = 1, size(list%nodes, kind=ip)
             do dof = 1, 2
                equation = fem%bodies%equation(dof, list%nodes(i))
                if (equation > 0) u(dof, list%nodes(i)) = x(equation, 1)
             end do
          end do
+         !$omp end parallel do
       end associate
    end subroutine expand_body
 
