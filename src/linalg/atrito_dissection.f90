@@ -16,7 +16,7 @@ module atrito_dissection
    !> The order of the nodes, and its parts in postorder: each separator after the two parts that it divides.
    type :: dissection_t
       integer(ip) :: n_nodes = 0
-      integer(ip), allocatable :: order(:)       !< (n_nodes or more)
+      integer(ip), allocatable :: order(:)       !< (n_nodes)
       integer(ip) :: n = 0                       !< parts
       integer(ip), allocatable :: last(:)        !< (n or more) last place of each part in the order
       integer(ip), allocatable :: parent(:)      !< (n or more) 0: none
@@ -29,10 +29,11 @@ module atrito_dissection
       real(wp), allocatable :: extent(:, :)      !< (2, all elements) [L] of those in the list
    end type pieces_t
 
-   !> What is known of the nodes.
+   !> What is known of the nodes, and their order. Parts of a set have no node in common that is not taken: they share these lists.
    type :: marks_t
       logical, allocatable :: taken(:)           !< in the order already, or not wanted there
       integer(lp), allocatable :: upper_of(:)    !< last cut that had the node in its upper part
+      integer(ip), allocatable :: order(:)       !< each set has its own places there
    end type marks_t
 
    !> Sets of so few nodes, counted with each element, are not cut any more.
@@ -56,11 +57,11 @@ contains
       integer(ip), intent(in) :: nodes(:, :)     !< (most nodes, all elements)
       integer(ip), intent(in) :: n_nodes_of(:)   !< (all elements) nodes of each; the first four or all are its corners
       real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
-      logical, intent(in) :: wanted(:)           !< (all nodes)
+      logical, intent(in) :: wanted(:)           !< (all nodes); those that are belong to the elements
       type(dissection_t), intent(out) :: parts
       type(pieces_t) :: pieces
       type(marks_t) :: marks
-      integer(ip) :: i, root
+      integer(ip) :: i, root, n_free
 
       allocate (pieces%centre(2, size(elements)), pieces%extent(2, size(n_nodes_of)))
       pieces%element = elements
@@ -72,13 +73,17 @@ contains
       !$omp end parallel do
       marks%taken = .not. wanted
       allocate (marks%upper_of(size(wanted)), source=0_lp)
-      call begin_parts(parts, count(wanted, kind=ip))
-      if (size(elements) == 0) return
-      !$omp parallel default(none) shared(nodes, n_nodes_of, pieces, marks, parts, root) if(size(pieces%element) > LARGE)
-      !$omp single
-      call cut(nodes, n_nodes_of, pieces%element, pieces%centre, pieces%extent, 1_lp, marks%taken, marks%upper_of, parts, root)
-      !$omp end single
-      !$omp end parallel
+      n_free = count(wanted, kind=ip)
+      allocate (marks%order(n_free))
+      call begin_parts(parts, 0_ip)
+      if (size(elements) > 0) then
+         !$omp parallel default(none) shared(nodes, n_nodes_of, pieces, n_free, marks, parts, root) if(size(pieces%element) > LARGE)
+         !$omp single
+         call cut(nodes, n_nodes_of, pieces%element, pieces%centre, pieces%extent, 1_lp, n_free, marks, parts, root)
+         !$omp end single
+         !$omp end parallel
+      end if
+      call move_alloc(marks%order, parts%order)
    end subroutine dissect
 
    pure subroutine measure(x, corners, centre, extent)
@@ -99,45 +104,75 @@ contains
       extent = high - low
    end subroutine measure
 
+   !> No parts so far, behind some nodes of others.
    pure subroutine begin_parts(parts, n_nodes)
       type(dissection_t), intent(inout) :: parts
-      integer(ip), intent(in) :: n_nodes         !< room for them
+      integer(ip), intent(in) :: n_nodes
       integer(ip), parameter :: ROOM = 64_ip
 
-      allocate (parts%order(n_nodes), parts%last(ROOM), parts%parent(ROOM))
+      parts%n_nodes = n_nodes
+      allocate (parts%last(ROOM), parts%parent(ROOM))
    end subroutine begin_parts
 
    !> Appends the nodes of a set to the parts. The depth of the recursion is that of the tree, about log2 of the elements.
-   recursive subroutine cut(nodes, n_nodes_of, element, centre, extent, number, taken, upper_of, parts, root)
+   recursive subroutine cut(nodes, n_nodes_of, element, centre, extent, number, n_free, marks, parts, root)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
       real(wp), intent(in), contiguous :: extent(:, :)
       integer(lp), intent(in) :: number          !< of the cut: 2 number and 2 number + 1 are those of its parts
-      logical, intent(inout), contiguous :: taken(:)
-      integer(lp), intent(inout), contiguous :: upper_of(:)
+      integer(ip), intent(in) :: n_free          !< nodes of the set that are not taken
+      type(marks_t), intent(inout) :: marks
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
-      integer(ip) :: n_lower, lower, upper, n
+      integer(ip) :: n_lower, n_of(2), children(2)
       integer(ip), allocatable :: separator(:)
 
-      n = size(element, kind=ip)
       n_lower = 0
       if (is_large(n_nodes_of, element) .and. number < LAST_CUT) call split(element, centre, extent, n_lower)
       if (n_lower == 0) then
-         call take_rest(nodes, n_nodes_of, element, taken, parts, root)
+         call take_rest(nodes, n_nodes_of, element, marks%taken, marks%order, parts, root)
          return
       end if
-      call take_separator(nodes, n_nodes_of, element, n_lower, number, taken, upper_of, separator)
-      if (n > LARGE) then
-         call cut_side_by_side(nodes, n_nodes_of, element, centre, extent, n_lower, number, taken, upper_of, parts, lower, upper)
-      else
-         call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, taken, upper_of, parts, lower)
-         call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, taken, upper_of, parts, &
-                  upper)
-      end if
-      call add_part(parts, separator, lower, upper, root)
+      call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, separator, n_of(2))
+      n_of(1) = n_free - n_of(2) - size(separator, kind=ip)
+      call cut_both(nodes, n_nodes_of, element, centre, extent, n_lower, number, n_of, marks, parts, children)
+      call add_part(separator, children, marks%order, parts, root)
    end subroutine cut
+
+   !> Both parts of a set, those of a large one as two tasks.
+   recursive subroutine cut_both(nodes, n_nodes_of, element, centre, extent, n_lower, number, n_of, marks, parts, children)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      integer(ip), intent(inout), contiguous :: element(:)
+      real(wp), intent(inout), contiguous :: centre(:, :)
+      real(wp), intent(in), contiguous :: extent(:, :)
+      integer(ip), intent(in) :: n_lower
+      integer(lp), intent(in) :: number
+      integer(ip), intent(in) :: n_of(2)         !< nodes of the lower and of the upper part that are not taken
+      type(marks_t), intent(inout) :: marks
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(out) :: children(2)    !< their last parts; 0: no nodes
+      type(dissection_t) :: of_lower, of_upper
+
+      if (size(element) <= LARGE) then
+         call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, n_of(1), marks, parts, children(1))
+         call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, n_of(2), marks, parts, &
+                  children(2))
+         return
+      end if
+      call begin_parts(of_lower, parts%n_nodes)
+      call begin_parts(of_upper, parts%n_nodes + n_of(1))
+      !$omp task default(shared)
+      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, n_of(1), marks, of_lower, children(1))
+      !$omp end task
+      !$omp task default(shared)
+      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, n_of(2), marks, of_upper, &
+               children(2))
+      !$omp end task
+      !$omp taskwait
+      call append(parts, of_lower, children(1))
+      call append(parts, of_upper, children(2))
+   end subroutine cut_both
 
    pure logical function is_large(n_nodes_of, element)
       integer(ip), intent(in) :: n_nodes_of(:), element(:)
@@ -145,51 +180,6 @@ contains
       is_large = size(element) > LEAF
       if (.not. is_large) is_large = sum(n_nodes_of(element)) > LEAF
    end function is_large
-
-   !> Both parts of a large set, as two tasks. They have no node in common that is not taken.
-   recursive subroutine cut_side_by_side(nodes, n_nodes_of, element, centre, extent, n_lower, number, taken, upper_of, parts, &
-                                         lower, upper)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
-      integer(ip), intent(inout), contiguous :: element(:)
-      real(wp), intent(inout), contiguous :: centre(:, :)
-      real(wp), intent(in), contiguous :: extent(:, :)
-      integer(ip), intent(in) :: n_lower
-      integer(lp), intent(in) :: number
-      logical, intent(inout), contiguous :: taken(:)
-      integer(lp), intent(inout), contiguous :: upper_of(:)
-      type(dissection_t), intent(inout) :: parts
-      integer(ip), intent(out) :: lower, upper
-      type(dissection_t) :: of_lower, of_upper
-
-      call begin_parts(of_lower, count_free(nodes, n_nodes_of, element(:n_lower), taken))
-      call begin_parts(of_upper, count_free(nodes, n_nodes_of, element(n_lower + 1:), taken))
-      !$omp task default(shared)
-      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, taken, upper_of, of_lower, lower)
-      !$omp end task
-      !$omp task default(shared)
-      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, taken, upper_of, of_upper, &
-               upper)
-      !$omp end task
-      !$omp taskwait
-      if (lower > 0) lower = lower + parts%n
-      call append(parts, of_lower)
-      if (upper > 0) upper = upper + parts%n
-      call append(parts, of_upper)
-   end subroutine cut_side_by_side
-
-   !> At least as many as the free nodes of some elements.
-   pure integer(ip) function count_free(nodes, n_nodes_of, element, taken)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:)
-      logical, intent(in) :: taken(:)
-      integer(ip) :: i, k
-
-      count_free = 0
-      do i = 1, size(element, kind=ip)
-         do k = 1, n_nodes_of(element(i))
-            if (.not. taken(nodes(k, element(i)))) count_free = count_free + 1
-         end do
-      end do
-   end function count_free
 
    !> Puts the elements below the cut first; their order stays. n_lower = 0: there is no cut.
    pure subroutine split(element, centre, extent, n_lower)
@@ -291,18 +281,22 @@ contains
    end function sample_median
 
    !> Takes the free nodes that elements of both parts have.
-   pure subroutine take_separator(nodes, n_nodes_of, element, n_lower, number, taken, upper_of, separator)
+   pure subroutine take_separator(nodes, n_nodes_of, element, n_lower, number, taken, upper_of, separator, n_upper)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:), n_lower
       integer(lp), intent(in) :: number
       logical, intent(inout) :: taken(:)
       integer(lp), intent(inout) :: upper_of(:)
       integer(ip), allocatable, intent(out) :: separator(:)
+      integer(ip), intent(out) :: n_upper        !< free nodes that are left to the upper part
       integer(ip) :: i, k, n, node
 
+      n_upper = 0
       do i = n_lower + 1, size(element, kind=ip)
          do k = 1, n_nodes_of(element(i))
             node = nodes(k, element(i))
-            if (.not. taken(node)) upper_of(node) = number
+            if (taken(node) .or. upper_of(node) == number) cycle
+            upper_of(node) = number
+            n_upper = n_upper + 1
          end do
       end do
       allocate (separator(64))
@@ -319,12 +313,14 @@ contains
          end do
       end do
       separator = separator(:n)
+      n_upper = n_upper - n
    end subroutine take_separator
 
    !> Makes a part of the free nodes of a set that is not cut.
-   pure subroutine take_rest(nodes, n_nodes_of, element, taken, parts, root)
+   pure subroutine take_rest(nodes, n_nodes_of, element, taken, order, parts, root)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:)
       logical, intent(inout) :: taken(:)
+      integer(ip), intent(inout) :: order(:)
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root
       integer(ip) :: i, k, node, before
@@ -336,7 +332,7 @@ contains
             if (taken(node)) cycle
             taken(node) = .true.
             parts%n_nodes = parts%n_nodes + 1
-            parts%order(parts%n_nodes) = node
+            order(parts%n_nodes) = node
          end do
       end do
       root = 0
@@ -346,21 +342,23 @@ contains
    end subroutine take_rest
 
    !> Adds a separator, the parent of two parts where they are.
-   pure subroutine add_part(parts, separator, lower, upper, root)
+   pure subroutine add_part(separator, children, order, parts, root)
+      integer(ip), intent(in) :: separator(:), children(2)
+      integer(ip), intent(inout) :: order(:)
       type(dissection_t), intent(inout) :: parts
-      integer(ip), intent(in) :: separator(:), lower, upper
       integer(ip), intent(out) :: root
-      integer(ip) :: n
+      integer(ip) :: n, i
 
-      root = max(lower, upper)
+      root = maxval(children)
       n = size(separator, kind=ip)
-      if (n == 0 .and. min(lower, upper) == 0) return
-      parts%order(parts%n_nodes + 1:parts%n_nodes + n) = separator
+      if (n == 0 .and. minval(children) == 0) return
+      order(parts%n_nodes + 1:parts%n_nodes + n) = separator
       parts%n_nodes = parts%n_nodes + n
       call close_part(parts)
       root = parts%n
-      if (lower > 0) parts%parent(lower) = root
-      if (upper > 0) parts%parent(upper) = root
+      do i = 1, 2
+         if (children(i) > 0) parts%parent(children(i)) = root
+      end do
    end subroutine add_part
 
    !> Ends a part at the last node; it has no parent yet.
@@ -373,16 +371,17 @@ contains
       parts%parent(parts%n) = 0
    end subroutine close_part
 
-   !> Puts parts behind others.
-   pure subroutine append(parts, more)
+   !> Puts parts behind others; their nodes stand behind those of the others already.
+   pure subroutine append(parts, more, root)
       type(dissection_t), intent(inout) :: parts
       type(dissection_t), intent(in) :: more
+      integer(ip), intent(inout) :: root         !< a part of those that are added, or 0
 
       call make_room(parts, more%n)
-      parts%order(parts%n_nodes + 1:parts%n_nodes + more%n_nodes) = more%order(:more%n_nodes)
-      parts%last(parts%n + 1:parts%n + more%n) = more%last(:more%n) + parts%n_nodes
+      parts%last(parts%n + 1:parts%n + more%n) = more%last(:more%n)
       parts%parent(parts%n + 1:parts%n + more%n) = merge(more%parent(:more%n) + parts%n, 0_ip, more%parent(:more%n) > 0)
-      parts%n_nodes = parts%n_nodes + more%n_nodes
+      if (root > 0) root = root + parts%n
+      parts%n_nodes = more%n_nodes
       parts%n = parts%n + more%n
    end subroutine append
 

@@ -45,27 +45,27 @@ contains
    end subroutine end_classes
 
    !> Looks the record of a part up, with the classes of its children; it becomes a class when it is new.
-   pure subroutine find_class(list, record, p, alone, class)
+   pure subroutine find_class(list, record, p, alone, found)
       class(class_list_t), intent(inout) :: list
       integer(ip), intent(in) :: record(:)
       integer(ip), intent(in) :: p
       logical, intent(in) :: alone               !< a class of its own, whatever there is
-      integer(ip), intent(out) :: class          !< of no use when there was not enough memory
+      integer(ip), intent(out) :: found          !< of no use when there was not enough memory
       integer(ip) :: slot, range
 
-      class = 0
+      found = 0
       if (.not. list%enough) return
       range = size(list%table, kind=ip) - 1
       slot = hash(record, range)
       do
-         class = list%table(slot)
-         if (class == 0 .or. alone) exit
-         if (is_class(list, class, record)) return
+         found = list%table(slot)
+         if (found == 0 .or. alone) exit
+         if (is_class(list, found, record)) return
          slot = modulo(slot + 1, range)
       end do
       call add_class(list, p, record)
-      class = list%n_classes
-      list%table(slot) = class
+      found = list%n_classes
+      list%table(slot) = found
    end subroutine find_class
 
    pure logical function is_class(list, class, record)
