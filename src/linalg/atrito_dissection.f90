@@ -5,6 +5,8 @@
 !> for plane meshes, whatever the numbering, in n log n steps: minimum degree takes 0.7 to 3 times the operations, depending on the
 !> numbering, and METIS ten times as long to find an order no better (docs/developer). Sets of the same shape are cut alike, so
 !> that regular meshes have few different fronts.
+!>
+!> The largest sets are cut level by level, the sets of a level by several threads; then each of the others goes to one thread.
 module atrito_dissection
    use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
@@ -38,8 +40,19 @@ module atrito_dissection
 
    !> Sets of so few nodes, counted with each element, are not cut any more.
    integer(ip), parameter :: LEAF = 64_ip
-   !> Sets of so many elements are worth a task of their own.
+   !> A set that is cut by itself, and not within the recursion: number k, its parts 2 k and 2 k + 1.
+   type :: set_t
+      integer(ip) :: first = 1, last = 0         !< elements
+      integer(ip) :: n_before = 0, n_free = 0    !< nodes that stand before its own in the order, and its own
+      logical :: divided = .false.               !< into two sets
+      integer(ip), allocatable :: separator(:)   !< between them
+      type(dissection_t) :: parts                !< where it is not
+      integer(ip) :: root = 0                    !< the last one
+   end type set_t
+
+   !> Sets of more elements are cut by themselves, level by level, so often: threads share them out.
    integer(ip), parameter :: LARGE = 4096_ip
+   integer, parameter :: LEVELS = 6
    !> Elements whose median and mean stand for those of all.
    integer, parameter :: MOST_SAMPLES = 63
    !> Elements closer to the cut than this share of the extent lie on it: round-off of a regular mesh.
@@ -61,7 +74,8 @@ contains
       type(dissection_t), intent(out) :: parts
       type(pieces_t) :: pieces
       type(marks_t) :: marks
-      integer(ip) :: i, root, n_free
+      type(set_t) :: sets(2**(LEVELS + 1) - 1)
+      integer(ip) :: i, root
 
       allocate (pieces%centre(2, size(elements)), pieces%extent(2, size(n_nodes_of)))
       pieces%element = elements
@@ -73,18 +87,89 @@ contains
       !$omp end parallel do
       marks%taken = .not. wanted
       allocate (marks%upper_of(size(wanted)), source=0_lp)
-      n_free = count(wanted, kind=ip)
-      allocate (marks%order(n_free))
+      sets(1)%last = size(elements, kind=ip)
+      sets(1)%n_free = count(wanted, kind=ip)
+      allocate (marks%order(sets(1)%n_free))
+      call divide_sets(nodes, n_nodes_of, pieces, marks, sets)
+      !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, pieces, marks, sets) &
+      !$omp if(size(elements) > LARGE)
+      do i = 1, size(sets, kind=ip)
+         associate (set => sets(i))
+            if (set%divided .or. set%first > set%last) cycle
+            call begin_parts(set%parts, set%n_before)
+            call cut(nodes, n_nodes_of, pieces%element(set%first:set%last), pieces%centre(:, set%first:set%last), pieces%extent, &
+                     int(i, lp), marks, set%parts, set%root)
+         end associate
+      end do
+      !$omp end parallel do
       call begin_parts(parts, 0_ip)
-      if (size(elements) > 0) then
-         !$omp parallel default(none) shared(nodes, n_nodes_of, pieces, n_free, marks, parts, root) if(size(pieces%element) > LARGE)
-         !$omp single
-         call cut(nodes, n_nodes_of, pieces%element, pieces%centre, pieces%extent, 1_lp, n_free, marks, parts, root)
-         !$omp end single
-         !$omp end parallel
-      end if
+      call join(sets, 1_ip, marks%order, parts, root)
       call move_alloc(marks%order, parts%order)
    end subroutine dissect
+
+   !> Cuts the large sets, level by level. Sets have no element in common, nor a node that is not taken.
+   subroutine divide_sets(nodes, n_nodes_of, pieces, marks, sets)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      type(pieces_t), intent(inout) :: pieces
+      type(marks_t), intent(inout) :: marks
+      type(set_t), intent(inout) :: sets(:)      !< the first is given
+      integer(ip) :: k
+      integer :: level
+
+      do level = 0, LEVELS - 1
+         !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, pieces, marks, sets, level) &
+         !$omp if(level > 0 .and. sets(1)%last > LARGE)
+         do k = 2**level, 2**(level + 1) - 1
+            if (sets(k)%last - sets(k)%first < LARGE) cycle
+            call divide(nodes, n_nodes_of, pieces%element(sets(k)%first:sets(k)%last), &
+                        pieces%centre(:, sets(k)%first:sets(k)%last), pieces%extent, int(k, lp), marks, sets(k), sets(2*k), &
+                        sets(2*k + 1))
+         end do
+         !$omp end parallel do
+      end do
+   end subroutine divide_sets
+
+   subroutine divide(nodes, n_nodes_of, element, centre, extent, number, marks, set, lower, upper)
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      integer(ip), intent(inout), contiguous :: element(:)
+      real(wp), intent(inout), contiguous :: centre(:, :)
+      real(wp), intent(in), contiguous :: extent(:, :)
+      integer(lp), intent(in) :: number          !< of the cut: 2 number and 2 number + 1 are those of its parts
+      type(marks_t), intent(inout) :: marks
+      type(set_t), intent(inout) :: set, lower, upper
+      integer(ip) :: n_lower
+
+      call split(element, centre, extent, n_lower)
+      if (n_lower == 0) return
+      call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, set%separator, upper%n_free)
+      set%divided = .true.
+      lower%first = set%first
+      lower%last = set%first + n_lower - 1
+      lower%n_before = set%n_before
+      lower%n_free = set%n_free - upper%n_free - size(set%separator, kind=ip)
+      upper%first = lower%last + 1
+      upper%last = set%last
+      upper%n_before = set%n_before + lower%n_free
+   end subroutine divide
+
+   !> Appends the parts of a set to others: those of its lower part, those of its upper part, the separator.
+   recursive pure subroutine join(sets, k, order, parts, root)
+      type(set_t), intent(in) :: sets(:)
+      integer(ip), intent(in) :: k
+      integer(ip), intent(inout) :: order(:)
+      type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
+      integer(ip) :: children(2)
+
+      if (sets(k)%divided) then
+         call join(sets, 2*k, order, parts, children(1))
+         call join(sets, 2*k + 1, order, parts, children(2))
+         call add_part(sets(k)%separator, children, order, parts, root)
+      else
+         root = sets(k)%root
+         if (root > 0) call append(parts, sets(k)%parts, root)
+      end if
+   end subroutine join
 
    pure subroutine measure(x, corners, centre, extent)
       real(wp), intent(in) :: x(:, :)
@@ -115,17 +200,16 @@ contains
    end subroutine begin_parts
 
    !> Appends the nodes of a set to the parts. The depth of the recursion is that of the tree, about log2 of the elements.
-   recursive subroutine cut(nodes, n_nodes_of, element, centre, extent, number, n_free, marks, parts, root)
+   recursive subroutine cut(nodes, n_nodes_of, element, centre, extent, number, marks, parts, root)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
       real(wp), intent(in), contiguous :: extent(:, :)
       integer(lp), intent(in) :: number          !< of the cut: 2 number and 2 number + 1 are those of its parts
-      integer(ip), intent(in) :: n_free          !< nodes of the set that are not taken
       type(marks_t), intent(inout) :: marks
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
-      integer(ip) :: n_lower, n_of(2), children(2)
+      integer(ip) :: n_lower, n_upper, children(2)
       integer(ip), allocatable :: separator(:)
 
       n_lower = 0
@@ -134,45 +218,11 @@ contains
          call take_rest(nodes, n_nodes_of, element, marks%taken, marks%order, parts, root)
          return
       end if
-      call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, separator, n_of(2))
-      n_of(1) = n_free - n_of(2) - size(separator, kind=ip)
-      call cut_both(nodes, n_nodes_of, element, centre, extent, n_lower, number, n_of, marks, parts, children)
+      call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, separator, n_upper)
+      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, marks, parts, children(1))
+      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, marks, parts, children(2))
       call add_part(separator, children, marks%order, parts, root)
    end subroutine cut
-
-   !> Both parts of a set, those of a large one as two tasks.
-   recursive subroutine cut_both(nodes, n_nodes_of, element, centre, extent, n_lower, number, n_of, marks, parts, children)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
-      integer(ip), intent(inout), contiguous :: element(:)
-      real(wp), intent(inout), contiguous :: centre(:, :)
-      real(wp), intent(in), contiguous :: extent(:, :)
-      integer(ip), intent(in) :: n_lower
-      integer(lp), intent(in) :: number
-      integer(ip), intent(in) :: n_of(2)         !< nodes of the lower and of the upper part that are not taken
-      type(marks_t), intent(inout) :: marks
-      type(dissection_t), intent(inout) :: parts
-      integer(ip), intent(out) :: children(2)    !< their last parts; 0: no nodes
-      type(dissection_t) :: of_lower, of_upper
-
-      if (size(element) <= LARGE) then
-         call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, n_of(1), marks, parts, children(1))
-         call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, n_of(2), marks, parts, &
-                  children(2))
-         return
-      end if
-      call begin_parts(of_lower, parts%n_nodes)
-      call begin_parts(of_upper, parts%n_nodes + n_of(1))
-      !$omp task default(shared)
-      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, n_of(1), marks, of_lower, children(1))
-      !$omp end task
-      !$omp task default(shared)
-      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, n_of(2), marks, of_upper, &
-               children(2))
-      !$omp end task
-      !$omp taskwait
-      call append(parts, of_lower, children(1))
-      call append(parts, of_upper, children(2))
-   end subroutine cut_both
 
    pure logical function is_large(n_nodes_of, element)
       integer(ip), intent(in) :: n_nodes_of(:), element(:)

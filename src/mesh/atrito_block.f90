@@ -1,6 +1,7 @@
 !> A four-sided block of elements, mapped bilinearly from the unit square.
 module atrito_block
    use atrito_kinds, only: ip, wp
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: graded_lines, block_nodes
@@ -29,24 +30,25 @@ contains
    end function graded_lines
 
    !> Nodes of a block, row by row from BOTTOM (corner 1 to 2) to TOP (corner 4 to 3).
-   pure subroutine block_nodes(corners, tx, ty, x)
+   subroutine block_nodes(corners, tx, ty, x)
       real(wp), intent(in) :: corners(2, 4)          !< [L], counter-clockwise
       real(wp), intent(in) :: tx(0:), ty(0:)         !< lines 0..1 along and across
       real(wp), intent(out) :: x(:, :)               !< (2, size(tx)*size(ty)) [L]
       real(wp) :: bottom(2, 0:size(tx) - 1), top(2, 0:size(tx) - 1)
-      integer(ip) :: i, j, k
+      integer(ip) :: i, j, n
 
       do i = 0, size(tx, kind=ip) - 1
          bottom(:, i) = between(corners(:, 1), corners(:, 2), tx(i))
          top(:, i) = between(corners(:, 4), corners(:, 3), tx(i))
       end do
-      k = 0
+      n = size(tx, kind=ip)
+      !$omp parallel do default(none) shared(n, bottom, top, ty, x) if(is_shared(n*size(ty, kind=ip)))
       do j = 0, size(ty, kind=ip) - 1
-         do i = 0, size(tx, kind=ip) - 1
-            k = k + 1
-            x(:, k) = between(bottom(:, i), top(:, i), ty(j))
+         do i = 0, n - 1
+            x(:, j*n + i + 1) = between(bottom(:, i), top(:, i), ty(j))
          end do
       end do
+      !$omp end parallel do
    end subroutine block_nodes
 
    !> a at t = 0, b at t = 1, and a all the way where a = b: sides that lie on each other must not be apart by round-off, which is

@@ -207,35 +207,72 @@ contains
       integer(ip), intent(in) :: i_body
       type(elimination_t), intent(out) :: elimination
       type(dissection_t) :: parts
-      integer(ip) :: i, dof, k, p, first, next
+      integer(ip) :: k, p
 
       associate (body => bodies%list(i_body))
          call dissect(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts)
-         allocate (elimination%place(body%n))
-         elimination%last = parts%last(:parts%n)
+         allocate (elimination%place(body%n), elimination%last(parts%n))
          elimination%parent = parts%parent(:parts%n)
-         next = 0
-         first = 1
+         !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
          do p = 1, parts%n
-            do i = first, parts%last(p)
-               do dof = 1, 2
-                  k = bodies%equation(dof, parts%order(i))
-                  if (k == 0) cycle
-                  next = next + 1
-                  elimination%place(k) = next
-               end do
-            end do
-            first = parts%last(p) + 1
-            elimination%last(p) = next
+            elimination%last(p) = count_equations(bodies, parts%order(first_node(parts, p):parts%last(p)))
          end do
+         !$omp end parallel do
+         do p = 2, parts%n
+            elimination%last(p) = elimination%last(p) + elimination%last(p - 1)
+         end do
+         !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
+         do p = 1, parts%n
+            call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%place)
+         end do
+         !$omp end parallel do
          do k = body%n - body%n_kept + 1, body%n
             elimination%place(k) = k
          end do
       end associate
    end subroutine order_by_dissection
 
+   !> Where the nodes of a part begin in the order.
+   pure integer(ip) function first_node(parts, p)
+      type(dissection_t), intent(in) :: parts
+      integer(ip), intent(in) :: p
+
+      first_node = 1
+      if (p > 1) first_node = parts%last(p - 1) + 1
+   end function first_node
+
+   pure integer(ip) function count_equations(bodies, nodes) result(n)
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip) :: i
+
+      n = 0
+      do i = 1, size(nodes, kind=ip)
+         n = n + count(bodies%equation(:, nodes(i)) > 0, kind=ip)
+      end do
+   end function count_equations
+
+   !> The places of the equations of some nodes, the last of which is given.
+   pure subroutine place_part(bodies, nodes, last, place)
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip), intent(in) :: last
+      integer(ip), intent(inout) :: place(:)        !< of all equations of the body
+      integer(ip) :: i, dof, k, next
+
+      next = last
+      do i = size(nodes, kind=ip), 1, -1
+         do dof = 2, 1, -1
+            k = bodies%equation(dof, nodes(i))
+            if (k == 0) cycle
+            place(k) = next
+            next = next - 1
+         end do
+      end do
+   end subroutine place_part
+
    !> Which nodes of the mesh are the body's and have equations that are not kept.
-   pure function is_eliminated(mesh, bodies, body) result(eliminated)
+   function is_eliminated(mesh, bodies, body) result(eliminated)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
       type(body_t), intent(in) :: body
@@ -243,11 +280,13 @@ contains
       integer(ip) :: i
 
       allocate (eliminated(mesh%n_nodes), source=.false.)
+      !$omp parallel do default(none) shared(bodies, body, eliminated) if(is_shared(size(body%nodes, kind=ip)))
       do i = 1, size(body%nodes, kind=ip)
          associate (node => body%nodes(i))
             eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_kept)
          end associate
       end do
+      !$omp end parallel do
    end function is_eliminated
 
    !> The rigid motions that the supports of a body leave free: the null space of the prescribed dofs' motions.
