@@ -6,11 +6,12 @@ module atrito_table
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, put_lines, close_text, &
                            NEW_LINE_CHARACTER
    use atrito_status, only: status_t
-   use atrito_threads, only: n_threads
+   use atrito_threads, only: n_threads, is_shared
    use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
    implicit none (type, external)
    private
-   public :: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_words, write_table
+   public :: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
+             write_table
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE
 
    character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
@@ -33,7 +34,8 @@ module atrito_table
       integer :: first = 0, last = 0               !< its place in a line
       real(wp), allocatable :: reals(:)
       real(wp), pointer :: field(:) => null()      !< reals that stay where they are; the table knows which of them
-      integer(ip), allocatable :: integers(:)
+      integer(ip), allocatable :: integers(:)      !< (n_rows), or one for all rows
+      integer(ip), pointer :: integer_field(:) => null(), ids(:) => null()   !< integers that stay where they are
       type(string_t), allocatable :: words(:)
    end type column_t
 
@@ -100,13 +102,28 @@ contains
    pure subroutine add_integers(table, name, values)
       type(table_t), intent(inout) :: table
       character(len=*), intent(in) :: name
-      integer(ip), intent(in) :: values(:)          !< (n_rows)
+      integer(ip), intent(in) :: values(:)          !< (n_rows), or one for all rows
       type(column_t) :: column
 
       column%kind = KIND_INTEGER
       column%integers = values
       call add_column(table, name, '-', column)
    end subroutine add_integers
+
+   !> Adds a column of integers that are not copied but read when the table is written: those at table%places. With ids they are
+   !> places in them, and the ids are written.
+   subroutine add_integer_field(table, name, field, ids)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in), target :: field(:)
+      integer(ip), intent(in), target, optional :: ids(:)
+      type(column_t) :: column
+
+      column%kind = KIND_INTEGER
+      column%integer_field => field
+      if (present(ids)) column%ids => ids
+      call add_column(table, name, '-', column)
+   end subroutine add_integer_field
 
    !> Adds a column of words; none may be empty or hold a blank.
    pure subroutine add_words(table, name, dimension, values, on_the_left)
@@ -148,6 +165,8 @@ contains
       to%zero = from%zero
       to%on_the_left = from%on_the_left
       to%field => from%field
+      to%integer_field => from%integer_field
+      to%ids => from%ids
       if (allocated(from%name)) call move_alloc(from%name, to%name)
       if (allocated(from%dimension)) call move_alloc(from%dimension, to%dimension)
       if (allocated(from%reals)) call move_alloc(from%reals, to%reals)
@@ -174,7 +193,7 @@ contains
    end subroutine write_table
 
    !> Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
-   pure subroutine place_columns(table, digits)
+   subroutine place_columns(table, digits)
       type(table_t), intent(inout) :: table
       integer, intent(in) :: digits
       integer :: i, last, width
@@ -182,7 +201,7 @@ contains
       last = len(MARK_DIMENSIONS)
       do i = 1, size(table%columns)
          associate (column => table%columns(i))
-            width = max(len(column%name), len(column%dimension), value_width(column, digits))
+            width = max(len(column%name), len(column%dimension), value_width(table, column, digits))
             column%first = last + 2
             column%last = last + 1 + width
             last = column%last
@@ -190,7 +209,8 @@ contains
       end do
    end subroutine place_columns
 
-   pure integer function value_width(column, digits) result(width)
+   integer function value_width(table, column, digits) result(width)
+      type(table_t), intent(in) :: table
       type(column_t), intent(in) :: column
       integer, intent(in) :: digits
       integer :: i
@@ -200,14 +220,28 @@ contains
       case (KIND_REAL)
          width = real_width(digits)
       case (KIND_INTEGER)
-         if (size(column%integers) == 0) return
-         width = max(integer_width(maxval(column%integers)), integer_width(minval(column%integers)))
+         width = width_of_integers(table, column)
       case (KIND_WORD)
          do i = 1, size(column%words)
             width = max(width, len(column%words(i)%s))
          end do
       end select
    end function value_width
+
+   integer function width_of_integers(table, column) result(width)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer(ip) :: x(PIECE_ROWS), before, n
+
+      width = 1
+      !$omp parallel do default(none) private(n, x) shared(table, column) reduction(max:width) if(is_shared(table%n_rows))
+      do before = 0, table%n_rows - 1, PIECE_ROWS
+         n = min(PIECE_ROWS, table%n_rows - before)
+         call fetch_integers(table, column, before, x(:n))
+         width = max(width, integer_width(maxval(x(:n))), integer_width(minval(x(:n))))
+      end do
+      !$omp end parallel do
+   end function width_of_integers
 
    subroutine write_top(file, table, origin)
       type(text_file_t), intent(inout) :: file
@@ -326,7 +360,7 @@ contains
       integer(ip), intent(in) :: before
       character(len=*), intent(inout) :: lines(:)  !< (rows), PIECE_ROWS of them at most
       real(wp) :: x(PIECE_ROWS)
-      integer(ip) :: row, n
+      integer(ip) :: k(PIECE_ROWS), row, n
 
       n = size(lines, kind=ip)
       select case (column%kind)
@@ -334,7 +368,8 @@ contains
          call fetch_reals(table, column, before, x(:n))
          call put_reals(x(:n), column%zero, digits, column%first, column%last, lines)
       case (KIND_INTEGER)
-         call put_integers(column%integers(before + 1:before + n), column%first, column%last, lines)
+         call fetch_integers(table, column, before, k(:n))
+         call put_integers(k(:n), column%first, column%last, lines)
       case (KIND_WORD)
          do row = 1, n
             call put_word(column%words(before + row)%s, column%on_the_left, lines(row) (column%first:column%last))
@@ -358,6 +393,28 @@ contains
          x = column%field(before + 1:before + n)
       end if
    end subroutine fetch_reals
+
+   pure subroutine fetch_integers(table, column, before, k)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer(ip), intent(in) :: before
+      integer(ip), intent(out) :: k(:)
+      integer(ip) :: n
+
+      n = size(k, kind=ip)
+      if (associated(column%integer_field)) then
+         if (allocated(table%places)) then
+            k = column%integer_field(table%places(before + 1:before + n))
+         else
+            k = column%integer_field(before + 1:before + n)
+         end if
+         if (associated(column%ids)) k = column%ids(k)
+      else if (size(column%integers, kind=ip) == table%n_rows) then
+         k = column%integers(before + 1:before + n)
+      else
+         k = column%integers(1)
+      end if
+   end subroutine fetch_integers
 
    pure subroutine put_word(word, on_the_left, field)
       character(len=*), intent(in) :: word

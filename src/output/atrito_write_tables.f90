@@ -9,8 +9,8 @@ module atrito_write_tables
    use atrito_results, only: results_t
    use atrito_number_text, only: trimmed_real
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_words, write_table, &
-                           ZERO_SHARE
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
+                           write_table, ZERO_SHARE
    implicit none (type, external)
    private
    public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES, STRESS_NAMES
@@ -304,21 +304,20 @@ contains
 
    !> The table points at the fields of results.
    subroutine build_stress(model, results, scales, table)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: results
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
-      integer(ip), allocatable :: row(:)
-      integer(ip) :: n
       integer :: i
 
-      row = stress_rows(results, model%requests%element_s)
-      n = size(row, kind=ip)
-      call begin_table(table, 'stress', 'a row a quadrature point of an element', n)
-      call add_integers(table, 'step', spread(results%step, 1, n))
-      call add_integers(table, 'element', model%mesh%element_id(results%stress_element(row)))
-      call add_integers(table, 'point', results%stress_point(row))
-      call move_alloc(row, table%places)
+      call begin_table(table, 'stress', 'a row a quadrature point of an element', size(results%stress_element, kind=ip))
+      if (allocated(model%requests%element_s)) then
+         table%places = stress_rows(results, model%requests%element_s)
+         table%n_rows = size(table%places, kind=ip)
+      end if
+      call add_integers(table, 'step', [results%step])
+      call add_integer_field(table, 'element', results%stress_element, model%mesh%element_id)
+      call add_integer_field(table, 'point', results%stress_point)
       call add_field(table, 'x', 'L', results%stress_x(1, :), scales%length)
       call add_field(table, 'y', 'L', results%stress_x(2, :), scales%length)
       do i = 1, size(STRESS_NAMES)

@@ -39,7 +39,7 @@ contains
       type(profile_t) :: profile
       type(contact_points_t), allocatable :: points(:)
       logical, allocatable :: held(:, :)
-      real(wp), allocatable :: value(:, :), x(:, :)
+      real(wp), allocatable :: value(:, :), f(:, :), x(:, :)
 
       call build_scene(model, fem, held, value, points)
       call tie_bodies(model, held, value, points, tied, status)
@@ -50,7 +50,8 @@ contains
       limit%n_equations = tied%n
       limit%n_glued = tied%n_glued
       limit%n_held = tied%n_held
-      call tied_load(tied, nodal_loads(model), x)
+      call nodal_loads(model, f)
+      call tied_load(tied, f, x)
       call solve_once(fem, tied, profile, x, limit, status)
       if (is_ok(status)) limit%u = tied_displacements(tied, x)
    end subroutine measure_limit

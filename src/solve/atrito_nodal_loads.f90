@@ -11,12 +11,12 @@ module atrito_nodal_loads
 contains
 
    !> f(2, n_nodes) [F]: concentrated loads, pressures on faces, forces per volume.
-   pure function nodal_loads(model) result(f)
+   pure subroutine nodal_loads(model, f)
       type(model_t), intent(in) :: model
-      real(wp) :: f(2, model%mesh%n_nodes)
+      real(wp), allocatable, intent(out) :: f(:, :)    !< (2, n_nodes) [F]
       integer(ip) :: i
 
-      f = 0.0_wp
+      allocate (f(2, model%mesh%n_nodes), source=0.0_wp)
       associate (loads => model%node_loads)
          do i = 1, loads%n
             f(loads%dof(i), loads%node(i)) = f(loads%dof(i), loads%node(i)) + loads%value(i)
@@ -29,7 +29,7 @@ contains
             call add_body_force(model, i, f)
          end if
       end do
-   end function nodal_loads
+   end subroutine nodal_loads
 
    pure subroutine add_pressure(model, i, f)
       type(model_t), intent(in) :: model

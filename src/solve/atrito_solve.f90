@@ -163,7 +163,7 @@ contains
          if (.not. is_ok(status)) return
       end if
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
-      data%f = nodal_loads(model)
+      call nodal_loads(model, data%f)
    end subroutine prepare
 
    !> status: STATUS_DECK when the matrices of the scene need more memory than there is.
