@@ -13,8 +13,9 @@
 !> Reference: P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, SIAM J. Matrix Anal. Appl. 23 (2001) 15-41; MUMPS users'
 !> guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
 module atrito_mumps
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
    use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
+   use atrito_dynamic_library, only: find_routine
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
@@ -72,20 +73,6 @@ module atrito_mumps
       end subroutine call_mumps
    end interface
 
-   interface
-      type(c_ptr) function c_dlopen(file, mode) bind(C, name='dlopen')
-         import :: c_char, c_int, c_ptr
-         character(kind=c_char), intent(in) :: file(*)
-         integer(c_int), value :: mode
-      end function c_dlopen
-      type(c_funptr) function c_dlsym(library, symbol) bind(C, name='dlsym')
-         import :: c_char, c_funptr, c_ptr
-         type(c_ptr), value :: library
-         character(kind=c_char), intent(in) :: symbol(*)
-      end function c_dlsym
-   end interface
-
-   integer(c_int), parameter :: RTLD_LAZY = 1_c_int
    ! JOB
    integer, parameter :: BEGIN = -1, ANALYSE = 1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
    ! ICNTL(26)
@@ -125,13 +112,10 @@ contains
    !> Not associated where the library is not installed. Loading it again costs next to nothing.
    subroutine load_mumps(mumps)
       procedure(call_mumps), pointer, intent(out) :: mumps
-      type(c_ptr) :: library
       type(c_funptr) :: routine
 
       mumps => null()
-      library = c_dlopen(ATRITO_MUMPS_LIBRARY//c_null_char, RTLD_LAZY)
-      if (.not. c_associated(library)) return
-      routine = c_dlsym(library, 'dmumps_'//c_null_char)
+      routine = find_routine(ATRITO_MUMPS_LIBRARY, 'dmumps_')
       if (c_associated(routine)) call c_f_procpointer(routine, mumps)
    end subroutine load_mumps
 

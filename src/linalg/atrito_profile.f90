@@ -192,7 +192,7 @@ contains
    end function sparse_entries
 
    !> Memory that the sparse solver is expected to hold [bytes]: the factor, and half as much for matrix and lists. A mesh without
-   !> equal elements takes up to a fifth more, a regular one half of it.
+   !> equal elements takes up to a quarter more, a regular one half of it.
    pure integer(lp) function sparse_bytes(profile) result(bytes)
       type(profile_t), intent(in) :: profile
 

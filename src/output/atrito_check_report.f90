@@ -12,7 +12,7 @@ module atrito_check_report
    private
    public :: compose_check
 
-   integer, parameter :: WIDTH = 100
+   integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
 
 contains
 
