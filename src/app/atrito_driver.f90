@@ -28,7 +28,7 @@ module atrito_driver
    use atrito_strings, only: string_t, join, upper_case, nearest_names
    use atrito_study, only: run_study
    use atrito_sweep, only: run_sweep
-   use atrito_threads, only: set_threads
+   use atrito_threads, only: set_threads, sleep_soon
    use atrito_timers, only: reset_timers
    use atrito_usage, only: compose_usage, compose_options
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -62,6 +62,7 @@ contains
          call print_lines([string_t('    see:      atrito --help')], error_unit)
          return
       end if
+      if (command%threads > 1 .and. any(command%task == [TASK_RUN, TASK_STUDY])) call sleep_soon()
       select case (command%task)
       case (TASK_RUN)
          if (command%bench_limit) then

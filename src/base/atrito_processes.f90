@@ -8,7 +8,7 @@ module atrito_processes
    use atrito_kinds, only: ip
    implicit none (type, external)
    private
-   public :: begin_worker, end_worker, await_workers, share_integers, run_command
+   public :: begin_worker, end_worker, await_workers, share_integers, run_command, begin_anew
 
    integer(c_int), parameter :: NO_PROGRAM = 127_c_int      !< the shell's code for a program that is not there
 
@@ -34,6 +34,11 @@ module atrito_processes
          character(kind=c_char), intent(in) :: path(*)
          type(c_ptr), intent(in) :: words(*)
       end function c_execv
+      integer(c_int) function c_setenv(name, value, replace) bind(C, name='setenv')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: name(*), value(*)
+         integer(c_int), value :: replace
+      end function c_setenv
       subroutine c_exit_now(code) bind(C, name='_exit')
          import :: c_int
          integer(c_int), value :: code
@@ -124,6 +129,32 @@ contains
       if (c_waitpid(id, state, 0_c_int) == id) code = code_of(state)
       call forget_child(id)
    end subroutine run_command
+
+   !> Begins this program anew, with the same command line and one variable of the environment more. Returns where that cannot be.
+   subroutine begin_anew(name, value)
+      character(len=*), intent(in) :: name, value
+      character(len=:), allocatable, target :: words(:)
+      type(c_ptr) :: arguments(command_argument_count() + 2)
+      integer(c_int) :: ignored
+      integer :: i, length, longest, ios
+      character(len=*), parameter :: THIS_PROGRAM = '/proc/self/exe'//c_null_char
+
+      longest = 0
+      do i = 0, command_argument_count()
+         call get_command_argument(i, length=length)
+         longest = max(longest, length)
+      end do
+      allocate (character(len=longest + 1) :: words(command_argument_count() + 1))
+      do i = 1, size(words)
+         call get_command_argument(i - 1, words(i), length)
+         words(i) (length + 1:) = c_null_char
+         arguments(i) = c_loc(words(i))
+      end do
+      arguments(size(arguments)) = c_null_ptr
+      flush (output_unit, iostat=ios)
+      flush (error_unit, iostat=ios)
+      if (c_setenv(name//c_null_char, value//c_null_char, 1_c_int) == 0_c_int) ignored = c_execv(THIS_PROGRAM, arguments)
+   end subroutine begin_anew
 
    !> The state that waitpid gives, as a shell tells it.
    pure integer function code_of(state) result(code)

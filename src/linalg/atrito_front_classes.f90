@@ -20,7 +20,7 @@ contains
 
    !> An empty list, in which the records of so many parts will be looked up.
    pure subroutine begin_classes(list, n_parts)
-      class(class_list_t), intent(inout) :: list
+      type(class_list_t), intent(inout) :: list
       integer(ip), intent(in) :: n_parts
       integer(ip), parameter :: ROOM = 256_ip
       integer(ip) :: slots
@@ -39,14 +39,14 @@ contains
 
    !> Gives back what only find_class needs.
    pure subroutine end_classes(list)
-      class(class_list_t), intent(inout) :: list
+      type(class_list_t), intent(inout) :: list
 
       if (allocated(list%table)) deallocate (list%table)
    end subroutine end_classes
 
    !> Looks the record of a part up, with the classes of its children; it becomes a class when it is new.
    pure subroutine find_class(list, record, p, alone, found)
-      class(class_list_t), intent(inout) :: list
+      type(class_list_t), intent(inout) :: list
       integer(ip), intent(in) :: record(:)
       integer(ip), intent(in) :: p
       logical, intent(in) :: alone               !< a class of its own, whatever there is
@@ -69,7 +69,7 @@ contains
    end subroutine find_class
 
    pure logical function is_class(list, class, record)
-      class(class_list_t), intent(in) :: list
+      type(class_list_t), intent(in) :: list
       integer(ip), intent(in) :: class, record(:)
 
       is_class = list%start(class + 1) - list%start(class) == size(record, kind=lp)
@@ -77,7 +77,7 @@ contains
    end function is_class
 
    pure subroutine add_class(list, p, record)
-      class(class_list_t), intent(inout) :: list
+      type(class_list_t), intent(inout) :: list
       integer(ip), intent(in) :: p, record(:)
       integer(lp) :: first, last
 

@@ -97,10 +97,11 @@ contains
       type(part_tree_t), intent(inout) :: tree
       integer(ip), allocatable :: part_at(:), part_of(:)
       integer(ip) :: p, e
-      integer(lp) :: k, next(tree%n_parts)
+      integer(lp), allocatable :: next(:)
+      integer(lp) :: k
       integer :: no_memory
 
-      allocate (part_at(n), part_of(store%n), stat=no_memory)
+      allocate (part_at(n), part_of(store%n), next(tree%n_parts), stat=no_memory)
       tree%enough = no_memory == 0
       if (.not. tree%enough) return
       do p = 1, tree%n_parts

@@ -61,7 +61,7 @@ contains
       call find_units(parts, units)
       call find_classes_of_units(elimination, store, parts, n, waiting, units, tree%class_of)
       call find_classes(elimination, store, parts, n, waiting, units, tree)
-      call end_classes(tree)
+      call end_classes(tree%class_list_t)
       call move_alloc(parts%first, tree%first)
       call move_alloc(parts%parent, tree%parent)
       call move_alloc(parts%n_descendants, tree%n_descendants)
@@ -138,7 +138,7 @@ contains
       integer(ip), intent(in) :: p
       logical, intent(in) :: alone
       integer(ip), intent(inout) :: class_of(:)
-      class(class_list_t), intent(inout) :: classes
+      type(class_list_t), intent(inout) :: classes
 
       call name_classes(class_of, writer%record(:writer%written))
       call find_class(classes, writer%record(:writer%written), p, alone, class_of(p))
@@ -160,7 +160,7 @@ contains
       do u = 1, size(units, kind=ip)
          tree%enough = tree%enough .and. allocated(units(u)%border)
       end do
-      if (tree%enough) call begin_classes(tree, parts%n_parts)
+      if (tree%enough) call begin_classes(tree%class_list_t, parts%n_parts)
       if (tree%enough) call begin_writer(writer, n)
       p = 1
       u = 1
@@ -178,7 +178,7 @@ contains
          end if
          call write_part(elimination, store, parts, p, waiting, writer)
          ! the last part is not eliminated: its front is of another kind
-         if (writer%enough) call class_of_part(writer, p, p == parts%n_parts, tree%class_of, tree)
+         if (writer%enough) call class_of_part(writer, p, p == parts%n_parts, tree%class_of, tree%class_list_t)
          p = p + 1
       end do
       tree%enough = tree%enough .and. writer%enough
@@ -193,7 +193,7 @@ contains
       do c = 1, unit%classes%n_classes
          associate (record => unit%classes%record(unit%classes%start(c) + 1:unit%classes%start(c + 1)))
             call name_classes(class_of, record)
-            call find_class(tree, record, unit%classes%representative(c), .false., class_of(c))
+            call find_class(tree%class_list_t, record, unit%classes%representative(c), .false., class_of(c))
          end associate
       end do
       do p = unit%first, unit%last

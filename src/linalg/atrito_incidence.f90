@@ -9,6 +9,8 @@ module atrito_incidence
    private
    public :: list_holders
 
+   integer(ip), parameter :: MOST_PARTS = 8_ip       !< each takes an integer a member
+
 contains
 
    !> The sets that hold each of the members, in rising order: holder(first(i):first(i + 1) - 1) for member i; in linear time.
@@ -22,7 +24,7 @@ contains
       integer(ip) :: part, n_parts, length
 
       n_parts = 1
-      if (is_shared(size(sets, 2, kind=ip))) n_parts = n_threads()
+      if (is_shared(size(sets, 2, kind=ip))) n_parts = min(n_threads(), MOST_PARTS)
       allocate (at(n, n_parts), first(n + 1))
       !$omp parallel do schedule(static, 1) default(none) shared(sets, n_parts, at)
       do part = 1, n_parts

@@ -20,6 +20,9 @@ module atrito_multifrontal
    private
    public :: multifrontal_t
 
+   !> Parts of the equations whose diagonal is summed side by side: for each, all elements are gone through.
+   integer(ip), parameter :: MOST_PARTS = 8_ip
+
    type, extends(storage_t) :: multifrontal_t
       private
       type(elimination_t) :: elimination
@@ -92,7 +95,7 @@ contains
       end if
       call move_store(store, self%store)
       n_parts = 1
-      if (is_shared(self%store%n)) n_parts = n_threads()
+      if (is_shared(self%store%n)) n_parts = min(n_threads(), MOST_PARTS)
       !$omp parallel do schedule(static, 1) default(none) shared(self, n_parts)
       do part = 1, n_parts
          call add_to_diagonal(self, part, n_parts)

@@ -315,11 +315,11 @@ contains
          end do
       end do
       ok = draft%greatest_node <= huge(1_ip) - n_new
-      if (ok) then
+      if (ok .and. n_new > 0) then
          call add_nodes(model%mesh, draft%greatest_node + 1, x(:, :n_new))
          call note_places(draft%node_place, model%mesh%n_nodes - n_new + 1, model%mesh%n_nodes, -i_card)
          draft%greatest_node = draft%greatest_node + n_new
-      else
+      else if (.not. ok) then
          call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the node numbers of the block, which follow the greatest '// &
                            'so far, are too large', keyword='BLOCK')
       end if

@@ -51,8 +51,8 @@ contains
       integer(ip) :: i
 
       if (body_count(scene) == 0) return
-      call add_line(page, '   '//left('body', 14)//right('elements', 9)//right('equations', 10)//right('contact', 8)// &
-                    right('free', 5)//'  '//left('storage', 8)//right('entries', 10)//right('memory', 10))
+      call add_line(page, '   '//left('body', 13)//right('elements', 9)//right('equations', 10)//right('contact', 8)// &
+                    right('free', 5)//'  '//left('storage', 8)//right('entries', 10)//right('memory', 11))
       do i = 1, body_count(scene)
          call add_body(page, scene%bodies(i))
       end do
@@ -65,10 +65,10 @@ contains
       type(page_t), intent(inout) :: page
       type(body_result_t), intent(in) :: body
 
-      call add_line(page, '   '//left(text_of(body%name), 14)//right(to_text(body%n_elements), 9)// &
+      call add_line(page, '   '//left(text_of(body%name), 13)//right(to_text(body%n_elements), 9)// &
                     right(to_text(body%n_equations), 10)//right(to_text(body%n_contact_equations), 8)// &
                     right(to_text(body%n_free_motions), 5)//'  '//left(text_of(body%storage), 8)// &
-                    right(to_text(body%profile), 10)//right(bytes(body%memory), 10))
+                    right(to_text(body%profile), 10)//right(bytes(body%memory), 11))
    end subroutine add_body
 
    subroutine add_solver_remarks(page, body, factored)

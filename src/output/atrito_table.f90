@@ -44,7 +44,7 @@ module atrito_table
       character(len=:), allocatable :: title       !< what a row is
       type(string_t), allocatable :: remarks(:)    !< further comment lines
       integer(ip) :: n_rows = 0
-      integer(ip), allocatable :: places(:)        !< of each row in the fields of add_field; not allocated: all, in order
+      integer(ip), allocatable :: places(:)        !< of each row in the fields; not allocated: all, in order
       type(column_t), allocatable :: columns(:)
    end type table_t
 
@@ -409,10 +409,10 @@ contains
             k = column%integer_field(before + 1:before + n)
          end if
          if (associated(column%ids)) k = column%ids(k)
-      else if (size(column%integers, kind=ip) == table%n_rows) then
-         k = column%integers(before + 1:before + n)
-      else
+      else if (size(column%integers) == 1) then
          k = column%integers(1)
+      else
+         k = column%integers(before + 1:before + n)
       end if
    end subroutine fetch_integers
 

@@ -302,7 +302,7 @@ contains
       if (allocated(mask)) list = pack(list, mask(results%stress_element))
    end function stress_rows
 
-   !> The table points at the fields of results.
+   !> The table points at the fields of results and at the ids of the model's elements.
    subroutine build_stress(model, results, scales, table)
       type(model_t), intent(in), target :: model
       type(results_t), intent(in), target :: results

@@ -8,11 +8,11 @@ work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
 failures=0
 
-# fits NAME ARGUMENT...: the standard output of a call; at least three lines of it
+# fits NAME ARGUMENT...: the standard output of a call that ends well; at least three lines of it
 fits() {
    name=$1
    shift
-   "$atrito" "$@" >"$work/page" 2>"$work/said"
+   "$atrito" "$@" >"$work/page" 2>"$work/said" || { echo "$name: exit $?"; failures=$((failures + 1)); }
    wide=$(awk 'length($0) > 80' "$work/page")
    if [ -n "$wide" ] || [ "$(wc -l <"$work/page")" -lt 3 ]; then
       printf '%s:\n%s\n' "$name" "$wide"

@@ -1,0 +1,47 @@
+#!/bin/sh
+# Runs with several threads begin anew, once, with threads that sleep soon when they wait; the command line stays as it was, and what
+# the environment says of it goes first. Seen by a stand-in for gnuplot, which gets the program's environment.
+#    waiting.sh ATRITO DECK
+set -u
+atrito=$1
+deck=$2
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+failures=0
+unset OMP_WAIT_POLICY GOMP_SPINCOUNT
+
+mkdir "$work/bin" "$work/a folder"
+cp "$deck" "$work/a folder/one deck.inp"
+cat >"$work/bin/gnuplot" <<'END'
+#!/bin/sh
+echo "policy ${OMP_WAIT_POLICY-none} count ${GOMP_SPINCOUNT-none}" >>"$SEEN"
+END
+chmod +x "$work/bin/gnuplot"
+SEEN=$work/seen
+export SEEN
+
+# seen EXPECTED ARGUMENT...: what gnuplot saw in a run with these arguments
+seen() {
+   expected=$1
+   shift
+   rm -rf "$SEEN" "$work/an output "
+   PATH=$work/bin:$PATH "$atrito" "$work/a folder/one deck.inp" -o "$work/an output " --set 'nu = 0.2' --plot --quiet "$@" >"$work/said" 2>&1
+   code=$?
+   [ -s "$work/an output /nodes.tab" ] || { echo "$*: no tables, exit $code"; cat "$work/said"; failures=$((failures + 1)); }
+   if ! head -n 1 "$SEEN" | grep -qx "$expected"; then
+      echo "$*: expected '$expected', gnuplot saw '$(head -n 1 "$SEEN")'"
+      failures=$((failures + 1))
+   fi
+}
+
+seen 'policy none count none' --threads 1
+seen 'policy none count 2000' --threads 2
+OMP_WAIT_POLICY=active
+export OMP_WAIT_POLICY
+seen 'policy active count none' --threads 2
+unset OMP_WAIT_POLICY
+GOMP_SPINCOUNT=7
+export GOMP_SPINCOUNT
+seen 'policy none count 7' --threads 2
+[ "$failures" -eq 0 ] && echo 'all as expected'
+[ "$failures" -eq 0 ]
