@@ -39,7 +39,7 @@ limit 2 wrong.inp
 limit 5 none.inp
 # the bench command: a row a scene in both tables; what it prints fits 100 columns
 sh "$here/../../bench/run-bench.sh" -n 1 -b 0.01 -t "$atrito" 2e3 r0 >bench.out 2>bench.err || { complain 'bench'; cat bench.err; }
-near 'rows of the bench' "$(grep -cE '^(A 2e3|P 2e3|ex3 r0) +[0-9]' bench.out)" 6 0
+near 'rows of the bench' "$(grep -cE '^(A 2e3|P 2e3|ex3 r0) +[0-9]' bench.out)" 9 0
 near 'displacements of scene P' "$(awk '$1 == "P" && !n++ { print $3 }' bench.out)" 2060 0
 near 'contact points of scene P' "$(awk '$1 == "P" && !n++ { print $4 }' bench.out)" 21 0
 near 'columns beyond 100' "$(awk 'length($0) > 100' bench.out | wc -l)" 0 0
