@@ -62,7 +62,7 @@ contains
          call print_lines([string_t('    see:      atrito --help')], error_unit)
          return
       end if
-      if (command%threads > 1 .and. any(command%task == [TASK_RUN, TASK_STUDY])) call sleep_soon()
+      if (command%threads > 1 .and. any(command%task == [TASK_RUN, TASK_STUDY])) call sleep_soon(command%threads)
       select case (command%task)
       case (TASK_RUN)
          if (command%bench_limit) then

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Runs with several threads begin anew, once, with threads that sleep soon when they wait; the command line stays as it was, and what
-# the environment says of it goes first. Seen by a stand-in for gnuplot, which gets the program's environment.
+# Runs with more threads than there are idle cores begin anew, once, with threads that sleep soon when they wait; the command line
+# stays as it was, and what the environment says of it goes first. Seen by a stand-in for gnuplot, which gets the program's
+# environment.
 #    waiting.sh ATRITO DECK
 set -u
 atrito=$1
@@ -9,6 +10,7 @@ work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
 failures=0
 unset OMP_WAIT_POLICY GOMP_SPINCOUNT
+many=$(($(getconf _NPROCESSORS_ONLN) + 1))
 
 mkdir "$work/bin" "$work/a folder"
 cp "$deck" "$work/a folder/one deck.inp"
@@ -35,13 +37,13 @@ seen() {
 }
 
 seen 'policy none count none' --threads 1
-seen 'policy none count 2000' --threads 2
+seen 'policy none count 2000' --threads "$many"
 OMP_WAIT_POLICY=active
 export OMP_WAIT_POLICY
-seen 'policy active count none' --threads 2
+seen 'policy active count none' --threads "$many"
 unset OMP_WAIT_POLICY
 GOMP_SPINCOUNT=7
 export GOMP_SPINCOUNT
-seen 'policy none count 7' --threads 2
+seen 'policy none count 7' --threads "$many"
 [ "$failures" -eq 0 ] && echo 'all as expected'
 [ "$failures" -eq 0 ]
