@@ -4,11 +4,12 @@
 !> The claim is a lock on the folder itself (flock), which ends with the process however it ends: no lock file, none that is stale.
 !> Where the file system has no locks, or the folder cannot be read, there is no claim and the run goes on.
 module atrito_folder_claim
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit
    use atrito_paths, only: is_folder, make_folder, remove_folders
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t
+   use atrito_system_errors, only: last_error, WOULD_WAIT
    implicit none (type, external)
    private
    public :: folder_claim_t, claim_folder, release_folder
@@ -20,7 +21,6 @@ module atrito_folder_claim
 
    integer(c_int), parameter :: TO_READ = 0_c_int                 ! O_RDONLY
    integer(c_int), parameter :: LOCK_EX = 2_c_int, LOCK_NB = 4_c_int
-   integer(c_int), parameter :: EAGAIN = 11_c_int                 ! Linux
    integer, parameter :: MOST_TRIES = 5
 
    interface
@@ -37,9 +37,6 @@ module atrito_folder_claim
          import :: c_int
          integer(c_int), value :: descriptor, operation
       end function c_flock
-      type(c_ptr) function c_errno_place() bind(C, name='__errno_location')
-         import :: c_ptr
-      end function c_errno_place
    end interface
 
 contains
@@ -77,18 +74,11 @@ contains
       integer :: ios
 
       if (c_flock(descriptor, LOCK_EX + LOCK_NB) == 0_c_int) return
-      if (last_error() /= EAGAIN) return
+      if (last_error() /= WOULD_WAIT) return
       write (error_unit, '(a)', iostat=ios) 'wait  another run writes into '//folder
       flush (error_unit, iostat=ios)
       ignored = c_flock(descriptor, LOCK_EX)
    end subroutine await_lock
-
-   integer(c_int) function last_error()
-      integer(c_int), pointer :: number
-
-      call c_f_pointer(c_errno_place(), number)
-      last_error = number
-   end function last_error
 
    !> Ends a claim. Folders that were made for it and are empty are removed.
    subroutine release_folder(claim)

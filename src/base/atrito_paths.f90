@@ -4,12 +4,14 @@ module atrito_paths
    use atrito_interrupts, only: hold_interrupts, release_interrupts, note_folder, forget_folder
    use atrito_status, only: status_t, set_status, STATUS_FILE
    use atrito_strings, only: string_t, append_string
+   use atrito_system_errors, only: last_error, NO_SUCH_FILE, NOT_A_FOLDER
    implicit none (type, external)
    private
    public :: file_exists, is_folder, may_write, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
 
    integer(c_int), parameter :: FOLDER_MODE = int(o'777', c_int)
-   integer(c_int), parameter :: TO_WRITE = 2_c_int, TO_WRITE_AND_SEARCH = 3_c_int
+   integer(c_int), parameter :: TO_WRITE = 2_c_int, TO_WRITE_AND_SEARCH = 3_c_int, TO_USE = 7_c_int
+   integer, parameter :: MOST_TRIES = 5
 
    interface
       integer(c_int) function c_mkdir(path, mode) bind(C, name='mkdir')
@@ -67,17 +69,22 @@ contains
 
    !> Makes a folder and those above it where they are missing. Those that were made are appended to `made`, and noted: an
    !> interrupted program removes them where they are empty, until remove_folders or forget_folder.
+   !>
+   !> Another run may remove what it made just then: hence several tries. status: STATUS_FILE.
    subroutine make_folder(path, status, made)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
       type(string_t), allocatable, intent(inout), optional :: made(:)
-      integer :: i
+      integer :: attempt, i
 
-      do i = 2, len(path)
-         if (path(i:i) == '/') call make_one_folder(path(:i - 1), made)
+      do attempt = 1, MOST_TRIES
+         do i = 2, len(path)
+            if (path(i:i) == '/') call make_one_folder(path(:i - 1), made)
+         end do
+         call make_one_folder(path, made)
+         if (is_folder(path)) return
       end do
-      call make_one_folder(path, made)
-      if (.not. is_folder(path)) call set_status(status, STATUS_FILE, path//': the folder cannot be made')
+      call set_status(status, STATUS_FILE, path//': the folder cannot be made')
    end subroutine make_folder
 
    subroutine make_one_folder(path, made)
@@ -107,26 +114,36 @@ contains
    end subroutine remove_folders
 
    !> Whether files can be written into a folder that is there, or into one that is to be made. (They may fail all the same: a disk
-   !> may be full.) status: STATUS_FILE.
+   !> may be full.) One question to the system decides: between two, another run may make the folder or remove it.
+   !> status: STATUS_FILE.
    recursive subroutine check_folder(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
+      integer(c_int) :: error
+
+      if (c_access(path//'/.'//c_null_char, TO_USE) == 0_c_int) return
+      error = last_error()
+      if (error == NOT_A_FOLDER .and. file_exists(path)) then
+         call set_status(status, STATUS_FILE, path//': is no folder that can be read and written into')
+      else if (error == NO_SUCH_FILE .or. error == NOT_A_FOLDER) then
+         if (len(path) > 1) call check_folder(parent_of(path), status)
+      else if (c_access(path//c_null_char, TO_WRITE_AND_SEARCH) == 0_c_int) then
+         call set_status(status, STATUS_FILE, path//': the folder cannot be read')
+      else
+         call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
+      end if
+   end subroutine check_folder
+
+   function parent_of(path) result(parent)
+      character(len=*), intent(in) :: path
       character(len=:), allocatable :: parent
       integer :: slash
 
-      if (is_folder(path)) then
-         if (c_access(path//c_null_char, TO_WRITE_AND_SEARCH) == 0_c_int) return
-         call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
-      else if (file_exists(path)) then
-         call set_status(status, STATUS_FILE, path//': is no folder that can be read and written into')
-      else
-         slash = index(path, '/', back=.true.)
-         parent = '.'
-         if (slash == 1) parent = '/'
-         if (slash > 1) parent = path(:slash - 1)
-         if (len(path) > 1) call check_folder(parent, status)
-      end if
-   end subroutine check_folder
+      slash = index(path, '/', back=.true.)
+      parent = '.'
+      if (slash == 1) parent = '/'
+      if (slash > 1) parent = path(:slash - 1)
+   end function parent_of
 
    !> Removes a file; one that is not there is no failure.
    subroutine remove_file(path)
