@@ -1,12 +1,9 @@
 #!/bin/sh
 # What `atrito compare` answers about a folder of tables and broken copies of it, by its exit code.
 #    compare_tables.sh ATRITO FOLDER
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 folder=$2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-failures=0
 
 expect() { # expect CODE WHAT ARGUMENTS: the exit code of compare
    code=$1
@@ -15,9 +12,8 @@ expect() { # expect CODE WHAT ARGUMENTS: the exit code of compare
    "$atrito" compare "$@" >"$work/said" 2>&1
    found=$?
    if [ "$found" -ne "$code" ]; then
-      echo "$what: exit $found, expected $code"
+      fail "$what: exit $found, expected $code"
       cat "$work/said"
-      failures=$((failures + 1))
    fi
 }
 
@@ -85,5 +81,4 @@ fresh
 awk '/^#/ { print; next } { n++; if (n == 2) NF--; print }' "$folder/summary.tab" >"$work/copy/summary.tab"
 expect 5 'a row with a value too few' "$folder" "$work/copy"
 
-[ "$failures" -eq 0 ] && echo 'all as expected'
-[ "$failures" -eq 0 ]
+finish

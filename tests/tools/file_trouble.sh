@@ -1,25 +1,12 @@
 #!/bin/sh
 # Files that cannot be written: exit 5, the file is named, and nothing of an earlier run is replaced.
 #    file_trouble.sh ATRITO DECK
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 deck=$2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-   echo "$1"
-   failures=$((failures + 1))
-}
-
-# row WHAT EXPECTED CAME: a line for tests/extremes/print-stability.sh, which names the file in FAULT_ROWS
-row() {
-   [ -z "${FAULT_ROWS:-}" ] || echo "| $1 | exit $2 | exit $3 |" >>"$FAULT_ROWS"
-}
 
 expect_5() { # expect_5 WHAT NAME: the outcome of the last run
-   row "$1" 5 "$code"
+   row "$1" 'exit 5' "exit $code"
    [ "$code" -eq 5 ] || fail "$1: exit $code, expected 5"
    grep -q "$2" "$work/said" || { fail "$1: $2 is not named"; cat "$work/said"; }
 }
@@ -111,5 +98,4 @@ code=$?
 expect_5 'a deck that is not there' "$work/nowhere.inp"
 [ -e "$work/none" ] && fail 'a deck that is not there: a folder was made'
 
-[ "$failures" -eq 0 ] && echo 'all as expected'
-[ "$failures" -eq 0 ]
+finish

@@ -1,22 +1,9 @@
 #!/bin/sh
 # Decks that are none, output that nobody takes, memory that is not there: a clear word and the right exit code, at once.
 #    input_trouble.sh ATRITO DECK
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 deck=$2
-work=$(mktemp -d) || exit 9
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-   echo "$1"
-   failures=$((failures + 1))
-}
-
-# row WHAT EXPECTED CAME: a line for tests/extremes/print-stability.sh, which names the file in FAULT_ROWS
-row() {
-   [ -z "${FAULT_ROWS:-}" ] || echo "| $1 | exit $2 | exit $3 |" >>"$FAULT_ROWS"
-}
 
 # expect CODE TEXT WHAT [OPTION ...]: runs the program on $work/deck.inp; it has ten seconds and 2 GB
 expect() {
@@ -26,7 +13,7 @@ expect() {
    shift 3
    (ulimit -v 2000000 && timeout 10 "$atrito" "$work/deck.inp" -o "$work/none" "$@") >"$work/out" 2>"$work/err"
    code=$?
-   row "$what" "$wanted" "$code"
+   row "$what" "exit $wanted" "exit $code"
    [ "$code" -eq "$wanted" ] || { fail "$what: exit $code, expected $wanted"; cat "$work/err"; }
    grep -qF -- "$text" "$work/err" || { fail "$what: not said: $text"; cat "$work/err"; }
    grep -q 'untime error\|Backtrace' "$work/err" && fail "$what: the run-time library complains"
@@ -93,7 +80,7 @@ expect 2 "[E-MEMORY] a mesh of 4 nodes and 2000000001 elements" '2e9 copies of a
 # the reader of the output goes away, or there is none: the tables are what counts
 "$atrito" "$deck" --quiet -o "$work/whole" || fail 'the deck itself fails'
 same() { # same WHAT: the tables of the run without a reader
-   row "$1" 0 "$code"
+   row "$1" 'exit 0' "exit $code"
    [ "$code" -eq 0 ] || fail "$1: exit $code, expected 0"
    "$atrito" compare "$work/whole" "$work/run" --rtol 0 >"$work/out" || { fail "$1: other tables"; cat "$work/out"; }
    for table in nodes contact reactions stress; do
@@ -116,5 +103,4 @@ if [ -w /dev/full ]; then
    same 'a full disk behind standard output'
 fi
 
-[ "$failures" -eq 0 ] && echo 'all as expected'
-[ "$failures" -eq 0 ]
+finish

@@ -3,23 +3,11 @@
 #    interrupts.sh ATRITO PROBE DECK
 # Nothing is decided by how long something takes: a signal is sent when the run shows that it is where it is wanted, and a run that
 # was over before the signal came is made again on a larger mesh.
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 probe=$2
 deck=$3
-work=$(mktemp -d) || exit 9
-trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 9
-failures=0
-
-fail() {
-   echo "$1"
-   failures=$((failures + 1))
-}
-
-pause() {
-   sleep 0.02 2>/dev/null || sleep 1
-}
 
 # await PROCESS CONDITION: until the condition holds or the process has ended
 await() {
@@ -40,13 +28,8 @@ told() { # told FILE TEXT
    grep -q -- "$2" "$1" 2>/dev/null
 }
 
-# row WHAT EXPECTED CAME: a line for tests/extremes/print-stability.sh, which names the file in FAULT_ROWS
-row() {
-   [ -z "${FAULT_ROWS:-}" ] || echo "| $1 | exit $2 | exit $3 |" >>"$FAULT_ROWS"
-}
-
 expect_code() { # expect_code CODE WHAT: $code is CODE
-   row "$2" "$1" "$code"
+   row "$2" "exit $1" "exit $code"
    [ "$code" -eq "$1" ] || { fail "$2: exit $code, expected $1"; cat err; }
 }
 
@@ -272,5 +255,4 @@ if command -v flock >/dev/null; then
    flock -n drawn true || fail 'while drawing: gnuplot goes on'
 fi
 
-[ "$failures" -eq 0 ] && echo 'all as expected'
-[ "$failures" -eq 0 ]
+finish

@@ -1,22 +1,10 @@
 #!/bin/sh
 # Two runs into one folder at once: they write one after the other, and what is left is all from one of them.
 #    two_runs.sh ATRITO DECK
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 deck=$2
-work=$(mktemp -d) || exit 9
-trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 9
-failures=0
-
-fail() {
-   echo "$1"
-   failures=$((failures + 1))
-}
-
-pause() {
-   sleep 0.02 2>/dev/null || sleep 1
-}
 
 same() { # same A B: all tables but the times, and the listing up to its times
    "$atrito" compare "$1" "$2" --rtol 0 >/dev/null || return 1
@@ -112,6 +100,6 @@ for i in 1 2 3; do
    [ $matches -eq 1 ] || fail "sweeps $i: a mixture"
 done
 
-[ -z "${FAULT_ROWS:-}" ] || echo "| two runs into one folder, ten times at once | the tables of one | $([ "$failures" -eq 0 ] && echo 'the tables of one' || echo failed) |" >>"$FAULT_ROWS"
-[ "$failures" -eq 0 ] && echo 'all as expected'
-[ "$failures" -eq 0 ]
+row 'two runs into one folder, ten times at once' 'the tables of one' "$([ "$failures" -eq 0 ] && echo 'the tables of one' || echo failed)"
+
+finish

@@ -3,12 +3,9 @@
 # stays as it was, and what the environment says of it goes first. Seen by a stand-in for gnuplot, which gets the program's
 # environment.
 #    waiting.sh ATRITO DECK
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 deck=$2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-failures=0
 unset OMP_WAIT_POLICY GOMP_SPINCOUNT
 many=$(($(getconf _NPROCESSORS_ONLN) + 1))
 
@@ -29,11 +26,8 @@ seen() {
    rm -rf "$SEEN" "$work/an output "
    PATH=$work/bin:$PATH "$atrito" "$work/a folder/one deck.inp" -o "$work/an output " --set 'nu = 0.2' --plot --quiet "$@" >"$work/said" 2>&1
    code=$?
-   [ -s "$work/an output /nodes.tab" ] || { echo "$*: no tables, exit $code"; cat "$work/said"; failures=$((failures + 1)); }
-   if ! head -n 1 "$SEEN" | grep -qx "$expected"; then
-      echo "$*: expected '$expected', gnuplot saw '$(head -n 1 "$SEEN")'"
-      failures=$((failures + 1))
-   fi
+   [ -s "$work/an output /nodes.tab" ] || { fail "$*: no tables, exit $code"; cat "$work/said"; }
+   head -n 1 "$SEEN" | grep -qx "$expected" || fail "$*: expected '$expected', gnuplot saw '$(head -n 1 "$SEEN")'"
 }
 
 seen 'policy none count none' --threads 1
@@ -45,5 +39,5 @@ unset OMP_WAIT_POLICY
 GOMP_SPINCOUNT=7
 export GOMP_SPINCOUNT
 seen 'policy none count 7' --threads "$many"
-[ "$failures" -eq 0 ] && echo 'all as expected'
-[ "$failures" -eq 0 ]
+
+finish

@@ -1,17 +1,9 @@
 #!/bin/sh
 # A program built without HDF5 runs decks that ask for no field file, and refuses those that do: exit 2, each request at its place.
 #    without_hdf5.sh ATRITO DECK
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 deck=$2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-   echo "$1"
-   failures=$((failures + 1))
-}
 
 "$atrito" "$deck" --quiet -o "$work/plain" || fail "a deck without requests: exit $?"
 
@@ -27,5 +19,5 @@ for task in '' check; do
    done
    grep -qF 'no HDF5' "$work/said" || fail 'HDF5 is not named'
 done
-[ "$failures" -eq 0 ] || { cat "$work/said"; exit 1; }
-echo 'all as expected'
+[ "$failures" -eq 0 ] || cat "$work/said"
+finish

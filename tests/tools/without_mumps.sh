@@ -1,17 +1,9 @@
 #!/bin/sh
 # A program built without MUMPS solves large bodies all the same, and refuses --solver mumps and --bench-limit: exit 1, and why.
 #    without_mumps.sh ATRITO SCENE.sh
-set -u
+. "$(dirname "$0")/lib.sh"
 atrito=$1
 scene=$2
-work=$(mktemp -d) || exit 2
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-   echo "$1"
-   failures=$((failures + 1))
-}
 
 # a body of 40,000 equations, which the sparse solver would get
 sh "$scene" 100 line >"$work/deck.inp"
@@ -31,5 +23,4 @@ code=$?
 [ "$code" -eq 1 ] || fail "--bench-limit: exit $code, expected 1"
 grep -qF 'E-NOT-BUILT] --bench-limit needs MUMPS, and this build has none' "$work/said" || { fail 'E-NOT-BUILT is not told'; cat "$work/said"; }
 "$atrito" --version | grep -qxF 'MUMPS: not used: this build has none' || fail '--version does not say that there is no MUMPS'
-[ "$failures" -eq 0 ] || exit 1
-echo 'all as expected'
+finish
