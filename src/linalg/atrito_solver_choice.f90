@@ -9,7 +9,7 @@ module atrito_solver_choice
    implicit none (type, external)
    private
    public :: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
-   public :: needs_profile
+   public :: needs_profile, LEAST_SPARSE
 
    integer, parameter :: STORAGE_SKYLINE = 1
    integer, parameter :: STORAGE_BANDED = 2

@@ -13,7 +13,7 @@ module atrito_condensed_body
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: new_storage, needs_profile, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, &
-                                   STORAGE_SPARSE, STORAGE_MUMPS
+                                   STORAGE_SPARSE, STORAGE_MUMPS, LEAST_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_storage, only: storage_t, smallest_ratio
    use atrito_strings, only: to_text
@@ -39,6 +39,8 @@ module atrito_condensed_body
    !> What assembly and solves take in the time of so many of them: for an equation, and for the sparse solver to begin with.
    real(wp), parameter :: SKYLINE_OVERHEAD = 1600.0_wp, BAND_OVERHEAD = 2500.0_wp, SPARSE_OVERHEAD = 1000.0_wp, &
                           SPARSE_START = 2.0e6_wp
+   !> Operations, some tenths of a second, from which on it is told that the sparse solver would save them.
+   real(wp), parameter :: WORTH_TELLING = 5.0e8_wp
 
 contains
 
@@ -60,6 +62,10 @@ contains
          if (needs_profile(asked, profile%n)) kind = minloc(cost(:STORAGE_BANDED), dim=1)
          second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
+         if (cost(STORAGE_SPARSE) + WORTH_TELLING < cost(kind)) then
+            result%reason = result%reason//'; '//ratio_text(cost(kind), cost(STORAGE_SPARSE))//' of it with --solver sparse, '// &
+                            'unasked from '//to_text(LEAST_SPARSE)//' equations on'
+         end if
       end if
       result%storage = storage_name(kind)
       result%storage_kind = kind
