@@ -305,71 +305,107 @@ contains
       integer(ip), intent(in) :: p
       integer(ip), intent(in) :: waiting(:)
       type(record_writer_t), intent(inout) :: writer
-      integer(ip) :: child, n_children, i, e
-      integer(lp) :: k, base, needed
+      integer(ip) :: n_children
+      integer(lp) :: length
+
+      call measure_record(store, tree, p, waiting, n_children, length)
+      if (length > size(writer%record, kind=lp)) call grow(writer%record, 2*length, writer%enough)
+      if (.not. writer%enough) return
+      writer%written = 0
+      call put(writer, tree%first(p + 1) - tree%first(p))
+      call put(writer, writer%n_border)
+      call put(writer, n_children)
+      call put(writer, int(tree%first_element(p + 1) - tree%first_element(p), ip))
+      call write_children(tree, p, waiting, writer)
+      call write_elements(elimination, store, tree, p, writer)
+   end subroutine write_record
+
+   pure subroutine measure_record(store, tree, p, waiting, n_children, length)
+      type(element_store_t), intent(in) :: store
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p, waiting(:)
+      integer(ip), intent(out) :: n_children
+      integer(lp), intent(out) :: length
+      integer(ip) :: child, e
+      integer(lp) :: i
 
       n_children = 0
-      needed = HEADER
-      base = below_children(tree, p, waiting, writer)
+      length = HEADER
       child = tree%first_child(p)
       do while (child /= 0)
          n_children = n_children + 1
-         needed = needed + 2 + waiting(child)
+         length = length + 2 + waiting(child)
          child = tree%next_child(child)
       end do
-      do i = int(tree%first_element(p), ip) + 1, int(tree%first_element(p + 1), ip)
+      do i = tree%first_element(p) + 1, tree%first_element(p + 1)
          e = tree%element(i)
-         needed = needed + 2 + store%start(e + 1) - store%start(e)
+         length = length + 2 + store%start(e + 1) - store%start(e)
       end do
-      if (needed > size(writer%record, kind=lp)) call grow(writer%record, 2*needed, writer%enough)
-      if (.not. writer%enough) return
-      writer%written = 0
-      call put(tree%first(p + 1) - tree%first(p))
-      call put(writer%n_border)
-      call put(n_children)
-      call put(int(tree%first_element(p + 1) - tree%first_element(p), ip))
+   end subroutine measure_record
+
+   pure subroutine write_children(tree, p, waiting, writer)
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p, waiting(:)
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip) :: child
+      integer(lp) :: k, base
+
+      base = below_children(tree, p, waiting, writer)
       child = tree%first_child(p)
       do while (child /= 0)
-         call put(child)
-         call put(waiting(child))
+         call put(writer, child)
+         call put(writer, waiting(child))
          do k = base + 1, base + waiting(child)
-            call put(place_in_front(writer%stack(k)))
+            call put(writer, place_in_front(tree, p, writer, writer%stack(k)))
          end do
          base = base + waiting(child)
          child = tree%next_child(child)
       end do
-      do i = int(tree%first_element(p), ip) + 1, int(tree%first_element(p + 1), ip)
+   end subroutine write_children
+
+   pure subroutine write_elements(elimination, store, tree, p, writer)
+      type(elimination_t), intent(in) :: elimination
+      type(element_store_t), intent(in) :: store
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip) :: e
+      integer(lp) :: i, k
+
+      do i = tree%first_element(p) + 1, tree%first_element(p + 1)
          e = tree%element(i)
-         call put(store%matrix_of(e))
-         call put(int(store%start(e + 1) - store%start(e), ip))
+         call put(writer, store%matrix_of(e))
+         call put(writer, int(store%start(e + 1) - store%start(e), ip))
          do k = store%start(e) + 1, store%start(e + 1)
             if (store%equations(k) == 0) then
-               call put(0_ip)
+               call put(writer, 0_ip)
             else
-               call put(place_in_front(elimination%place(store%equations(k))))
+               call put(writer, place_in_front(tree, p, writer, elimination%place(store%equations(k))))
             end if
          end do
       end do
+   end subroutine write_elements
 
-   contains
+   !> The record has room.
+   pure subroutine put(writer, number)
+      type(record_writer_t), intent(inout) :: writer
+      integer(ip), intent(in) :: number
 
-      subroutine put(number)
-         integer(ip), intent(in) :: number
+      writer%written = writer%written + 1
+      writer%record(writer%written) = number
+   end subroutine put
 
-         writer%written = writer%written + 1
-         writer%record(writer%written) = number
-      end subroutine put
+   pure integer(ip) function place_in_front(tree, p, writer, place)
+      type(part_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: p
+      type(record_writer_t), intent(in) :: writer
+      integer(ip), intent(in) :: place           !< in the order of elimination
 
-      pure integer(ip) function place_in_front(place)
-         integer(ip), intent(in) :: place
-
-         if (place < tree%first(p + 1)) then
-            place_in_front = place - tree%first(p) + 1
-         else
-            place_in_front = writer%at(place)
-         end if
-      end function place_in_front
-
-   end subroutine write_record
+      if (place < tree%first(p + 1)) then
+         place_in_front = place - tree%first(p) + 1
+      else
+         place_in_front = writer%at(place)
+      end if
+   end function place_in_front
 
 end module atrito_front_records

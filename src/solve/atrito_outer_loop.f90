@@ -28,6 +28,16 @@ module atrito_outer_loop
    integer(ip), parameter :: STALE = 10                   !< iterations in which the residual is not halved
    real(wp), parameter :: STALE_RESIDUAL = 1.0e-8_wp      !< that is accepted then
 
+   !> What the loop remembers of its bounds.
+   type :: loop_t
+      real(wp), allocatable :: good(:), good_image(:)      !< (n) the last bound that held all bodies; not allocated: none so far
+      real(wp), allocatable :: visited(:, :)               !< (n, LONGEST_CYCLE) newest first; -1: none
+      real(wp) :: last_residual = -1.0_wp                  !< < 0: none
+      real(wp) :: best_residual = HUGE_REAL
+      integer(ip) :: best_outer = 0
+      integer(ip) :: steps_back = 0
+   end type loop_t
+
 contains
 
    !> Solves the contact line. Not converged: solution%converged is false and solution%verdict says why.
@@ -243,68 +253,100 @@ contains
       real(wp), intent(inout) :: tau(:)
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
-      real(wp) :: image(size(tau)), good(size(tau)), good_image(size(tau)), visited(size(tau), LONGEST_CYCLE)
-      real(wp) :: last_residual, best_residual
-      logical :: has_good
-      integer(ip) :: outer, steps_back, cycle_length, best_outer
+      type(loop_t) :: loop
+      real(wp) :: image(size(tau))
+      integer(ip) :: outer
+      logical :: cycles
 
-      has_good = .false.
-      steps_back = 0
       solution%converged = .false.
-      last_residual = -1.0_wp
-      best_residual = HUGE_REAL
-      best_outer = 0
-      visited = -1.0_wp
       solution%contraction = 0.0_wp
+      allocate (loop%visited(size(tau), LONGEST_CYCLE), source=-1.0_wp)
       call accelerator%reset()
       do outer = 1, controls%max_iterations
          call begin_outer(solution%history)
          call solve_with_bound(problem, line, tau, solution, image, status)
          if (.not. is_ok(status)) return
          if (solution%inner%moves) then
-            if (steps_back == MOST_STEPS_BACK) then
-               call set_status(status, STATUS_SINGULAR, FREE_MOTION)
-               return
-            end if
-            steps_back = steps_back + 1
-            call accelerator%reset()
-            if (has_good) tau = 0.5_wp*(tau + good)
-            if (.not. has_good) tau = 2*tau
+            call step_back(loop, accelerator, tau, status)
+            if (.not. is_ok(status)) return
             cycle
          end if
          if (.not. solution%inner%solved) exit
          solution%residual = relative_residual(tau, image)
          call end_outer(solution%history, solution%residual)
          call tell(reporter, outer, solution)
-         if (has_good .and. maxval(tau) > 0.0_wp) then
-            call measure_rate(line%weight/maxval(line%weight), (tau - good)/maxval(tau), (image - good_image)/maxval(tau), &
-                              solution%contraction)
-         end if
-         if (may_be_round_off(last_residual, solution%residual)) call judge_condition(solution)
-         solution%converged = has_settled(controls%tolerance, solution%inner%condition, last_residual, solution%residual)
-         last_residual = solution%residual
-         if (solution%residual < 0.5_wp*best_residual) then
-            best_residual = solution%residual
-            best_outer = outer
-         end if
-         ! round-off that the matrix does not tell: displacements far below the initial gaps
-         if (outer - best_outer >= STALE .and. solution%residual <= STALE_RESIDUAL) solution%converged = .true.
+         call judge_step(line%weight/maxval(line%weight), controls%tolerance, outer, tau, image, loop, solution)
          if (solution%converged) return
-         good = tau
-         good_image = image
-         has_good = .true.
-         call accelerator%update(good, image, tau)
-         call find_cycle(visited, tau, solution%residual, cycle_length)
-         if (cycle_length > 1 .and. steps_back == 0) then
-            solution%verdict = 'the loop cycles between '//to_text(cycle_length)//' states'
-            if (controls%method == METHOD_PICARD) solution%verdict = solution%verdict//'; METHOD=ANDERSON may find the solution'
-            return
-         end if
+         loop%good = tau
+         loop%good_image = image
+         call accelerator%update(loop%good, image, tau)
+         call look_for_cycle(controls%method, tau, loop, solution, cycles)
+         if (cycles) return
       end do
       solution%verdict = 'the outer loop did not converge in '//to_text(controls%max_iterations)//' iterations (residual ' &
                          //to_text(solution%residual, 3)//')'
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
+
+   !> The bound does not hold a body: half way back to the last one that did, or twice as much where none did so far.
+   !> status: STATUS_SINGULAR with FREE_MOTION when that was done often enough.
+   subroutine step_back(loop, accelerator, tau, status)
+      type(loop_t), intent(inout) :: loop
+      class(accelerator_t), intent(inout) :: accelerator
+      real(wp), intent(inout) :: tau(:)
+      type(status_t), intent(out) :: status
+
+      if (loop%steps_back == MOST_STEPS_BACK) then
+         call set_status(status, STATUS_SINGULAR, FREE_MOTION)
+         return
+      end if
+      loop%steps_back = loop%steps_back + 1
+      call accelerator%reset()
+      if (allocated(loop%good)) then
+         tau = 0.5_wp*(tau + loop%good)
+      else
+         tau = 2*tau
+      end if
+   end subroutine step_back
+
+   !> Whether the loop has converged with this bound and its image; and how fast it goes.
+   subroutine judge_step(weight, tolerance, outer, tau, image, loop, solution)
+      real(wp), intent(in) :: weight(:)             !< (n) of the points, relative to the largest
+      real(wp), intent(in) :: tolerance
+      integer(ip), intent(in) :: outer
+      real(wp), intent(in) :: tau(:), image(:)
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+
+      if (allocated(loop%good) .and. maxval(tau) > 0.0_wp) then
+         call measure_rate(weight, (tau - loop%good)/maxval(tau), (image - loop%good_image)/maxval(tau), solution%contraction)
+      end if
+      if (may_be_round_off(loop%last_residual, solution%residual)) call judge_condition(solution)
+      solution%converged = has_settled(tolerance, solution%inner%condition, loop%last_residual, solution%residual)
+      loop%last_residual = solution%residual
+      if (solution%residual < 0.5_wp*loop%best_residual) then
+         loop%best_residual = solution%residual
+         loop%best_outer = outer
+      end if
+      ! round-off that the matrix does not tell: displacements far below the initial gaps
+      if (outer - loop%best_outer >= STALE .and. solution%residual <= STALE_RESIDUAL) solution%converged = .true.
+   end subroutine judge_step
+
+   !> Whether the next bound was there before; the verdict says so.
+   subroutine look_for_cycle(method, tau, loop, solution, cycles)
+      integer, intent(in) :: method
+      real(wp), intent(in) :: tau(:)
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+      logical, intent(out) :: cycles
+      integer(ip) :: length
+
+      call find_cycle(loop%visited, tau, solution%residual, length)
+      cycles = length > 1 .and. loop%steps_back == 0
+      if (.not. cycles) return
+      solution%verdict = 'the loop cycles between '//to_text(length)//' states'
+      if (method == METHOD_PICARD) solution%verdict = solution%verdict//'; METHOD=ANDERSON may find the solution'
+   end subroutine look_for_cycle
 
    !> How much larger the images of two bounds differ than the bounds, whatever made the step between them: the largest so far.
    pure subroutine measure_rate(weight, step, answer, rate)
