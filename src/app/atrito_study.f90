@@ -38,13 +38,17 @@ module atrito_study
 contains
 
    !> Makes all runs; code is the worst of theirs.
-   subroutine run_study(command, code)
-      type(command_t), intent(in) :: command
+   subroutine run_study(asked, code)
+      type(command_t), intent(in) :: asked
       integer, intent(out) :: code                  !< one of STATUS_*
+      type(command_t) :: command
       type(study_t) :: study
       type(status_t) :: status
       type(folder_claim_t) :: claim
 
+      command = asked
+      ! one solver on all levels: another one from some level on would put a step into the times
+      if (command%solver == 'auto') command%solver = 'sparse'
       call choose_quantities(command, study, status)
       if (is_ok(status)) call check_folder(output_folder(command), status)
       if (is_ok(status)) call claim_folder(output_folder(command), claim, status)

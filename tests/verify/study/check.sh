@@ -8,9 +8,9 @@ value_of() {
 "$atrito" study "$pillar" --levels 3 --elements cps4,cps9 --reference strain_energy --reference normal_resultant=2.8e5 -o out \
    --digits 17 >said 2>told || complain "study: exit $?"
 near 'rows' "$(grep -vc '^#' out/study.tab)" 6 0
-# A level is the deck with --refine; the elements of the deck are those of the deck.
+# A level is the deck with --refine and the sparse solver; the elements of the deck are those of the deck.
 for level in 0 1 2; do
-   run 0 "$pillar" "level-$level" --refine $level --digits 17 --quiet
+   run 0 "$pillar" "level-$level" --refine $level --solver sparse --digits 17 --quiet
    for quantity in strain_energy normal_resultant error_estimate_percent; do
       near "cps9, level $level, $quantity" "$(value_of $level cps9 $quantity)" "$(summary level-$level $quantity)" 0
    done
@@ -27,6 +27,10 @@ near 'error against a given value' "$(value_of 1 cps9 normal_resultant_error)" \
 says 'reference' said 'extrapolated from cps9'
 says 'reference' out/study.tab '# normal_resultant: reference 280000, given'
 says 'singular pressure' out/study.tab 'cps9: the largest pressure, at (0, 0), an end of the contact surface, grows with every level'
+for listing in out/*/ex3-pillar-in-ground.lst; do
+   says "one solver on all levels, $listing" "$listing" '  sparse  '
+   grep -q '  skyline  \|  banded  ' "$listing" && complain "$listing: another solver"
+done
 says 'soonest' out/study.tab '# 1 % of strain_energy'
 says 'probes' out/study.tab '# half the delta moves strain_energy by'
 says 'probes' out/study.tab '# half the eps moves strain_energy by'
