@@ -8,7 +8,7 @@ module atrito_banded
    use atrito_lapack, only: dgemm, dpbtrf, dsyrk, dtbtrs, dtrsm
    use atrito_profile, only: profile_t, half_bandwidth, first_coupled_row, BAND_BLOCK
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
-   use atrito_storage, only: storage_t, pivot_report_t, note_pivot, set_pivot_status
+   use atrito_storage, only: storage_t, factor_report_t, note_pivot, set_pivot_status
    implicit none (type, external)
    private
    public :: banded_t
@@ -42,7 +42,7 @@ contains
 
       self%n = profile%n
       self%n_kept = profile%n_kept
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       self%half_width = half_bandwidth(profile)
       self%first_coupled = first_coupled_row(profile)
       n_interior = self%n - self%n_kept
@@ -119,7 +119,7 @@ contains
       logical :: usable
       integer(ip) :: j, k
 
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       stopped = .false.
       do j = 1, size(diagonal, kind=ip)
          if (j == failed) then

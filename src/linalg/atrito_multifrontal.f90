@@ -14,7 +14,7 @@ module atrito_multifrontal
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
-   use atrito_storage, only: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status
+   use atrito_storage, only: storage_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status
    use atrito_threads, only: n_threads, is_shared
    implicit none (type, external)
    private
@@ -53,7 +53,7 @@ contains
 
       self%n = profile%n
       self%n_kept = profile%n_kept
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       if (allocated(profile%elimination%place)) then
          self%elimination = profile%elimination
       else
@@ -131,7 +131,7 @@ contains
       type(status_t), intent(out) :: status
       logical :: enough
 
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       call build_front_tree(self%elimination, self%n, self%n_kept, self%store, self%tree)
       enough = self%tree%enough
       if (enough) call factor_fronts(self%tree, self%store, self%diagonal, self%factors, enough)
@@ -141,6 +141,7 @@ contains
          return
       end if
       call report_pivots(self, status)
+      call report_fronts(self)
       call plan_solves(self%tree, self%plan)
       deallocate (self%diagonal)
    end subroutine factor_and_report
@@ -174,6 +175,19 @@ contains
       end if
       call set_pivot_status(self%report,.not. usable, status)
    end subroutine report_pivots
+
+   pure subroutine report_fronts(self)
+      type(multifrontal_t), intent(inout) :: self
+      integer(ip) :: c
+
+      self%report%n_fronts = self%tree%n_parts
+      self%report%n_different = self%tree%n_classes
+      self%report%entries = 0
+      do c = 1, self%tree%n_classes
+         if (.not. allocated(self%factors(c)%columns)) cycle
+         self%report%entries = self%report%entries + size(self%factors(c)%columns, kind=lp)
+      end do
+   end subroutine report_fronts
 
    subroutine get_last_front(self, schur)
       class(multifrontal_t), intent(in) :: self

@@ -20,7 +20,7 @@ module atrito_mumps
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
-   use atrito_storage, only: storage_t, pivot_report_t, ALL_DIGITS, smallest_ratio
+   use atrito_storage, only: storage_t, factor_report_t, ALL_DIGITS, smallest_ratio
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -128,7 +128,7 @@ contains
       call free_instance(self)
       self%n = profile%n
       self%n_kept = profile%n_kept
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       call load_mumps(self%mumps)
       if (.not. associated(self%mumps)) then
          call set_status(status, STATUS_INTERNAL, mumps_trouble())
@@ -178,7 +178,7 @@ contains
       class(mumps_t), intent(inout) :: self
       type(status_t), intent(out) :: status
 
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       if (.not. self%instance%is_closed) call close_mumps(self)
       if (self%n == self%n_kept) then
          call add_kept(self)
@@ -301,7 +301,7 @@ contains
    end subroutine judge_pivots
 
    pure function pivot_text(report) result(text)
-      type(pivot_report_t), intent(in) :: report
+      type(factor_report_t), intent(in) :: report
       character(len=:), allocatable :: text
 
       text = 'the matrix is singular'

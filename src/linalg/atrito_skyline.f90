@@ -11,7 +11,7 @@ module atrito_skyline
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t, profile_length, largest_height
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
-   use atrito_storage, only: storage_t, pivot_report_t, note_pivot, set_pivot_status
+   use atrito_storage, only: storage_t, factor_report_t, note_pivot, set_pivot_status
    implicit none (type, external)
    private
    public :: skyline_t
@@ -55,7 +55,7 @@ contains
 
       self%n = profile%n
       self%n_kept = profile%n_kept
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       self%first = profile%first
       self%most_rows = largest_height(profile)
       length = profile_length(profile)
@@ -98,7 +98,7 @@ contains
       type(panel_t) :: panel
       logical :: stopped
 
-      self%report = pivot_report_t()
+      self%report = factor_report_t()
       panel%rows = self%most_rows + PANEL_WIDTH
       allocate (panel%g(panel%rows, PANEL_WIDTH))
       stopped = .false.

@@ -14,21 +14,24 @@ module atrito_storage
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: storage_t, pivot_report_t, add_one_by_one, note_pivot, set_pivot_status, smallest_ratio, ALL_DIGITS
+   public :: storage_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status, smallest_ratio, ALL_DIGITS
 
-   !> What the pivots of a factorisation tell.
-   type :: pivot_report_t
+   !> What a factorisation tells.
+   type :: factor_report_t
       real(wp) :: digits_lost = 0.0_wp      !< log10 of the worst ratio of original diagonal to pivot, 0..16
       integer(ip) :: worst_equation = 0     !< its equation, or the one that failed; 0 when nothing was eliminated
       integer(ip) :: sign_changes = 0       !< negative pivots (banded stops at the first)
       real(wp) :: smallest_pivot = 0.0_wp   !< [of the matrix]
       real(wp) :: largest_pivot = 0.0_wp    !< [of the matrix]
-   end type pivot_report_t
+      integer(ip) :: n_fronts = 0           !< of the sparse solver; 0: no fronts
+      integer(ip) :: n_different = 0        !< of them: these are factored
+      integer(lp) :: entries = 0            !< of their factors
+   end type factor_report_t
 
    type, abstract :: storage_t
       integer(ip) :: n = 0                  !< equations
       integer(ip) :: n_kept = 0             !< the last n_kept are kept
-      type(pivot_report_t) :: report        !< of the last call of factor
+      type(factor_report_t) :: report        !< of the last call of factor
    contains
       procedure(create_storage), deferred :: create
       procedure(add_matrix), deferred :: add
@@ -139,7 +142,7 @@ contains
    !> Enters a pivot into the report. `usable` is false for a pivot that must not be divided by: one that is round-off, at most
    !> max(n eps, 1e-15) of its original diagonal. A pivot clearly below zero is counted and can be used.
    pure subroutine note_pivot(report, equation, n, original, pivot, usable)
-      type(pivot_report_t), intent(inout) :: report
+      type(factor_report_t), intent(inout) :: report
       integer(ip), intent(in) :: equation          !< 1..n
       integer(ip), intent(in) :: n                 !< order of the matrix
       real(wp), intent(in) :: original             !< diagonal before the elimination
@@ -173,7 +176,7 @@ contains
 
    !> The status of a factorisation that stopped (`stopped`) or went on over negative pivots.
    pure subroutine set_pivot_status(report, stopped, status)
-      type(pivot_report_t), intent(in) :: report
+      type(factor_report_t), intent(in) :: report
       logical, intent(in) :: stopped
       type(status_t), intent(out) :: status
 

@@ -56,6 +56,7 @@ module atrito_results
       real(wp) :: digits_lost = 0.0_wp
       integer(ip) :: worst_node = 0, worst_dof = 0  !< place of the worst pivot (user's node number)
       integer(ip) :: sign_changes = 0
+      integer(ip) :: n_fronts = 0, n_different_fronts = 0 !< of the sparse solver; 0: none
    end type body_result_t
 
    !> One contact pair before the solution.

@@ -64,7 +64,9 @@ contains
       call describe_needs(page, results%scene)
       call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
       call describe_bodies(page, results%scene, factored=.true.)
-      call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
+      if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
+         call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
+      end if
       if (uses(results%scene, 'sparse') .or. uses(results%scene, 'mumps')) then
          call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
       end if

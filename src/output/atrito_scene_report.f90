@@ -80,6 +80,8 @@ contains
          call add_paragraph(page, text_of(body%name)//': '//text_of(body%storage)//', '//body%reason//bandwidth_text(body), 3)
       end if
       if (.not. factored) return
+      if (body%n_fronts > 0) call add_paragraph(page, text_of(body%name)//': '//plural(body%n_fronts, 'front', 'fronts')//', '// &
+                                                to_text(body%n_different_fronts)//' of them different, which are factored', 3)
       if (body%worst_node > 0) then
          call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most, at node '// &
                             to_text(body%worst_node)//' along '//to_text(body%worst_dof)//'; '// &

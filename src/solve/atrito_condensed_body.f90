@@ -72,8 +72,15 @@ contains
       result%half_bandwidth = half_bandwidth(profile)
       result%profile = profile_length(profile)
       if (kind >= STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
-      result%memory = predict_memory(profile, kind) + 8_lp*int(profile%n_kept, lp)**2
+      result%memory = predict_memory(profile, kind) + kept_bytes(profile%n_kept)
    end subroutine choose_storage
+
+   !> The matrix of the kept equations.
+   elemental integer(lp) function kept_bytes(n_kept) result(bytes)
+      integer(ip), intent(in) :: n_kept
+
+      bytes = 8_lp*int(n_kept, lp)**2
+   end function kept_bytes
 
    !> Predicted cost of every storage, in operations of the skyline: nothing that depends on the machine.
    pure function predict_costs(profile) result(cost)
@@ -156,6 +163,7 @@ contains
       call body%storage%factor(status)
       if (status%code == STATUS_INTERNAL) return
       call report_pivots(fem, i_body, body%storage, result)
+      call report_fronts(body%storage, result)
       if (.not. is_ok(status)) then
          call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': '//status%text//', node ' &
                          //to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
@@ -177,6 +185,18 @@ contains
       if (storage%report%worst_equation == 0) return
       call name_equation(fem, i_body, storage%report%worst_equation, result)
    end subroutine report_pivots
+
+   !> What the sparse solver holds in fact, in place of what was predicted for it.
+   subroutine report_fronts(storage, result)
+      class(storage_t), intent(in) :: storage
+      type(body_result_t), intent(inout) :: result
+
+      result%n_fronts = storage%report%n_fronts
+      result%n_different_fronts = storage%report%n_different
+      if (storage%report%n_fronts == 0) return
+      result%profile = storage%report%entries
+      result%memory = storage%memory_bytes() + kept_bytes(storage%n_kept)
+   end subroutine report_fronts
 
    subroutine name_equation(fem, i_body, equation, result)
       type(fem_t), intent(in) :: fem

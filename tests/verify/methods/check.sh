@@ -11,6 +11,10 @@ done
 # the sparse storage, chosen from 32,000 equations a body on
 run 0 "$input/ex1-plate-on-support.inp" sparse --solver sparse --digits 17 --quiet
 says 'listing of sparse' sparse/ex1-plate-on-support.lst '  sparse  '
+grep -q 'PLATE: [0-9]* fronts*, [0-9]* of them different' sparse/ex1-plate-on-support.lst || complain 'fronts are not counted'
+says 'order of sparse' sparse/ex1-plate-on-support.lst 'nested dissection'
+grep -q 'Cuthill' sparse/ex1-plate-on-support.lst && complain 'the order of a profile, where nothing has one'
+says 'order of skyline' skyline/ex1-plate-on-support.lst 'Cuthill'
 for table in contact nodes reactions stress; do
    same_tables "skyline and sparse, $table" skyline/$table.tab sparse/$table.tab 1e-12
 done
