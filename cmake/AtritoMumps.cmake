@@ -1,4 +1,4 @@
-# MUMPS, sequential, for the sparse solver. Sets ATRITO_MUMPS_FOUND, and then ATRITO_MUMPS_INCLUDE_DIR, ATRITO_MUMPS_FILE (what
+# MUMPS, sequential, which checks the sparse solver. Sets ATRITO_MUMPS_FOUND, and then ATRITO_MUMPS_INCLUDE_DIR, ATRITO_MUMPS_FILE (what
 # the program loads when it needs it: the name with the version, as the linker would take it) and ATRITO_MUMPS_VERSION.
 #
 # It is not linked: Debian's static library wants the shared ones of Scotch all the same, and linking the shared one costs every
@@ -27,7 +27,7 @@ if(ATRITO_MUMPS_INCLUDE_DIR AND ATRITO_MUMPS_LIBRARY_PATH AND CMAKE_Fortran_COMP
       endif()
    endif()
    set(ATRITO_MUMPS_FOUND TRUE)
-   message(STATUS "MUMPS ${ATRITO_MUMPS_VERSION}, ${ATRITO_MUMPS_FILE}, loaded when a body is large")
+   message(STATUS "MUMPS ${ATRITO_MUMPS_VERSION}, ${ATRITO_MUMPS_FILE}, loaded when it is asked for")
 else()
-   message(STATUS "MUMPS is missing: large bodies take long; install libmumps-seq-dev (Debian, Ubuntu) for the sparse solver")
+   message(STATUS "MUMPS is missing: no --solver mumps, no --bench-limit; libmumps-seq-dev (Debian, Ubuntu) has it")
 endif()

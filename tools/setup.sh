@@ -43,7 +43,7 @@ found_mumps() {
 install_missing() {
    packages=$(missing_packages)
    command -v gnuplot >/dev/null 2>&1 || want gnuplot-nox "without gnuplot --plot writes its scripts, but no pictures"
-   found_mumps || want libmumps-seq-dev "without MUMPS there is no sparse solver, and large bodies take long"
+   found_mumps || want libmumps-seq-dev "without MUMPS there is no --solver mumps (a check of the sparse solver) and no --bench-limit"
    [ -z "$packages" ] || install_packages "$packages"
 }
 

@@ -1,7 +1,7 @@
 !> The command line, docs/user/running.md: what is to be done, with which options.
 module atrito_command_line
    use atrito_kinds, only: ip, wp
-   use atrito_mumps, only: has_mumps, mumps_trouble
+   use atrito_mumps_library, only: has_mumps, mumps_trouble
    use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
    use atrito_files, only: file_exists

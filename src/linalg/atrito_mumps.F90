@@ -2,9 +2,7 @@
 !>
 !> It checks the program's own sparse solver (atrito_multifrontal).
 !>
-!> The library is loaded when the first matrix is created, not with the program: starting would cost a millisecond more for it
-!> and for what it needs, and most scenes do without. CMake says which file that is (ATRITO_MUMPS_LIBRARY, its name with the
-!> version in it, so that the instance has the layout of the header compiled in) and its version (ATRITO_MUMPS_VERSION).
+!> The library is loaded when the first matrix is created (atrito_mumps_library).
 !>
 !> The interior is scaled to a diagonal between 1/2 and 2 by powers of two, which rounds nothing: MUMPS's smallest pivot then
 !> tells the digits lost, and no unit of the deck matters. It does not tell the equation of that pivot. Where the matrix is
@@ -13,20 +11,17 @@
 !> Reference: P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, SIAM J. Matrix Anal. Appl. 23 (2001) 15-41; MUMPS users'
 !> guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
 module atrito_mumps
-   use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
    use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
-   use atrito_dynamic_library, only: find_routine
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, lp, wp
+   use atrito_mumps_library, only: dmumps_struc, call_mumps, load_mumps, mumps_trouble
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_storage, only: storage_t, factor_report_t, ALL_DIGITS, smallest_ratio
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: mumps_t, mumps_facts_t, has_mumps, mumps_name, mumps_trouble
-
-   include 'dmumps_struc.h'
+   public :: mumps_t, mumps_facts_t
 
    !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then.
    type :: instance_t
@@ -66,13 +61,6 @@ module atrito_mumps
       final :: finish_mumps
    end type mumps_t
 
-   abstract interface
-      subroutine call_mumps(instance)
-         import :: dmumps_struc
-         type(dmumps_struc), intent(inout) :: instance
-      end subroutine call_mumps
-   end interface
-
    ! JOB
    integer, parameter :: BEGIN = -1, ANALYSE = 1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
    ! ICNTL(26)
@@ -86,38 +74,6 @@ module atrito_mumps
    real(wp), parameter :: SHIFT = 1.0e-13_wp
 
 contains
-
-   !> Whether the library can be loaded.
-   logical function has_mumps()
-      procedure(call_mumps), pointer :: mumps
-
-      call load_mumps(mumps)
-      has_mumps = associated(mumps)
-   end function has_mumps
-
-   !> For the listing: 'MUMPS 5.5.1'.
-   pure function mumps_name() result(name)
-      character(len=:), allocatable :: name
-
-      name = 'MUMPS '//ATRITO_MUMPS_VERSION
-   end function mumps_name
-
-   !> Why there is no MUMPS, where there is none.
-   pure function mumps_trouble() result(text)
-      character(len=:), allocatable :: text
-
-      text = 'the library '//ATRITO_MUMPS_LIBRARY//' cannot be loaded'
-   end function mumps_trouble
-
-   !> Not associated where the library is not installed. Loading it again costs next to nothing.
-   subroutine load_mumps(mumps)
-      procedure(call_mumps), pointer, intent(out) :: mumps
-      type(c_funptr) :: routine
-
-      mumps => null()
-      routine = find_routine(ATRITO_MUMPS_LIBRARY, 'dmumps_')
-      if (c_associated(routine)) call c_f_procpointer(routine, mumps)
-   end subroutine load_mumps
 
    subroutine create_mumps(self, profile, status)
       class(mumps_t), intent(inout) :: self

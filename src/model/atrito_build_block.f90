@@ -10,13 +10,14 @@ module atrito_build_block
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item
    use atrito_diagnostics, only: report_error, report_warning
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, note_places, spoil_block, report_unknown
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, note_places, spoil_block
    use atrito_items, only: get_real, option_text, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh, Q2_NODES
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_references, only: report_unknown
    use atrito_sets, only: find_set, grow_set, set_names
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)

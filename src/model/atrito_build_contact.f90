@@ -2,12 +2,13 @@
 module atrito_build_contact
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, keep_token, report_unknown
+   use atrito_draft, only: draft_t, place_text, keep_token
    use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, &
                            KERNEL_LINE
    use atrito_model_names, only: interaction_names, surface_names, find_name
+   use atrito_references, only: report_unknown
    use atrito_strings, only: to_text
    implicit none (type, external)
    private

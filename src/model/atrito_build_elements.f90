@@ -2,8 +2,7 @@
 module atrito_build_elements
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, get_id, find_one_node, &
-                           find_one_element, has_errors
+   use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
    use atrito_kinds, only: ip, lp, wp
@@ -11,6 +10,7 @@ module atrito_build_elements
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_references, only: get_id, find_one_node, find_one_element
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)

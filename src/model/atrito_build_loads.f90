@@ -3,7 +3,7 @@ module atrito_build_loads
    use atrito_build_materials, only: SECTION_SPOILED
    use atrito_deck, only: deck_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
-   use atrito_draft, only: draft_t, ids_text, find_nodes, find_elements, report_unknown, is_spoiled
+   use atrito_draft, only: draft_t, ids_text, is_spoiled
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
@@ -12,6 +12,7 @@ module atrito_build_loads
    use atrito_model_names, only: surface_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
+   use atrito_references, only: find_nodes, find_elements, report_unknown
    use atrito_refinement, only: is_on_side, is_refined
    use atrito_strings, only: same_name, to_text, upper_case
    implicit none (type, external)

@@ -2,12 +2,13 @@
 module atrito_build_materials
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_name, place_text, keep_token, ids_text, report_unknown, is_spoiled, has_errors
+   use atrito_draft, only: draft_t, spoil_name, place_text, keep_token, ids_text, is_spoiled, has_errors
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, material_t, section_t, FORMULATION_BBAR
    use atrito_model_names, only: material_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_references, only: report_unknown
    use atrito_sets, only: find_set, set_names
    use atrito_strings, only: to_text
    implicit none (type, external)

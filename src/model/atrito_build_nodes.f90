@@ -3,12 +3,13 @@ module atrito_build_nodes
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_node, place_token, place_text, note_place, get_id, find_nodes, find_one_node
+   use atrito_draft, only: draft_t, spoil_node, place_token, place_text, note_place
    use atrito_items, only: get_integer, get_real, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
+   use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)

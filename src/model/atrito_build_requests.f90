@@ -2,11 +2,12 @@
 module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, report_unknown
+   use atrito_draft, only: draft_t
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t, controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+   use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set, set_names
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)

@@ -3,13 +3,14 @@ module atrito_build_sets
    use atrito_build_nodes, only: put_node_set
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, ids_text, get_id, find_nodes, find_elements, has_errors
+   use atrito_draft, only: draft_t, place_text, ids_text, has_errors
    use atrito_id_map, only: id_map_t, find_id
    use atrito_items, only: get_integer, has_option, option_text
    use atrito_kinds, only: ip
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_references, only: get_id, find_nodes, find_elements
    use atrito_sets, only: find_set, grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)

@@ -3,12 +3,13 @@ module atrito_build_supports
    use atrito_build_loads, only: in_no_element
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_draft, only: draft_t, place_text, ids_text, find_nodes, has_errors
+   use atrito_draft, only: draft_t, place_text, ids_text, has_errors
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_prescribed, trim_prescribed
    use atrito_model, only: model_t
    use atrito_parameters, only: evaluate_function
+   use atrito_references, only: find_nodes
    use atrito_refinement, only: edge_place, is_refined
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_strings, only: to_text

@@ -3,8 +3,7 @@ module atrito_build_surfaces
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, ids_text, find_elements, &
-                           report_unknown, is_spoiled
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, ids_text, is_spoiled
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
@@ -13,6 +12,7 @@ module atrito_build_surfaces
    use atrito_model_names, only: surface_names, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
+   use atrito_references, only: find_elements, report_unknown
    use atrito_refinement, only: fine_elements, is_on_side
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)

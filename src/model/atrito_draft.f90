@@ -1,29 +1,23 @@
-!> What the builders share while a model grows and nobody needs afterwards: places in the deck, what a name or number stands
-!> for, and which names and numbers an error has spoiled.
+!> What the builders share while a model grows and nobody needs afterwards: places in the deck, and which names and numbers an
+!> error has spoiled.
 !>
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_draft
-   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_id_token, is_empty_token, keyword_name
-   use atrito_diagnostics, only: report_error
+   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name
    use atrito_faces, only: node_elements_t
-   use atrito_id_map, only: id_map_t, add_id, find_id
-   use atrito_items, only: get_integer, get_name
+   use atrito_id_map, only: id_map_t, add_id
    use atrito_kinds, only: ip, lp
-   use atrito_mesh, only: find_node, find_element
    use atrito_messages, only: count_messages, SEVERITY_ERROR
-   use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, add_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
-   use atrito_refinement, only: refinement_t, fine_elements, is_refined
-   use atrito_sets, only: set_list_t, find_set, set_names
-   use atrito_strings, only: string_t, same_name, to_text
+   use atrito_refinement, only: refinement_t
+   use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
    public :: draft_t, block_t, BLOCK_SIDES
-   public :: prepare_draft, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, has_errors
+   public :: prepare_draft, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, is_unsure, has_errors
    public :: place_token, place_text, note_place, note_places, keep_token, ids_text
-   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, report_unknown
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
    character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
@@ -246,6 +240,15 @@ contains
       end do
    end function is_spoiled
 
+   !> True when one of these should have been defined, under a name that is not known.
+   logical function is_unsure(draft, noun)
+      type(draft_t), intent(in) :: draft
+      character(len=*), intent(in) :: noun
+
+      is_unsure = .false.
+      if (has_errors()) is_unsure = has_name(draft%unsure, noun)
+   end function is_unsure
+
    logical function has_errors()
       has_errors = count_messages(SEVERITY_ERROR) > 0
    end function has_errors
@@ -320,181 +323,5 @@ contains
       end do
       if (n < size(ids)) text = text//' and '//to_text(size(ids, kind=ip) - n)//' more'
    end function ids_text
-
-   !> The positive number of a node or element.
-   subroutine get_id(deck, token, what, id, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: what             !< e.g. 'node number'
-      integer(ip), intent(out) :: id
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-
-      call get_integer(deck, token, what//', a positive integer', id, ok, keyword=keyword)
-      if (.not. ok .or. id > 0) return
-      ok = .false.
-      call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=what//', a positive integer', &
-                        keyword=keyword)
-   end subroutine get_id
-
-   !> The place of the node whose number an item is.
-   subroutine find_one_node(deck, model, draft, token, node, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
-      type(token_t), intent(in) :: token
-      integer(ip), intent(out) :: node
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      integer(ip) :: id
-
-      node = 0
-      call get_id(deck, token, 'node number', id, ok, keyword)
-      if (.not. ok) return
-      node = find_node(model%mesh, id)
-      ok = node > 0
-      if (ok) return
-      if (has_errors() .and. find_id(draft%spoiled_nodes, id) > 0 .or. is_unsure(draft, 'node')) return
-      call report_error(deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
-                        expected='the number of a node that *NODE, *NGEN, *NFILL or *BLOCK defines ('// &
-                        range_text(model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
-   end subroutine find_one_node
-
-   !> The place of the element whose number an item is, in the mesh of the deck.
-   subroutine find_one_element(deck, model, draft, token, element, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
-      type(token_t), intent(in) :: token
-      integer(ip), intent(out) :: element
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      integer(ip) :: id
-
-      element = 0
-      call get_id(deck, token, 'element number', id, ok, keyword)
-      if (.not. ok) return
-      if (is_refined(draft%refinement)) then
-         element = find_id(draft%deck_elements, id)
-      else
-         element = find_element(model%mesh, id)
-      end if
-      ok = element > 0
-      if (ok) return
-      if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0 .or. is_unsure(draft, 'element')) return
-      call report_error(deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
-                        expected='the number of an element that *ELEMENT, *ELGEN or *BLOCK defines ('// &
-                        range_text(model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)
-   end subroutine find_one_element
-
-   pure function range_text(n, noun, greatest) result(text)
-      integer(ip), intent(in) :: n, greatest
-      character(len=*), intent(in) :: noun
-      character(len=:), allocatable :: text
-
-      if (n == 0) then
-         text = 'there is none'
-      else
-         text = to_text(n)//' '//noun//'s, the greatest '//to_text(greatest)
-      end if
-   end function range_text
-
-   !> The places of the nodes that an item names: a number or a node set.
-   subroutine find_nodes(deck, model, draft, token, members, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
-      type(token_t), intent(in) :: token
-      integer(ip), allocatable, intent(out) :: members(:)
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      integer(ip) :: node
-
-      if (is_id_token(deck, token)) then
-         call find_one_node(deck, model, draft, token, node, ok, keyword)
-         if (ok) members = [node]
-      else
-         call find_members(deck, model%node_sets, draft, token, 'node', members, ok, keyword)
-      end if
-      if (.not. ok) members = [integer(ip) ::]
-   end subroutine find_nodes
-
-   !> The places of the elements that an item names: a number or an element set.
-   subroutine find_elements(deck, model, draft, token, members, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
-      type(token_t), intent(in) :: token
-      integer(ip), allocatable, intent(out) :: members(:)
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      integer(ip) :: element
-
-      if (is_id_token(deck, token)) then
-         call find_one_element(deck, model, draft, token, element, ok, keyword)
-         if (ok) members = [element]
-         if (ok .and. is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
-      else
-         call find_members(deck, model%element_sets, draft, token, 'element', members, ok, keyword)
-      end if
-      if (.not. ok) members = [integer(ip) ::]
-   end subroutine find_elements
-
-   subroutine find_members(deck, list, draft, token, noun, members, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(set_list_t), intent(in) :: list
-      type(draft_t), intent(in) :: draft
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: noun             !< 'node' or 'element'
-      integer(ip), allocatable, intent(out) :: members(:)
-      logical, intent(out) :: ok
-      character(len=*), intent(in) :: keyword
-      character(len=:), allocatable :: name
-      integer(ip) :: i
-
-      call get_name(deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
-      if (.not. ok) return
-      i = find_set(list, name)
-      ok = i > 0
-      if (ok) then
-         members = list%sets(i)%members
-      else
-         call report_unknown(deck, draft, token, noun//' set', 'E-SET', set_names(list), keyword)
-      end if
-   end subroutine find_members
-
-   !> An unknown name, unless an earlier error explains it.
-   subroutine report_unknown(deck, draft, token, noun, id, known, keyword)
-      type(deck_t), intent(in) :: deck
-      type(draft_t), intent(in) :: draft
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: noun             !< what should have this name, e.g. 'element set'
-      character(len=*), intent(in) :: id
-      type(string_t), intent(in) :: known(:)           !< names of these that there are
-      character(len=*), intent(in) :: keyword
-      character(len=:), allocatable :: expected
-
-      if (is_spoiled(draft, token_text(deck, token)) .or. is_unsure(draft, noun)) return
-      expected = 'name of '//article(noun)//noun//' of this deck'
-      if (size(known) == 0) expected = expected//'; there is none'
-      call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token), expected=expected, known=known, &
-                        keyword=keyword)
-   end subroutine report_unknown
-
-   logical function is_unsure(draft, noun)
-      type(draft_t), intent(in) :: draft
-      character(len=*), intent(in) :: noun
-
-      is_unsure = .false.
-      if (has_errors()) is_unsure = has_name(draft%unsure, noun)
-   end function is_unsure
-
-   pure function article(noun) result(text)
-      character(len=*), intent(in) :: noun
-      character(len=:), allocatable :: text
-
-      text = 'a '
-      if (scan(noun(1:1), 'aeiou') > 0) text = 'an '
-   end function article
 
 end module atrito_draft

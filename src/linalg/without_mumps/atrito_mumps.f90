@@ -2,12 +2,13 @@
 !> accept this solver then, so nothing here is reached; create fails all the same.
 module atrito_mumps
    use atrito_kinds, only: ip, lp, wp
+   use atrito_mumps_library, only: mumps_trouble
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: mumps_t, mumps_facts_t, has_mumps, mumps_name, mumps_trouble
+   public :: mumps_t, mumps_facts_t
 
    type :: mumps_facts_t
       integer(lp) :: entries = 0, factor_entries = 0, memory = 0
@@ -30,22 +31,6 @@ module atrito_mumps
    end type mumps_t
 
 contains
-
-   pure logical function has_mumps()
-      has_mumps = .false.
-   end function has_mumps
-
-   pure function mumps_name() result(name)
-      character(len=:), allocatable :: name
-
-      name = 'no MUMPS'
-   end function mumps_name
-
-   pure function mumps_trouble() result(text)
-      character(len=:), allocatable :: text
-
-      text = 'this build has none'
-   end function mumps_trouble
 
    subroutine create_mumps(self, profile, status)
       class(mumps_t), intent(inout) :: self
