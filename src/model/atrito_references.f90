@@ -109,11 +109,10 @@ contains
 
       if (is_id_token(deck, token)) then
          call find_one_node(deck, model, draft, token, node, ok, keyword)
-         if (ok) members = [node]
+         members = pack([node], [ok])
       else
          call find_members(deck, model%node_sets, draft, token, 'node', members, ok, keyword)
       end if
-      if (.not. ok) members = [integer(ip) ::]
    end subroutine find_nodes
 
    !> The places of the elements that an item names: a number or an element set.
@@ -129,12 +128,11 @@ contains
 
       if (is_id_token(deck, token)) then
          call find_one_element(deck, model, draft, token, element, ok, keyword)
-         if (ok) members = [element]
-         if (ok .and. is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
+         members = pack([element], [ok])
+         if (is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
       else
          call find_members(deck, model%element_sets, draft, token, 'element', members, ok, keyword)
       end if
-      if (.not. ok) members = [integer(ip) ::]
    end subroutine find_elements
 
    subroutine find_members(deck, list, draft, token, noun, members, ok, keyword)
@@ -149,6 +147,7 @@ contains
       character(len=:), allocatable :: name
       integer(ip) :: i
 
+      members = [integer(ip) ::]
       call get_name(deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
       if (.not. ok) return
       i = find_set(list, name)

@@ -81,7 +81,7 @@ contains
       end if
       if (.not. factored) return
       if (body%n_fronts > 0) call add_paragraph(page, text_of(body%name)//': '//plural(body%n_fronts, 'front', 'fronts')//', '// &
-                                                to_text(body%n_different_fronts)//' of them different, which are factored', 3)
+                                                to_text(body%n_different_fronts)//' of them different: these are factored', 3)
       if (body%worst_node > 0) then
          call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most, at node '// &
                             to_text(body%worst_node)//' along '//to_text(body%worst_dof)//'; '// &
