@@ -29,5 +29,5 @@ if(ATRITO_MUMPS_INCLUDE_DIR AND ATRITO_MUMPS_LIBRARY_PATH AND CMAKE_Fortran_COMP
    set(ATRITO_MUMPS_FOUND TRUE)
    message(STATUS "MUMPS ${ATRITO_MUMPS_VERSION}, ${ATRITO_MUMPS_FILE}, loaded when it is asked for")
 else()
-   message(STATUS "MUMPS is missing: no --solver mumps, no --bench-limit; libmumps-seq-dev (Debian, Ubuntu) has it")
+   message(STATUS "MUMPS is missing: no --solver mumps, no limit program (tests/bench); libmumps-seq-dev (Debian, Ubuntu) has it")
 endif()

@@ -39,11 +39,27 @@ found_mumps() {
    return 1
 }
 
+found_clp() {
+   for folder in /usr/lib /usr/lib64 /usr/lib/*-linux-gnu /usr/local/lib; do
+      [ -e "$folder/libClp.so" ] && return 0
+   done
+   return 1
+}
+
+found_metis() {
+   for folder in /usr/include /usr/local/include; do
+      [ -e "$folder/metis.h" ] && return 0
+   done
+   return 1
+}
+
 # Installs what is missing; nothing to do is nothing said, and no network is needed then.
 install_missing() {
    packages=$(missing_packages)
    command -v gnuplot >/dev/null 2>&1 || want gnuplot-nox "without gnuplot --plot writes its scripts, but no pictures"
-   found_mumps || want libmumps-seq-dev "without MUMPS there is no --solver mumps (a check of the sparse solver) and no --bench-limit"
+   found_mumps || want libmumps-seq-dev "without MUMPS there is no --solver mumps (a check of the sparse solver) and no limit program (tests/bench)"
+   found_clp || want coinor-libclp-dev "without Clp it is not proved that a scene has no equilibrium: such runs end with 3 in place of 4"
+   found_metis || want libmetis-dev "without METIS large graded meshes take longer"
    [ -z "$packages" ] || install_packages "$packages"
 }
 

@@ -8,19 +8,23 @@ module atrito_command_line
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
    use atrito_option_table, only: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, &
-                                  TASK_OPTIONS, TASK_VERSION, OPTIONS, SOLVERS, ELEMENT_NAMES, MOST_THREADS, MOST_LEVELS, &
-                                  find_option, option_names, string_list, value_text, task_text
+                                  TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, OPTIONS, SOLVERS, CONTACT_FORMS, ELEMENT_NAMES, &
+                                  MOST_THREADS, MOST_LEVELS, find_option, option_names, string_list, value_text, task_text
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
    public :: command_t, parse_command, fetch_arguments, output_folder
-   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_OPTIONS, TASK_VERSION
+   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
+             TASK_VERSION
    public :: SOLVERS
 
-   character(len=7), parameter :: COMMANDS(5) = ['check  ', 'compare', 'study  ', 'sweep  ', 'help   ']
+   character(len=7), parameter :: COMMANDS(6) = ['check  ', 'compare', 'study  ', 'sweep  ', 'limit  ', 'help   ']
    character(len=*), parameter :: SWEEP_FORM = 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]'
    character(len=*), parameter :: STUDY_FORM = 'atrito study DECK.inp --levels N [--elements cpe4,cpe9] '// &
                                   '[--reference QUANTITY=VALUE]'
+
+   character(len=*), parameter :: LIMIT_FORM = 'atrito limit DECK.inp --vary NAME=a:b [--tolerance T] [--watch NODE,DOF]'
+   real(wp), parameter :: LEAST_TOLERANCE = 1.0e-8_wp, MOST_TOLERANCE = 0.1_wp   !< the proof is good for 1e-9
 
    !> What the user asks for.
    type :: command_t
@@ -29,7 +33,10 @@ module atrito_command_line
       character(len=:), allocatable :: folder       !< -o; not allocated: the default
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
       character(len=7) :: solver = 'auto'           !< one of SOLVERS
-      type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order
+      character(len=6) :: contact = 'auto'          !< one of CONTACT_FORMS
+      type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order; of a limit NAME=a:b
+      real(wp) :: limit_tolerance = 1.0e-6_wp       !< of a limit
+      integer(ip) :: watched(2) = 0                 !< of a limit: node and dof; 0: the largest displacement
       integer(ip) :: threads = 1
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
       integer(ip) :: shape = 0                      !< nodes of all elements, set by a study; 0: as in the deck
@@ -40,7 +47,6 @@ module atrito_command_line
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
       logical :: quiet = .false.
       logical :: plot = .false.                     !< pictures by gnuplot
-      logical :: bench_limit = .false.              !< measure one linear solve, and do nothing else
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
    end type command_t
 
@@ -85,38 +91,18 @@ contains
       do i = 1, size(given)
          if (ok) call take_option(given(i), command, ok, error)
       end do
-      if (ok .and. command%bench_limit) call check_limit(given, ok, error)
       if (.not. ok) return
       ok = .false.
       if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
          error = wrong('a sweep needs the parameter that it varies', expected=SWEEP_FORM)
       else if (command%task == TASK_STUDY .and. command%levels == 0) then
          error = wrong('a study needs the number of its levels', expected=STUDY_FORM)
+      else if (command%task == TASK_LIMIT .and. size(command%vary) /= 1) then
+         error = wrong('a limit needs the one parameter that it varies', expected=LIMIT_FORM)
       else
          ok = .true.
       end if
    end subroutine parse_command
-
-   !> The limit is measured with one solver and one thread, and writes nothing; it needs MUMPS.
-   subroutine check_limit(given, ok, error)
-      type(given_t), intent(in) :: given(:)
-      logical, intent(out) :: ok
-      type(message_t), intent(inout) :: error
-      character(len=*), parameter :: KNOWN(4) = [character(len=13) :: '--bench-limit', '--set', '--refine', '--quiet']
-      integer :: i
-
-      ok = .false.
-      do i = 1, size(given)
-         if (any(KNOWN == OPTIONS(given(i)%option)%name)) cycle
-         error = wrong(trim(OPTIONS(given(i)%option)%name)//' does nothing with --bench-limit', &
-                       expected='atrito DECK.inp --bench-limit [--set NAME=VALUE] [--refine K] [--quiet]')
-         return
-      end do
-      ok = has_mumps()
-      if (ok) return
-      error = wrong('--bench-limit needs MUMPS, and '//mumps_trouble())
-      error%id = 'E-NOT-BUILT'
-   end subroutine check_limit
 
    !> Sorts arguments into names and options with their values.
    subroutine sort_arguments(arguments, names, given, ok, error)
@@ -220,6 +206,8 @@ contains
          call check_deck(command%names, SWEEP_FORM, ok, error)
       case (TASK_STUDY)
          call check_deck(command%names, STUDY_FORM, ok, error)
+      case (TASK_LIMIT)
+         call check_deck(command%names, LIMIT_FORM, ok, error)
       case (TASK_COMPARE)
          ok = size(command%names) == 2
          if (.not. ok) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
@@ -243,6 +231,8 @@ contains
          task = TASK_SWEEP
       case ('study')
          task = TASK_STUDY
+      case ('limit')
+         task = TASK_LIMIT
       case default
          task = TASK_RUN
       end select
@@ -299,6 +289,11 @@ contains
       case ('--vary')
          call append_string(command%vary, given%value)
          ok = index(given%value, '=') > 1
+      case ('--tolerance')
+         call take_real(given%value, MOST_TOLERANCE, command%limit_tolerance, ok)
+         ok = ok .and. command%limit_tolerance >= LEAST_TOLERANCE
+      case ('--watch')
+         call take_watched(given%value, command%watched, ok)
       case ('--refine')
          call take_integer(given%value, 0, MOST_LEVELS, command%refine, ok)
       case ('--levels')
@@ -311,6 +306,9 @@ contains
       case ('--solver')
          call take_solver(given%value, command, ok, error)
          return
+      case ('--contact')
+         ok = any(CONTACT_FORMS == given%value)
+         if (ok) command%contact = given%value
       case ('--threads')
          call take_integer(given%value, 1, MOST_THREADS, command%threads, ok)
       case ('--digits')
@@ -321,13 +319,24 @@ contains
          call take_real(given%value, huge(1.0_wp), command%atol, ok)
       case ('--plot')
          command%plot = .true.
-      case ('--bench-limit')
-         command%bench_limit = .true.
       case ('--quiet')
          command%quiet = .true.
       end select
       if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(name))
    end subroutine take_option
+
+   !> NODE,DOF
+   subroutine take_watched(value, watched, ok)
+      character(len=*), intent(in) :: value
+      integer(ip), intent(inout) :: watched(2)
+      logical, intent(out) :: ok
+      integer :: comma
+
+      comma = index(value, ',')
+      ok = comma > 1
+      if (ok) call take_integer(value(:comma - 1), 1, huge(1_ip), watched(1), ok)
+      if (ok) call take_integer(value(comma + 1:), 1, 2, watched(2), ok)
+   end subroutine take_watched
 
    !> Names of elements between commas, each once.
    subroutine take_elements(value, elements, ok)
@@ -403,7 +412,7 @@ contains
       if (ok) value = found
    end subroutine take_real
 
-   !> Where the tables go: -o, or output/ and the name of the deck without folder and .inp.
+   !> Where the tables go: -o, or output/ and the name of the deck without folder and .inp; a limit has a folder apart.
    pure function output_folder(command) result(folder)
       type(command_t), intent(in) :: command
       character(len=:), allocatable :: folder
@@ -412,6 +421,7 @@ contains
          folder = command%folder
       else
          folder = 'output/'//deck_name(command%names(1)%s)
+         if (command%task == TASK_LIMIT) folder = folder//'-limit'
       end if
    end function output_folder
 

@@ -5,18 +5,16 @@ module atrito_driver
    use atrito_body_store, only: body_store_t
    use atrito_check_report, only: compose_check
    use atrito_command_line, only: command_t, parse_command, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, &
-                                  TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_OPTIONS, TASK_VERSION
+                                  TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_lines, print_messages, print_status
    use atrito_files, only: ignore_broken_pipe
+   use atrito_heap, only: keep_freed_memory
    use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_libraries, only: version_lines
-   use atrito_limit, only: measure_limit
-   use atrito_limit_page, only: compose_limit
-   use atrito_limit_result, only: limit_t
    use atrito_messages, only: message_t, format_message, clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t, print_page
@@ -24,6 +22,7 @@ module atrito_driver
    use atrito_results, only: scene_t
    use atrito_run, only: run_deck, load_model, solve_options
    use atrito_solve, only: survey_scene
+   use atrito_stability_limit, only: run_limit
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE
    use atrito_strings, only: string_t, join, upper_case, nearest_names
    use atrito_study, only: run_study
@@ -48,6 +47,7 @@ contains
       type(body_store_t) :: store
       logical :: ok
 
+      call keep_freed_memory()
       call guard_interrupts()
       call ignore_broken_pipe()
       call set_blas_threads(1_ip)
@@ -62,18 +62,16 @@ contains
          call print_lines([string_t('    see:      atrito --help')], error_unit)
          return
       end if
-      if (command%threads > 1 .and. any(command%task == [TASK_RUN, TASK_STUDY])) call sleep_soon(command%threads)
+      if (command%threads > 1 .and. any(command%task == [TASK_RUN, TASK_STUDY, TASK_LIMIT])) call sleep_soon(command%threads)
       select case (command%task)
       case (TASK_RUN)
-         if (command%bench_limit) then
-            call limit_deck(command, code)
-         else
-            call run_deck(command, store, code)
-         end if
+         call run_deck(command, store, code)
       case (TASK_SWEEP)
          call run_sweep(command, code)
       case (TASK_STUDY)
          call run_study(command, code)
+      case (TASK_LIMIT)
+         call run_limit(command, code)
       case (TASK_CHECK)
          call check_deck(command, code)
       case (TASK_COMPARE)
@@ -105,6 +103,7 @@ contains
       integer(ip) :: told
 
       reporter%quiet = .true.
+      call set_threads(command%threads)             ! each has a place for fronts
       call load_model(command, reporter, model, told, code)
       if (code /= STATUS_OK) return
       call survey_scene(model, solve_options(command), scene, status)
@@ -117,31 +116,6 @@ contains
          call print_page(page, output_unit)
       end if
    end subroutine check_deck
-
-   !> Measures what one linear solve of a deck's scene costs; solves no contact, writes no file.
-   subroutine limit_deck(command, code)
-      type(command_t), intent(in) :: command
-      integer, intent(out) :: code
-      type(model_t) :: model
-      type(limit_t) :: limit
-      type(reporter_t) :: reporter
-      type(status_t) :: status
-      type(page_t) :: page
-      integer(ip) :: told
-
-      reporter%quiet = command%quiet
-      call load_model(command, reporter, model, told, code)
-      if (code /= STATUS_OK) return
-      call measure_limit(model, limit, status)
-      call print_messages(command%quiet, told + 1)
-      code = status%code
-      if (.not. is_ok(status)) then
-         call print_status(status, model%deck_path)
-         return
-      end if
-      call compose_limit(model, limit, page)
-      call print_page(page, output_unit)
-   end subroutine limit_deck
 
    subroutine compare_tables(command, code)
       type(command_t), intent(in) :: command

@@ -5,46 +5,51 @@ module atrito_option_table
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_OPTIONS, TASK_VERSION
-   public :: OPTIONS, SOLVERS, ELEMENT_NAMES, MOST_THREADS, MOST_LEVELS
+   public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
+             TASK_VERSION
+   public :: OPTIONS, SOLVERS, CONTACT_FORMS, ELEMENT_NAMES, MOST_THREADS, MOST_LEVELS
    public :: find_option, option_names, string_list, value_text, task_text
 
    integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
-   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4, TASK_SWEEP = 5, TASK_STUDY = 6
-   integer, parameter :: TASK_OPTIONS = 7           !< --help
-   integer, parameter :: TASK_VERSION = 8           !< --version
+   integer, parameter :: TASK_RUN = 1, TASK_CHECK = 2, TASK_COMPARE = 3, TASK_HELP = 4, TASK_SWEEP = 5, TASK_STUDY = 6, &
+                         TASK_LIMIT = 7
+   integer, parameter :: TASK_OPTIONS = 8           !< --help
+   integer, parameter :: TASK_VERSION = 9           !< --version
 
    character(len=7), parameter :: SOLVERS(5) = ['auto   ', 'skyline', 'banded ', 'sparse ', 'mumps  ']
+   character(len=6), parameter :: CONTACT_FORMS(3) = ['auto  ', 'dense ', 'sparse']
    integer, parameter :: MOST_THREADS = 1024
    integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
    character(len=4), parameter :: ELEMENT_NAMES(4) = ['cpe4', 'cps4', 'cpe9', 'cps9']
 
    !> An option, and which tasks know it.
    type :: option_t
-      character(len=13) :: name
+      character(len=11) :: name
       logical :: has_value
-      logical :: for_task(TASK_STUDY)               !< run, check, compare, help, sweep, study
+      logical :: for_task(TASK_LIMIT)               !< run, check, compare, help, sweep, study, limit
    end type option_t
 
    logical, parameter :: Y = .true., N = .false.
-   type(option_t), parameter :: OPTIONS(17) = [ &
-                                option_t('-o         ', Y, [Y, N, N, N, Y, Y]), &
-                                option_t('--set      ', Y, [Y, Y, N, N, Y, Y]), &
-                                option_t('--solver   ', Y, [Y, Y, N, N, Y, Y]), &
-                                option_t('--threads  ', Y, [Y, Y, N, N, Y, Y]), &
-                                option_t('--digits   ', Y, [Y, N, N, N, Y, Y]), &
-                                option_t('--quiet    ', N, [Y, Y, Y, N, Y, Y]), &
-                                option_t('--rtol     ', Y, [N, N, Y, N, N, N]), &
-                                option_t('--atol     ', Y, [N, N, Y, N, N, N]), &
-                                option_t('--refine   ', Y, [Y, Y, N, N, Y, Y]), &
-                                option_t('--plot     ', N, [Y, N, N, N, Y, Y]), &
-                                option_t('--bench-limit', N, [Y, N, N, N, N, N]), &
-                                option_t('--levels   ', Y, [N, N, N, N, N, Y]), &
-                                option_t('--vary     ', Y, [N, N, N, N, Y, N]), &
-                                option_t('--elements ', Y, [N, N, N, N, N, Y]), &
-                                option_t('--reference', Y, [N, N, N, N, N, Y]), &
-                                option_t('--help     ', N, [Y, Y, Y, Y, Y, Y]), &
-                                option_t('--version  ', N, [Y, Y, Y, Y, Y, Y])]
+   type(option_t), parameter :: OPTIONS(19) = [ &
+                                option_t('-o         ', Y, [Y, N, N, N, Y, Y, Y]), &
+                                option_t('--set      ', Y, [Y, Y, N, N, Y, Y, Y]), &
+                                option_t('--solver   ', Y, [Y, Y, N, N, Y, Y, Y]), &
+                                option_t('--contact  ', Y, [Y, Y, N, N, Y, Y, Y]), &
+                                option_t('--threads  ', Y, [Y, Y, N, N, Y, Y, Y]), &
+                                option_t('--digits   ', Y, [Y, N, N, N, Y, Y, Y]), &
+                                option_t('--quiet    ', N, [Y, Y, Y, N, Y, Y, Y]), &
+                                option_t('--rtol     ', Y, [N, N, Y, N, N, N, N]), &
+                                option_t('--atol     ', Y, [N, N, Y, N, N, N, N]), &
+                                option_t('--refine   ', Y, [Y, Y, N, N, Y, Y, Y]), &
+                                option_t('--plot     ', N, [Y, N, N, N, Y, Y, Y]), &
+                                option_t('--levels   ', Y, [N, N, N, N, N, Y, N]), &
+                                option_t('--vary     ', Y, [N, N, N, N, Y, N, Y]), &
+                                option_t('--tolerance', Y, [N, N, N, N, N, N, Y]), &
+                                option_t('--watch    ', Y, [N, N, N, N, N, N, Y]), &
+                                option_t('--elements ', Y, [N, N, N, N, N, Y, N]), &
+                                option_t('--reference', Y, [N, N, N, N, N, Y, N]), &
+                                option_t('--help     ', N, [Y, Y, Y, Y, Y, Y, Y]), &
+                                option_t('--version  ', N, [Y, Y, Y, Y, Y, Y, Y])]
 
 contains
 
@@ -79,8 +84,8 @@ contains
    pure function task_text(task) result(text)
       integer, intent(in) :: task
       character(len=:), allocatable :: text
-      character(len=14), parameter :: NAMES(TASK_STUDY) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ', &
-                                                           'atrito sweep  ', 'atrito study  ']
+      character(len=14), parameter :: NAMES(TASK_LIMIT) = ['a run         ', 'atrito check  ', 'atrito compare', 'atrito help   ', &
+                                                           'atrito sweep  ', 'atrito study  ', 'atrito limit  ']
 
       text = trim(NAMES(task))
    end function task_text
@@ -97,6 +102,10 @@ contains
          text = 'NAME=VALUE, VALUE an expression of numbers'
       case ('--vary')
          text = 'NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'
+      case ('--tolerance')
+         text = 'a number, 1e-8 to 0.1: of the interval round the limit, over the limit'
+      case ('--watch')
+         text = 'NODE,DOF: a node of the deck, and 1 or 2'
       case ('--refine')
          text = 'a whole number, 0 to '//to_text(int(MOST_LEVELS, ip))//': each element into 4, so many times'
       case ('--levels')
@@ -107,6 +116,8 @@ contains
          text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
       case ('--solver')
          text = 'auto, skyline, banded, sparse or mumps'
+      case ('--contact')
+         text = 'auto, dense or sparse'
       case ('--threads')
          text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
       case ('--digits')

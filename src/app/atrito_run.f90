@@ -20,7 +20,8 @@ module atrito_run
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: results_t, contact_result_t
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_static, solve_options_t, SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
+   use atrito_solve, only: solve_static, solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
+                           SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
                            SOLVER_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
@@ -147,7 +148,7 @@ contains
       folder = output_folder(command)
       call report_progress(reporter, 'write '//folder)
       told = count_messages()
-      if (command%plot) pictures = plot_names(results)       ! not allocated: an optional argument that is not there
+      if (command%plot) pictures = plot_names(model, results)       ! not allocated: an optional argument that is not there
       call claim_folder(folder, claim, status)
       if (is_ok(status)) call write_results(model, results, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
@@ -168,14 +169,16 @@ contains
    end subroutine write_run
 
    !> Reads a deck and builds its model. All messages are told; errors of the deck give STATUS_DECK.
-   subroutine load_model(command, reporter, model, told, code)
+   subroutine load_model(command, reporter, model, told, code, only_errors)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(out) :: model
       integer(ip), intent(out) :: told              !< messages printed so far
       integer, intent(out) :: code
+      logical, intent(in), optional :: only_errors  !< the others of this deck have been told
       type(deck_t) :: deck
       type(status_t) :: status
+      logical :: silent
 
       call report_progress(reporter, 'read  '//command%names(1)%s)
       call start_phase('read')
@@ -194,7 +197,9 @@ contains
          return
       end if
       call sort_messages()
-      call print_messages(command%quiet, 1_ip)
+      silent = .false.
+      if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
+      if (.not. silent) call print_messages(command%quiet, 1_ip)
       told = count_messages()
       if (count_messages(SEVERITY_ERROR) > 0) then
          code = STATUS_DECK
@@ -226,6 +231,9 @@ contains
       if (command%solver == 'banded') options%storage_kind = SOLVER_BANDED
       if (command%solver == 'sparse') options%storage_kind = SOLVER_SPARSE
       if (command%solver == 'mumps') options%storage_kind = SOLVER_MUMPS
+      options%contact_form = CONTACT_AUTO
+      if (command%contact == 'dense') options%contact_form = CONTACT_DENSE
+      if (command%contact == 'sparse') options%contact_form = CONTACT_SPARSE
    end function solve_options
 
 end module atrito_run

@@ -7,7 +7,7 @@ module atrito_memory
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: available_memory, memory_text
+   public :: available_memory, resident_memory, memory_text
 
    integer(lp), parameter :: KIB = 1024_lp
    integer(lp), parameter :: UNLIMITED = huge(1_lp)
@@ -18,6 +18,10 @@ module atrito_memory
          integer(c_int), value :: resource
          integer(c_long), intent(out) :: limits(2)     !< soft, hard
       end function c_getrlimit
+
+      integer(c_int) function c_getpagesize() bind(C, name='getpagesize')
+         import :: c_int
+      end function c_getpagesize
    end interface
 
 contains
@@ -28,6 +32,16 @@ contains
       bytes = min(count_of('/proc/meminfo', 'MemAvailable:', KIB), address_space_left(), &
                   count_of('/sys/fs/cgroup/memory.max', '', 1_lp))
    end function available_memory
+
+   !> Memory that the process holds now [bytes], libraries included; 0 where the system does not tell.
+   integer(lp) function resident_memory() result(bytes)
+      character(len=:), allocatable :: line            ! pages of the whole address space, then of what is there of it
+      logical :: found
+
+      bytes = 0_lp
+      call read_system_line('/proc/self/statm', '', line, found)
+      if (found) bytes = int(c_getpagesize(), lp)*leading_number(line(index(line, ' ') + 1:))
+   end function resident_memory
 
    !> Address space below the limit that `ulimit -v` sets [bytes].
    integer(lp) function address_space_left() result(bytes)
@@ -50,7 +64,6 @@ contains
       character(len=:), allocatable :: line
       character(len=*), parameter :: BLANKS = ' '//achar(9)  ! a tab follows the labels of /proc/self/status
       logical :: found
-      integer :: i, d
 
       bytes = UNLIMITED
       call read_system_line(path, label, line, found)
@@ -58,14 +71,21 @@ contains
       line = line(len(label) + 1:)
       line = line(max(verify(line, BLANKS), 1):)
       if (verify(line(:min(1, len(line))), '0123456789') > 0 .or. len(line) == 0) return
-      bytes = 0_lp
-      do i = 1, min(len(line), 15)
-         d = iachar(line(i:i)) - iachar('0')
-         if (d < 0 .or. d > 9) exit
-         bytes = 10_lp*bytes + int(d, lp)
-      end do
-      bytes = bytes*unit
+      bytes = unit*leading_number(line)
    end function count_of
+
+   !> The number that a text begins with; 0 where it does not.
+   pure integer(lp) function leading_number(text) result(number)
+      character(len=*), intent(in) :: text
+      integer :: i, d
+
+      number = 0_lp
+      do i = 1, min(len(text), 15)
+         d = iachar(text(i:i)) - iachar('0')
+         if (d < 0 .or. d > 9) exit
+         number = 10_lp*number + int(d, lp)
+      end do
+   end function leading_number
 
    !> '1.5 GiB'
    pure function memory_text(bytes) result(text)

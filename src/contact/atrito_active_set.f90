@@ -4,15 +4,15 @@
 !> the load, the finite dual steps take over (atrito_dual_steps).
 module atrito_active_set
    use atrito_kinds, only: ip, lp, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, &
-                                 FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
+                                 row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_dual_steps, only: take_dual_steps
    use atrito_line_factor, only: line_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: box_outcome_t, solve_box
+   public :: box_outcome_t, solve_box, is_settled
 
    !> Full steps, and unknowns for each where they are many: the front of a slip zone may move by a few points a step.
    integer(ip), parameter :: MOST_FULL_STEPS = 20, UNKNOWNS_A_STEP = 20
@@ -85,29 +85,65 @@ contains
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       integer(ip), intent(out) :: changes
-      real(wp) :: largest_pressure, slip_slack
+      real(wp) :: most
       integer(ip) :: i, old
 
-      largest_pressure = maxval([abs(state%q(:problem%n_normal))/problem%weight(:problem%n_normal), 0.0_wp])
+      most = OPENS*maxval([abs(state%q(:problem%n_normal))/problem%weight(:problem%n_normal), 0.0_wp])
       changes = 0
       do i = 1, problem%m
          old = state%state(i)
          select case (old)
          case (FREE)
             if (i <= problem%n_normal) then
-               if (state%q(i)/problem%weight(i) < -OPENS*largest_pressure) state%state(i) = AT_LOWER
+               if (is_in_tension(problem, bounds%d, state, i, most)) state%state(i) = AT_LOWER
             else if (abs(state%q(i))/(1 + SLIPS) > bounds%upper(i)) then
-               state%state(i) = merge(AT_UPPER, AT_LOWER, state%q(i) > 0.0_wp)
+               if (.not. is_vanishing(problem, bounds%d, state, i)) state%state(i) = merge(AT_UPPER, AT_LOWER, state%q(i) > 0.0_wp)
             end if
          case (AT_LOWER, AT_UPPER)
-            ! a slipping point sticks again when its slip falls below the sticking one by more than round-off
-            slip_slack = state%slack + SLIPS*abs(bounds%d(i)*state%q(i))
-            if (old == AT_LOWER .and. state%r(i) > slip_slack) state%state(i) = FREE
-            if (old == AT_UPPER .and. state%r(i) < -slip_slack) state%state(i) = FREE
+            if (is_released(problem, bounds%d, state, i)) state%state(i) = FREE
          end select
          if (state%state(i) /= old) changes = changes + 1
       end do
    end subroutine change_all
+
+   !> Whether no unknown breaks its condition.
+   logical function is_settled(problem, bounds, state)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(in) :: state
+      type(box_state_t) :: next
+      integer(ip) :: changes
+
+      next = state
+      call change_all(problem, bounds, next, changes)
+      is_settled = changes == 0
+   end function is_settled
+
+   !> Whether a closed point has a tension that is more than round-off.
+   pure logical function is_in_tension(problem, d, state, i, most)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: most               !< tension that may be round-off anywhere [F/L^2]
+
+      is_in_tension = state%q(i) < 0.0_wp
+      if (is_in_tension) is_in_tension = .not. is_vanishing(problem, d, state, i)
+      if (is_in_tension) is_in_tension = -state%q(i) > min(force_round_off(problem, d, state, i), most*problem%weight(i))
+   end function is_in_tension
+
+   !> Whether an open point is penetrated, or the slip of a slipping one is below that of a sticking one, by more than round-off.
+   pure logical function is_released(problem, d, state, i)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+      real(wp) :: wrong
+
+      wrong = merge(state%r(i), -state%r(i), state%state(i) == AT_LOWER) - SLIPS*abs(d(i)*state%q(i))
+      is_released = wrong > 0.0_wp
+      if (is_released) is_released = wrong > row_round_off(problem, state, i)
+   end function is_released
 
    !> A number that tells states apart (FNV-1a).
    pure integer(lp) function state_code(state) result(code)

@@ -1,10 +1,11 @@
-!> The nonlocal average S_rho of the paper on the quadrature points of one contact pair: P = W p.
+!> The nonlocal average S_rho of the paper on the quadrature points of one slave surface: P = W p.
 module atrito_average
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_friction_law, only: KERNEL_LINE
+   use atrito_neighbours, only: grid_t, build_grid, count_near, list_near
    implicit none (type, external)
    private
-   public :: average_t, identity_average, build_average, append_average, apply_average
+   public :: average_t, identity_average, build_average, count_entries, join_averages, apply_average
 
    !> 1 / integral of exp(1/(r^2-1)) over (-1,1): the constant c of the kernel, times rho.
    real(wp), parameter :: KERNEL_CONSTANT = 2.252283621043581_wp
@@ -36,33 +37,22 @@ contains
 
    !> W_jk = omega_rho(|x_j - x_k|) l_k, with rows that sum to one (KERNEL_POINTS) or with the constant of the whole line
    !> (KERNEL_LINE). The identity when rho is at most the least spacing of the points.
-   pure function build_average(x, length, rho, kernel) result(w)
+   pure function build_average(x, length, rho, kernel, start) result(w)
       real(wp), intent(in) :: x(:, :)      !< (2, n) [L]
       real(wp), intent(in) :: length(:)    !< quadrature weights [L]
       real(wp), intent(in) :: rho          !< [L], >= 0
       integer(ip), intent(in) :: kernel
+      integer(ip), intent(in), optional :: start(:)  !< the first points of the pairs on the surface; two pairs may share a node
       type(average_t) :: w
-      integer(ip) :: j, k, n
-      logical :: near(size(length))
+      integer(ip) :: j, k
 
-      n = size(length, kind=ip)
-      if (rho <= least_spacing(x)) then
-         w = identity_average(n)
+      if (rho <= least_spacing(x, start)) then
+         w = identity_average(size(length, kind=ip))
          return
       end if
-      w%n = n
-      w%is_identity = .false.
-      allocate (w%first(n + 1))
-      w%first(1) = 1
-      do j = 1, n
-         near = within(x, j, rho)
-         w%first(j + 1) = w%first(j) + count(near, kind=ip)
-      end do
-      allocate (w%column(w%first(n + 1) - 1), w%entry(w%first(n + 1) - 1))
-      do j = 1, n
-         near = within(x, j, rho)
+      call find_entries(x, rho, w)
+      do j = 1, w%n
          associate (first => w%first(j), last => w%first(j + 1) - 1)
-            w%column(first:last) = pack([(k, k=1, n)], near)
             do k = first, last
                w%entry(k) = kernel_value(norm2(x(:, w%column(k)) - x(:, j))/rho)*length(w%column(k))
             end do
@@ -75,14 +65,63 @@ contains
       end do
    end function build_average
 
-   !> Which points lie within rho of point j.
-   pure function within(x, j, rho) result(near)
+   !> Rows and columns of W. A point is near another as that one is near it, so that the points one after the other, each put into
+   !> the rows of its neighbours, make the columns of every row rise.
+   pure subroutine find_entries(x, rho, w)
       real(wp), intent(in) :: x(:, :), rho
-      integer(ip), intent(in) :: j
-      logical :: near(size(x, 2))
+      type(average_t), intent(inout) :: w
+      type(grid_t) :: grid
+      integer(ip), allocatable :: near(:), next(:)
+      integer(ip) :: pass, i, j, n
 
-      near = hypot(x(1, :) - x(1, j), x(2, :) - x(2, j)) < rho
-   end function within
+      w%n = size(x, 2, kind=ip)
+      w%is_identity = .false.
+      call build_grid(x, rho, grid)
+      allocate (w%first(w%n + 1), near(w%n), next(w%n))
+      next = 0
+      ! counted and filled by the same list: of two points whose distance is rho but for round-off, vector instructions and plain
+      ! ones may say different things
+      do pass = 1, 2
+         do j = 1, w%n
+            call list_near(grid, x, j, near, n)
+            do i = 1, n
+               if (pass == 2) w%column(next(near(i))) = j
+               next(near(i)) = next(near(i)) + 1
+            end do
+         end do
+         if (pass == 2) exit
+         w%first(1) = 1
+         do j = 1, w%n
+            w%first(j + 1) = w%first(j) + next(j)
+         end do
+         allocate (w%column(w%first(w%n + 1) - 1), w%entry(w%first(w%n + 1) - 1))
+         next = w%first(:w%n)
+      end do
+   end subroutine find_entries
+
+   !> How many entries build_average would make. Counting ends where there are more than `most`; what is told then is an estimate,
+   !> from the points counted so far.
+   pure integer(lp) function count_entries(x, rho, most, start) result(entries)
+      real(wp), intent(in) :: x(:, :)      !< (2, n) [L]
+      real(wp), intent(in) :: rho          !< [L], >= 0
+      integer(lp), intent(in) :: most
+      integer(ip), intent(in), optional :: start(:)  !< as in build_average
+      type(grid_t) :: grid
+      integer(ip) :: j, n
+
+      n = size(x, 2, kind=ip)
+      entries = n
+      if (rho <= least_spacing(x, start)) return
+      call build_grid(x, rho, grid)
+      entries = 0_lp
+      do j = 1, n
+         entries = entries + int(count_near(grid, x, j), lp)
+         if (entries > most) then
+            entries = int(real(entries, wp)*(real(n, wp)/real(j, wp)), lp)
+            return
+         end if
+      end do
+   end function count_entries
 
    !> exp(rho^2/(r^2 - rho^2)) at q = r/rho, zero from q = 1 on.
    pure real(wp) function kernel_value(q)
@@ -93,34 +132,46 @@ contains
       if (kernel_value < NO_WEIGHT) kernel_value = 0.0_wp
    end function kernel_value
 
-   !> The least distance [L] of two points that follow each other.
-   pure real(wp) function least_spacing(x)
+   !> The least distance [L] of two points that follow each other in a pair.
+   pure real(wp) function least_spacing(x, start)
       real(wp), intent(in) :: x(:, :)
+      integer(ip), intent(in), optional :: start(:)
+      logical :: begins(size(x, 2))
       integer(ip) :: j
 
+      begins = .false.
+      if (present(start)) begins(pack(start, start <= size(x, 2))) = .true.
       least_spacing = huge(least_spacing)
       do j = 2, size(x, 2, kind=ip)
-         least_spacing = min(least_spacing, norm2(x(:, j) - x(:, j - 1)))
+         if (.not. begins(j)) least_spacing = min(least_spacing, norm2(x(:, j) - x(:, j - 1)))
       end do
    end function least_spacing
 
-   !> Adds the points of one more pair, which are averaged among themselves.
-   pure subroutine append_average(w, more)
-      type(average_t), intent(inout) :: w
-      type(average_t), intent(in) :: more
-      integer(ip) :: entries
+   !> The averages of several pairs as one: the points of each are averaged among themselves.
+   pure function join_averages(list) result(w)
+      type(average_t), intent(in) :: list(:)
+      type(average_t) :: w
+      integer(ip) :: i, entries, n
 
-      if (.not. allocated(w%first)) then
-         w = more
-         return
-      end if
-      entries = w%first(w%n + 1) - 1
-      w%first = [w%first, more%first(2:) + entries]
-      w%column = [w%column, more%column + w%n]
-      w%entry = [w%entry, more%entry]
-      w%is_identity = w%is_identity .and. more%is_identity
-      w%n = w%n + more%n
-   end subroutine append_average
+      n = sum(list%n)
+      entries = 0
+      do i = 1, size(list, kind=ip)
+         entries = entries + size(list(i)%entry, kind=ip)
+      end do
+      allocate (w%first(n + 1), w%column(entries), w%entry(entries))
+      w%first(1) = 1
+      entries = 0
+      do i = 1, size(list, kind=ip)
+         associate (more => list(i), last => entries + size(list(i)%entry))
+            w%first(w%n + 2:w%n + 1 + more%n) = more%first(2:) + entries
+            w%column(entries + 1:last) = more%column + w%n
+            w%entry(entries + 1:last) = more%entry
+            w%is_identity = w%is_identity .and. more%is_identity
+            w%n = w%n + more%n
+            entries = last
+         end associate
+      end do
+   end function join_averages
 
    !> P = W p.
    pure function apply_average(w, p) result(average)

@@ -8,6 +8,7 @@
 !>
 !> C is the flexibility of the bodies seen from the points, D the compliances of the laws (delta/w, eps/(w tau)), G the rigid
 !> motions at the points, h the loads' work on them (docs/theory/formulation.md, section 4).
+!> With a shift v in the state, r = g0 + v - (C + D) q + G a.
 module atrito_box_problem
    use atrito_kinds, only: ip, wp
    use atrito_dense, only: solve_cholesky, eigen_symmetric
@@ -17,7 +18,8 @@ module atrito_box_problem
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, set_residual
+   public :: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, set_residual, clear_vanishing, &
+             is_vanishing, row_round_off, force_round_off
    public :: FREE, AT_LOWER, AT_UPPER, FROZEN, DEPENDENT_POINTS
 
    !> State of an unknown. FROZEN: q = 0 whatever r is (a point without friction).
@@ -31,7 +33,9 @@ module atrito_box_problem
       real(wp), allocatable :: g(:, :)           !< (m, k) dimensionless
       real(wp), allocatable :: g0(:)             !< (m) [L]
       real(wp), allocatable :: h(:)              !< (k) [F]
+      real(wp), allocatable :: h_size(:)         !< (k) [F] the same of all forces without sign; not allocated: |h|
       real(wp), allocatable :: weight(:)         !< (m) weight of the point [L^2]: stress = q / weight
+      logical :: is_coarse = .false.             !< all rows have the round-off of the largest
    end type box_problem_t
 
    type :: box_bounds_t
@@ -44,21 +48,25 @@ module atrito_box_problem
       real(wp), allocatable :: q(:)              !< (m) [F]
       real(wp), allocatable :: a(:)              !< (k) [L]
       real(wp), allocatable :: r(:)              !< (m) [L]
-      real(wp) :: slack = 0.0_wp                 !< round-off of r: a fixed unknown is released when r is wrong by more [L]
+      real(wp), allocatable :: shift(:)          !< (m) [L] added to g0 (atrito_proximal); not allocated: none
+      real(wp) :: slack = 0.0_wp                 !< round-off of the largest r, whatever its row [L]
    end type box_state_t
 
    !> What a solve with a given set of free unknowns found besides q, a, r.
    type :: equality_solution_t
       logical :: moves = .false.                 !< the free set does not hold a motion that the load works on
       real(wp), allocatable :: motion(:)         !< (k) that motion, in the direction of the load
+      logical :: hardly = .false.                !< with moves: so little load that the body rests where nothing stops it
       real(wp), allocatable :: idle(:)           !< (k) a motion that neither the free set nor the load touches; else not allocated
       real(wp) :: condition = 1.0_wp             !< of the scaled matrix of the free set
       integer(ip) :: dependent = 0               !< an unknown whose row depends on others; 0: none
    end type equality_solution_t
 
    real(wp), parameter :: NULL_MOTION = 1.0e-12_wp  !< eigenvalue of a motion that the free set does not hold
-   real(wp), parameter :: NO_LOAD = 1.0e-9_wp       !< part of the load in such a motion that is none
+   real(wp), parameter :: NO_LOAD = 1.0e-13_wp      !< part of the load in such a motion that is none
+   real(wp), parameter :: LITTLE_LOAD = 1.0e-9_wp   !< that is none where nothing stops the motion
    real(wp), parameter :: CLOSES = 1.0e-14_wp       !< round-off of r, of the terms it is made of
+   real(wp), parameter :: VANISHING = 1.0e-25_wp    !< of the force that would undo the displacements: refinement leaves it of 0
    character(len=*), parameter :: DEPENDENT_POINTS = 'dependent contact points'
 
 contains
@@ -128,6 +136,7 @@ contains
       moved = 0.0_wp
       if (any(held /= 0.0_wp)) call multiply_symmetric(problem%c, held, moved)
       system%rhs = (problem%g0(system%set) - moved(system%set))*system%scale
+      if (allocated(state%shift)) system%rhs = system%rhs + state%shift(system%set)*system%scale
       system%load = problem%h - matmul(transpose(problem%g), held)
       system%g = problem%g(system%set, :)
       do i = 1, size(system%set, kind=ip)
@@ -161,7 +170,7 @@ contains
          call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
          q = q + correction + matmul(y, da)
          a = a + da
-         call judge_motions(problem, vectors, values, column_scale, gs, load, held, q, solution)
+         call judge_motions(problem, vectors, values, column_scale, system, held, q, a, solution)
       end associate
    end subroutine solve_saddle
 
@@ -202,32 +211,67 @@ contains
    end subroutine solve_motions
 
    !> Whether the load works on a motion that the free set does not hold: then solution%moves. The load is measured by the forces of
-   !> the solution; those before the bodies have moved to where they touch may be larger by any factor, and say nothing.
-   subroutine judge_motions(problem, vectors, values, column_scale, gs, load, held, q, solution)
+   !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
+   !> may be larger by any factor, and say nothing.
+   subroutine judge_motions(problem, vectors, values, column_scale, system, held, q, a, solution)
       type(box_problem_t), intent(in) :: problem
-      real(wp), intent(in) :: vectors(:, :), values(:), column_scale(:), gs(:, :), load(:), held(:)
+      real(wp), intent(in) :: vectors(:, :), values(:), column_scale(:), held(:)
+      type(free_system_t), intent(in) :: system
       real(wp), intent(in) :: q(:)               !< scaled, of the free set
+      real(wp), intent(in) :: a(:)
       type(equality_solution_t), intent(inout) :: solution
-      real(wp) :: force(problem%k), size_of_load, part, motion(problem%k)
+      real(wp) :: all_q(problem%m), none(problem%m), work(problem%k), size_of_work(problem%k), motion(problem%k), way(problem%k)
+      real(wp) :: part, size_of_part, round_off
       integer(ip) :: j
 
       if (all(values > NULL_MOTION)) return
-      force = (load - matmul(transpose(gs), q))*column_scale
-      size_of_load = maxval([(sum(abs(problem%g(:, j)*held)) + sum(abs(gs(:, j)*q)) + abs(problem%h(j)), j=1, problem%k)])
+      solution%hardly = .true.
+      all_q = held
+      all_q(system%set) = q*system%scale
+      none = min(abs(all_q), VANISHING*forces_of_places(problem, system, a))
+      work = problem%h - matmul(transpose(problem%g), all_q)
+      size_of_work = size_of_load(problem) + matmul(transpose(abs(problem%g)), abs(all_q))
       motion = 0.0_wp
       do j = 1, problem%k
          if (values(j) > NULL_MOTION) cycle
-         part = dot_product(vectors(:, j), force)
-         if (abs(part)/maxval(abs(vectors(:, j)*column_scale)) > NO_LOAD*size_of_load) then
+         way = vectors(:, j)*column_scale
+         part = dot_product(way, work)
+         size_of_part = dot_product(abs(way), size_of_work)
+         round_off = dot_product(abs(matmul(problem%g, way)), none)
+         if (abs(part) > NO_LOAD*size_of_part + round_off) then
             motion = motion + vectors(:, j)*part
+            solution%hardly = solution%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
          else
-            solution%idle = vectors(:, j)*column_scale
+            solution%idle = way
          end if
       end do
       if (all(motion == 0.0_wp)) return
       solution%moves = .true.
       solution%motion = motion*column_scale
    end subroutine judge_motions
+
+   pure function size_of_load(problem)
+      type(box_problem_t), intent(in) :: problem
+      real(wp) :: size_of_load(problem%k)
+
+      size_of_load = abs(problem%h)
+      if (allocated(problem%h_size)) size_of_load = problem%h_size
+   end function size_of_load
+
+   !> The force [F] that each unknown alone would need to undo what its displacement is made of.
+   pure function forces_of_places(problem, system, a) result(force)
+      type(box_problem_t), intent(in) :: problem
+      type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: a(:)
+      real(wp) :: force(problem%m)
+      integer(ip) :: i
+
+      force = abs(problem%g0) + abs(matmul(problem%g, a))
+      do i = 1, problem%m
+         if (problem%c(i, i) > 0.0_wp) force(i) = force(i)/problem%c(i, i)
+      end do
+      force(system%set) = (abs(problem%g0(system%set)) + abs(matmul(problem%g(system%set, :), a)))*system%scale**2
+   end function forces_of_places
 
    !> Sets r = g0 - (C + D) q + G a and its round-off.
    subroutine set_residual(problem, d, state)
@@ -239,8 +283,65 @@ contains
       call multiply_symmetric(problem%c, state%q, cq)
       moved = matmul(problem%g, state%a)
       state%r = problem%g0 - cq - d*state%q + moved
+      if (allocated(state%shift)) state%r = state%r + state%shift
       state%slack = CLOSES*(largest(problem%g0) + largest(cq) + largest(moved))
    end subroutine set_residual
+
+   !> Round-off of one r, of the terms that it is made of [L]: a fixed unknown is released when r is wrong by more. Rows of stiff
+   !> bodies beside soft ones have far less of it than state%slack.
+   pure real(wp) function row_round_off(problem, state, i) result(slack)
+      type(box_problem_t), intent(in) :: problem
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+      integer(ip) :: j
+
+      if (problem%is_coarse) then
+         slack = state%slack
+         return
+      end if
+      slack = abs(problem%g0(i))
+      if (allocated(state%shift)) slack = slack + abs(state%shift(i))
+      do j = 1, problem%k
+         slack = slack + abs(problem%g(i, j)*state%a(j))
+      end do
+      do j = 1, problem%m
+         slack = slack + abs(problem%c(j, i)*state%q(j))
+      end do
+      slack = CLOSES*slack
+   end function row_round_off
+
+   !> The same as a force [F].
+   pure real(wp) function force_round_off(problem, d, state, i) result(force)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+
+      force = row_round_off(problem, state, i)/(problem%c(i, i) + d(i))
+   end function force_round_off
+
+   !> Forces that are what refinement leaves of none become none.
+   pure subroutine clear_vanishing(problem, d, state)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(box_state_t), intent(inout) :: state
+      integer(ip) :: i
+
+      do i = 1, problem%m
+         if (is_vanishing(problem, d, state, i)) state%q(i) = 0.0_wp
+      end do
+   end subroutine clear_vanishing
+
+   !> Whether a force is what refinement leaves of none.
+   pure logical function is_vanishing(problem, d, state, i)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: d(:)               !< (m) [L/F]
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+
+      ! a place may be met exactly by a force that is none
+      is_vanishing = abs(state%q(i))*(problem%c(i, i) + d(i)) <= VANISHING*(state%slack/CLOSES)
+   end function is_vanishing
 
    pure real(wp) function largest(x)
       real(wp), intent(in) :: x(:)

@@ -7,13 +7,14 @@
 module atrito_coarse_line
    use atrito_average, only: average_t, identity_average
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
-   use atrito_contact_line, only: contact_line_t, number_unknowns, normal_bounds, friction_bound
+   use atrito_contact_line, only: contact_line_t, last_of_pair, number_unknowns, normal_bounds, friction_bound
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: interpolation_t, coarsen_line, start_from_coarse
+   public :: interpolation_t, has_coarse_line, coarsen_line, start_from_coarse
 
    integer(ip), parameter :: STRIDE = 4_ip
+   integer(ip), parameter :: LEAST_RATIO = 2_ip  !< of the points, for which a coarse line is worth while
 
    !> How the points of a line lie between those of its coarse line.
    type :: interpolation_t
@@ -23,6 +24,15 @@ module atrito_coarse_line
    end type interpolation_t
 
 contains
+
+   !> Whether the coarse line is clearly smaller. Pairs of few points keep most of them; so a line of coarse lines comes to its end.
+   pure logical function has_coarse_line(line)
+      type(contact_line_t), intent(in) :: line
+      type(interpolation_t) :: interpolation
+
+      call choose_points(line, interpolation)
+      has_coarse_line = LEAST_RATIO*size(interpolation%point, kind=ip) <= line%n
+   end function has_coarse_line
 
    !> The coarse line and its box problem.
    subroutine coarsen_line(problem, line, interpolation, coarse_problem, coarse_line)
@@ -63,15 +73,6 @@ contains
       end do
       interpolation%point = chosen(:n)
    end subroutine choose_points
-
-   !> The last point of the pair that begins at `first`.
-   pure integer(ip) function last_of_pair(line, first) result(last)
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: first
-
-      last = line%n
-      if (allocated(line%pair)) last = first - 1 + count(line%pair == line%pair(first), kind=ip)
-   end function last_of_pair
 
    subroutine build_coarse_line(line, interpolation, coarse)
       type(contact_line_t), intent(in) :: line
@@ -160,6 +161,7 @@ contains
       coarse%k = problem%k
       coarse%n_normal = count(coarse_line%normal > 0, kind=ip)
       coarse%h = problem%h
+      if (allocated(problem%h_size)) coarse%h_size = problem%h_size
       coarse%weight = coarse_line%weight(coarse_line%point)
       allocate (coarse%g0(coarse%m), coarse%g(coarse%m, coarse%k), coarse%c(coarse%m, coarse%m), source=0.0_wp)
       allocate (half(problem%m, coarse%m), source=0.0_wp)

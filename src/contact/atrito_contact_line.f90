@@ -6,7 +6,8 @@ module atrito_contact_line
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: contact_line_t, number_unknowns, pressure_of, shear_force_of, friction_bound, normal_bounds, set_friction_bounds
+   public :: contact_line_t, number_unknowns, last_of_pair, pressure_of, shear_force_of, friction_bound, normal_bounds, &
+             set_friction_bounds
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
    !> displacement less the distance, and its slip, are known numbers.
@@ -31,25 +32,41 @@ contains
    pure subroutine number_unknowns(line, normal_row, tangential_row)
       type(contact_line_t), intent(inout) :: line
       logical, intent(in) :: normal_row(:), tangential_row(:)  !< (n) the point has a row
+      logical :: has_tangential(line%n)
       integer(ip) :: j, m
 
       allocate (line%normal(line%n), line%tangential(line%n), source=0_ip)
-      allocate (line%point(0))
       line%has_friction = any(line%law%kind /= FRICTION_NONE)
+      has_tangential = tangential_row .and. line%law%kind /= FRICTION_NONE
+      allocate (line%point(count(normal_row) + count(has_tangential)))
       m = 0
       do j = 1, line%n
          if (.not. normal_row(j)) cycle
          m = m + 1
          line%normal(j) = m
-         line%point = [line%point, j]
+         line%point(m) = j
       end do
       do j = 1, line%n
-         if (.not. tangential_row(j) .or. line%law(j)%kind == FRICTION_NONE) cycle
+         if (.not. has_tangential(j)) cycle
          m = m + 1
          line%tangential(j) = m
-         line%point = [line%point, j]
+         line%point(m) = j
       end do
    end subroutine number_unknowns
+
+   !> The last point of the pair that begins at `first`.
+   pure integer(ip) function last_of_pair(line, first) result(last)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: first
+
+      last = line%n
+      if (.not. allocated(line%pair)) return
+      last = first
+      do while (last < line%n)
+         if (line%pair(last + 1) /= line%pair(first)) exit
+         last = last + 1
+      end do
+   end function last_of_pair
 
    !> Pressure p [F/L^2] at the points from the forces q.
    pure function pressure_of(line, q) result(p)

@@ -9,8 +9,8 @@
 !>         does, there is no equilibrium.
 module atrito_dual_steps
    use atrito_kinds, only: ip, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, &
-                                 FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
+                                 row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_line_factor, only: line_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
@@ -20,8 +20,8 @@ module atrito_dual_steps
 
    !> State of the unknown that is being driven to its bound: fixed, its multiplier not yet judged.
    integer(ip), parameter :: DRIVEN = 4
-   real(wp), parameter :: BREAKS = 1.0e-13_wp        !< a bound is broken by more than this of the largest force
    real(wp), parameter :: LEAST_RATE = 1.0e-14_wp    !< of a multiplier along a motion, relative to the largest
+   real(wp), parameter :: BREAKS = 1.0e-13_wp        !< of the largest force: a bound that is broken by less may be round-off
    integer(ip), parameter :: SOLVES_PER_UNKNOWN = 6
 
 contains
@@ -36,7 +36,7 @@ contains
       logical, intent(out) :: solved
       type(status_t), intent(out) :: status
       type(line_factor_t), intent(inout), optional :: kept
-      integer(ip) :: left, worst, bound
+      integer(ip) :: left, worst, bound, i
 
       solved = .false.
       left = SOLVES_PER_UNKNOWN*problem%m + 50
@@ -44,8 +44,11 @@ contains
       do while (is_ok(status) .and. left > 0 .and. .not. solution%moves)
          call find_worst(problem, bounds, state, worst, bound)
          if (worst == 0) then
-            solved = .true.
-            return
+            ! an idle motion may have turned a multiplier
+            solved = .not. any([(is_wrong(problem, state, i), i=1, problem%m)])
+            if (solved) return
+            call release_until_right(problem, bounds, state, history, solution, left, status, kept)
+            cycle
          end if
          call drive_to_bound(problem, bounds, worst, bound, state, history, solution, left, status, kept)
       end do
@@ -72,14 +75,17 @@ contains
          if (.not. is_ok(status)) return
          released = 0
          do i = 1, problem%m
-            if (sign_of(state%state(i))*state%r(i) >= -state%slack) cycle
+            if (.not. is_wrong(problem, state, i)) cycle
             state%state(i) = FREE
             released = released + 1
          end do
          if (released > 0) cycle
          if (.not. solution%moves) return
          call find_first_reached(problem, state, solution%motion, first, t)
-         if (first == 0) return
+         if (first == 0) then
+            call rest(solution)
+            return
+         end if
          state%state(first) = FREE
          solution%moves = .false.
       end do
@@ -110,7 +116,11 @@ contains
          if (solution%moves) then
             motion = opening_motion(problem, i, bound, solution%motion)
             call find_first_reached(problem, state, motion, first, t)
-            if (first == 0) exit
+            if (first == 0) then
+               call rest(solution)
+               if (.not. solution%moves) state = target
+               exit
+            end if
             state%a = state%a + t*motion
             state%r = state%r + t*matmul(problem%g, motion)
             solution%moves = .false.
@@ -128,6 +138,27 @@ contains
       end do
       state%state(i) = bound
    end subroutine drive_to_bound
+
+   !> A body that nothing stops and hardly anything drives rests.
+   pure subroutine rest(solution)
+      type(equality_solution_t), intent(inout) :: solution
+
+      if (.not. solution%hardly) return
+      solution%moves = .false.
+      solution%idle = solution%motion
+   end subroutine rest
+
+   !> Whether r of a fixed unknown has the wrong sign, by more than round-off.
+   pure logical function is_wrong(problem, state, i)
+      type(box_problem_t), intent(in) :: problem
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+      real(wp) :: wrong
+
+      wrong = -sign_of(state%state(i))*state%r(i)
+      is_wrong = wrong > 0.0_wp
+      if (is_wrong) is_wrong = wrong > row_round_off(problem, state, i)
+   end function is_wrong
 
    subroutine solve_and_record(problem, bounds, state, history, solution, left, status, kept)
       type(box_problem_t), intent(in) :: problem
@@ -150,17 +181,21 @@ contains
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
       integer(ip), intent(out) :: worst, bound
-      real(wp) :: most, excess
+      real(wp) :: most, excess, little
       integer(ip) :: i
 
       worst = 0
       bound = AT_LOWER
       most = 0.0_wp
-      if (problem%m > 0) most = BREAKS*maxval(abs(state%q))
+      little = BREAKS*maxval([abs(state%q), 0.0_wp])
       do i = 1, problem%m
          if (state%state(i) /= FREE) cycle
          excess = max(bounds%lower(i) - state%q(i), state%q(i) - bounds%upper(i))
          if (excess <= most) cycle
+         if (is_vanishing(problem, bounds%d, state, i)) cycle
+         if (excess <= little) then
+            if (excess <= force_round_off(problem, bounds%d, state, i)) cycle
+         end if
          most = excess
          worst = i
          bound = merge(AT_LOWER, AT_UPPER, state%q(i) < bounds%lower(i))

@@ -3,15 +3,17 @@
 !> NODAL quadrature, as in the paper: the points are the slave's nodes, trapezoidal for Q1 and Simpson for Q2. Each looks along
 !> the slave's normal for the master, element faces or rigid segments.
 module atrito_points
-   use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_mesh, only: mesh_t, face_nodes, FACES
    use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, look_along, look_at_end, nearest_end
+   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, &
+                            look_at_end, nearest_end
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
-   public :: contact_points_t, pair_surfaces
+   public :: contact_points_t, pair_surfaces, pair_with_master, finds_master
 
    integer(ip), parameter, public :: MOST_MASTER_NODES = 3
 
@@ -28,6 +30,7 @@ module atrito_points
       integer(ip), allocatable :: master_node(:, :) !< (3, n)
       real(wp), allocatable :: master_shape(:, :)   !< (3, n)
       integer(ip) :: n_faces = 0, n_left_out = 0    !< slave faces; those of them that find no master
+      integer(lp), allocatable :: faces(:)          !< a number of its own for each of the slave's faces that are not left out
       logical :: matching = .false.                 !< every point faces a master node and the orders are equal
       logical :: rigid = .false.
    end type contact_points_t
@@ -42,7 +45,7 @@ module atrito_points
    end type nodal_rule_t
 
    !> From this sine on two faces meet at a corner, and do not stand for a curve.
-   real(wp), parameter :: CORNER = 0.8_wp
+   real(wp), parameter, public :: CORNER = 0.8_wp
    !> Errors of rounding that a distance may have.
    real(wp), parameter :: ROUND_OFFS = 8.0_wp
    !> Sides match when their nodes are this close, in parts of an edge.
@@ -61,26 +64,37 @@ contains
       logical, intent(in), optional :: is_arc(:)    !< (pieces) of the rigid segments; default: straight
       real(wp), intent(in), optional :: centre(:, :) !< (2, pieces) of the arcs [L]
       type(master_t) :: master
-      integer(ip), allocatable :: place(:)
-      logical, allocatable :: used(:)
-      integer(ip) :: i
 
       if (master_faces%n > 0) then
          call master_of_faces(mesh, master_faces, master)
       else
          call master_of_segments(master_points, master, is_arc, centre)
       end if
+      call pair_with_master(mesh, thickness, slave, master_faces, master, points)
+   end subroutine pair_surfaces
+
+   !> The same with a master that several pairs share.
+   pure subroutine pair_with_master(mesh, thickness, slave, master_faces, master, points)
+      type(mesh_t), intent(in) :: mesh
+      real(wp), intent(in) :: thickness(:)          !< of each element [L]
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
+      type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
+      type(master_t), intent(in) :: master          !< of these faces
+      type(contact_points_t), intent(out) :: points
+      logical, allocatable :: used(:)
+      integer(ip) :: i
+
       points%rigid = master%rigid
       points%n_faces = slave%n
       used = [(finds_master(mesh, slave, i, master), i=1, slave%n)]
       points%n_left_out = count(.not. used, kind=ip)
+      points%faces = pack([(int(slave%element(i), lp)*FACES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(points, 3*slave%n)
-      allocate (place(mesh%n_nodes), source=0_ip)
-      call place_points(mesh, thickness, slave, used, points, place)
+      call place_points(mesh, thickness, slave, used, points)
       call trim_points(points)
       call look_for_master(mesh, master, master_faces, points)
-      if (.not. master%rigid) points%matching = are_matching(mesh, slave, master_faces, points)
-   end subroutine pair_surfaces
+      if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
+   end subroutine pair_with_master
 
    !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave that normal is
    !> only as good as the faces resolve the curve: at the end of the master it may miss by as much as the normal turns at the face.
@@ -97,10 +111,13 @@ contains
       finds = .true.
       do k = 1, rule%n
          associate (x => mesh%x(:, rule%node(k)), normal => rule%normal(:, k), reach => rule%s(rule%n))
+            finds = .not. is_out_of_sight(x, normal, CORNER, master)
+            if (.not. finds) return
             sight = look_along(x, normal, reach, master)
             if (sight%piece == 0) sight = look_at_end(x, normal, reach, turn_at(mesh, slave, i, rule), master)
          end associate
-         finds = finds .and. sight%piece > 0
+         finds = sight%piece > 0
+         if (.not. finds) return
       end do
    end function finds_master
 
@@ -140,27 +157,25 @@ contains
    end subroutine allocate_points
 
    !> One point a slave node; weights and normals of the faces that share it are summed.
-   pure subroutine place_points(mesh, thickness, slave, used, points, place)
+   pure subroutine place_points(mesh, thickness, slave, used, points)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)
       type(face_list_t), intent(in) :: slave
       logical, intent(in) :: used(:)
       type(contact_points_t), intent(inout) :: points
-      integer(ip), intent(inout) :: place(:)        !< point of a node, 0 so far
+      type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule
       real(wp) :: s
-      integer(ip) :: i, k
+      integer(ip) :: i, j, k
 
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
          do k = 1, merge(rule%n, 0_ip, used(i))
-            call add_point(mesh, rule%node(k), s + rule%s(k), points, place)
-            associate (j => place(rule%node(k)))
-               points%length(j) = points%length(j) + rule%weight(k)
-               points%weight(j) = points%weight(j) + rule%weight(k)*thickness(slave%element(i))
-               points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
-            end associate
+            call add_point(mesh, rule%node(k), s + rule%s(k), points, place, j)
+            points%length(j) = points%length(j) + rule%weight(k)
+            points%weight(j) = points%weight(j) + rule%weight(k)*thickness(slave%element(i))
+            points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
          end do
          s = s + rule%s(rule%n)
       end do
@@ -210,16 +225,20 @@ contains
       end do
    end function nodal_rule
 
-   pure subroutine add_point(mesh, node, s, points, place)
+   !> The point of a node, which is made when it is new.
+   pure subroutine add_point(mesh, node, s, points, place, j)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: node
       real(wp), intent(in) :: s
       type(contact_points_t), intent(inout) :: points
-      integer(ip), intent(inout) :: place(:)
+      type(id_map_t), intent(inout) :: place
+      integer(ip), intent(out) :: j
+      logical :: known
 
-      if (place(node) > 0) return
+      call add_id(place, node, points%n + 1, known)
+      j = find_id(place, node)
+      if (known) return
       points%n = points%n + 1
-      place(node) = points%n
       points%node(points%n) = node
       points%x(:, points%n) = mesh%x(:, node)
       points%s(points%n) = s
@@ -251,14 +270,17 @@ contains
       type(contact_points_t), intent(inout) :: points
       type(sight_t) :: sight
       integer(ip), allocatable :: nodes(:)
+      real(wp) :: round_off
       integer(ip) :: i, n
 
+      if (points%n == 0) return
+      round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x))
       do i = 1, points%n
          sight = look_along(points%x(:, i), points%normal(:, i), 2*points%length(i), master)
          ! where two faces meet at an angle, the mean normal may miss the end of the master
          if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master)
          points%gap(i) = sight%distance
-         if (abs(sight%distance) <= ROUND_OFFS*EPS_MACH*maxval(abs(points%x))) points%gap(i) = 0.0_wp
+         if (abs(sight%distance) <= round_off) points%gap(i) = 0.0_wp
          if (master%rigid) cycle
          nodes = face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))
          n = size(nodes, kind=ip)
@@ -269,9 +291,10 @@ contains
    end subroutine look_for_master
 
    !> Each slave node faces a master node, and both sides are of one order.
-   pure logical function are_matching(mesh, slave, faces, points)
+   pure logical function are_matching(mesh, slave, master, points)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave, faces
+      type(face_list_t), intent(in) :: slave
+      type(master_t), intent(in) :: master
       type(contact_points_t), intent(in) :: points
       integer(ip) :: i
 
@@ -279,8 +302,7 @@ contains
       do i = 1, points%n
          are_matching = are_matching .and. maxval(points%master_shape(:, i)) >= 1 - 4*MATCH_TOLERANCE
       end do
-      if (slave%n > 0) are_matching = are_matching .and. &
-                                      all(mesh%shape(faces%element(:faces%n)) == mesh%shape(slave%element(1)))
+      if (slave%n > 0) are_matching = are_matching .and. master%shape == mesh%shape(slave%element(1))
    end function are_matching
 
 end module atrito_points

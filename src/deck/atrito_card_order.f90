@@ -12,7 +12,7 @@ module atrito_card_order
       logical :: in_step = .false.
       integer :: n_steps = 0
       type(token_t) :: step                        !< the *STEP begun last
-      character(len=24) :: parent = ''             !< keyword to whose block the next ones belong
+      character(len=32) :: parent = ''             !< keyword to whose block the next ones belong
       logical :: incomplete = .false.              !< a file could not be read: no word about what is missing
    end type order_t
 

@@ -42,7 +42,7 @@ module atrito_deck
 
    type :: card_t
       integer :: keyword = KEYWORD_UNKNOWN         !< index in deck%keywords
-      character(len=24) :: name = ''               !< as in the table, e.g. 'CONTACT PAIR'; blank: KEYWORD_UNKNOWN
+      character(len=32) :: name = ''               !< as in the table, e.g. 'CONTACT PAIR'; blank: KEYWORD_UNKNOWN
       type(token_t) :: place                       !< the keyword itself
       type(option_t), allocatable :: options(:)
       integer(ip) :: first_line = 1                !< deck%lines(first_line : first_line + n_lines - 1)

@@ -14,20 +14,22 @@ contains
    subroutine define_mesh_keywords(table)
       type(keyword_t), allocatable, intent(out) :: table(:)
 
-      allocate (table(13))
+      allocate (table(15))
       call define_heading(table(1))
       call define_include(table(2))
       call define_parameter(table(3))
       call define_node(table(4))
       call define_ngen(table(5))
       call define_nfill(table(6))
-      call define_nset(table(7))
-      call define_element(table(8))
-      call define_elgen(table(9))
-      call define_elset(table(10))
-      call define_block(table(11))
-      call define_surface(table(12))
-      call define_rigid_body(table(13))
+      call define_ncopy(table(7))
+      call define_nset(table(8))
+      call define_element(table(9))
+      call define_elgen(table(10))
+      call define_elcopy(table(11))
+      call define_elset(table(12))
+      call define_block(table(13))
+      call define_surface(table(14))
+      call define_rigid_body(table(15))
    end subroutine define_mesh_keywords
 
    subroutine define_heading(k)
@@ -104,6 +106,46 @@ contains
       call add_item(k, 'increment', KIND_INTEGER, 'of the node numbers from interval to interval', default='1')
       call add_example(k, '*NFILL, NSET=plate|bottom, top, 5, 100')
    end subroutine define_nfill
+
+   subroutine define_ncopy(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'NCOPY', LEVEL_MODEL, 'copies of nodes, moved', &
+                          doc='The set must be defined above. The nodes are moved first, then rotated about the axis.')
+      call add_option(k, 'CHANGE NUMBER', KIND_INTEGER, 'added to the numbers of the nodes', required=.true.)
+      call add_option(k, 'OLD SET', KIND_NAME, 'the nodes that are copied', required=.true.)
+      call add_option(k, 'SHIFT', KIND_FLAG, 'a translation and a rotation', required=.true.)
+      call add_option(k, 'MULTIPLE', KIND_INTEGER, 'how often the rotation is done', default='1')
+      call add_option(k, 'NEW SET', KIND_NAME, 'puts the copies into a node set')
+      call add_option(k, 'REFLECT', KIND_WORD, 'mirrors the nodes', built=.false.)
+      call add_option(k, 'POLE', KIND_FLAG, 'projects the nodes from a pole', built=.false.)
+      call add_form(k, 'the translation', 1, 1)
+      call add_item(k, 'dx', KIND_REAL, 'along x', dimension='L')
+      call add_item(k, 'dy', KIND_REAL, 'along y', dimension='L')
+      call add_item(k, 'dz', KIND_REAL, 'along z, must be 0', dimension='L', default='0')
+      call add_form(k, 'the rotation', 0, 1)
+      call add_item(k, 'xa', KIND_REAL, 'first point of the axis', dimension='L')
+      call add_item(k, 'ya', KIND_REAL, 'first point of the axis', dimension='L')
+      call add_item(k, 'za', KIND_REAL, 'first point of the axis', dimension='L')
+      call add_item(k, 'xb', KIND_REAL, 'second point of the axis, = xa', dimension='L')
+      call add_item(k, 'yb', KIND_REAL, 'second point of the axis, = ya', dimension='L')
+      call add_item(k, 'zb', KIND_REAL, 'second point of the axis', dimension='L')
+      call add_item(k, 'angle', KIND_REAL, 'round the axis from the first to the second point, in degrees', dimension='-')
+      call add_example(k, '*NCOPY, CHANGE NUMBER=1000, OLD SET=stone, SHIFT, NEW SET=next|0., 0., 0.|0., 0., 0., 0., 0., 1., 9.')
+   end subroutine define_ncopy
+
+   subroutine define_elcopy(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'ELCOPY', LEVEL_MODEL, 'copies of elements on other nodes', &
+                          doc='The set must be defined above, the nodes anywhere. The new elements have the types of the old ones.')
+      call add_option(k, 'ELEMENT SHIFT', KIND_INTEGER, 'added to the numbers of the elements', required=.true.)
+      call add_option(k, 'OLD SET', KIND_NAME, 'the elements that are copied', required=.true.)
+      call add_option(k, 'SHIFT NODES', KIND_INTEGER, 'added to the numbers of their nodes', required=.true.)
+      call add_option(k, 'NEW SET', KIND_NAME, 'puts the copies into an element set')
+      call add_option(k, 'REFLECT', KIND_FLAG, 'the nodes are mirrored', built=.false.)
+      call add_example(k, '*ELCOPY, ELEMENT SHIFT=100, OLD SET=stone, SHIFT NODES=1000, NEW SET=next')
+   end subroutine define_elcopy
 
    subroutine define_nset(k)
       type(keyword_t), intent(out) :: k
@@ -188,7 +230,10 @@ contains
 
       call define_keyword(k, 'BLOCK', LEVEL_MODEL, 'a meshed quadrilateral with its sets and surfaces', own=.true., &
                           doc='Numbers follow the greatest so far, row by row from BOTTOM, the side of the first two corners. '// &
-                          'Makes the node set <elset>, and the node sets and surfaces <elset>-BOTTOM, -RIGHT, -TOP and -LEFT.')
+                          'Makes the node set <elset>, and the node sets and surfaces <elset>-BOTTOM, -RIGHT, -TOP and '// &
+                          '-LEFT. COPY makes columns and rows of equal blocks, each a body of its own: that in column 3 of '// &
+                          'row 2 is <elset>-3-2, with its own sets and sides; <elset> holds all of them, and <elset>-BOTTOM '// &
+                          'those of the first row, -TOP of the last row, -LEFT of the first column, -RIGHT of the last.')
       call add_option(k, 'TYPE', KIND_WORD, 'type of the elements', required=.true., choices=ELEMENT_TYPES)
       call add_option(k, 'ELSET', KIND_NAME, 'name of the block', required=.true.)
       call add_option(k, 'NX', KIND_INTEGER, 'elements along BOTTOM', required=.true.)
@@ -205,7 +250,15 @@ contains
       call add_item(k, 'x1', KIND_REAL, 'rising, between 0 and 1; NX - 1 of them', dimension='-', repeats=.true.)
       call add_form(k, 'inner break points along LEFT', 0, 1, word='Y')
       call add_item(k, 'y1', KIND_REAL, 'rising, between 0 and 1; NY - 1 of them', dimension='-', repeats=.true.)
-      call add_example(k, '*BLOCK, TYPE=CPE4, ELSET=plate, NX=15, NY=5|0.0, 0.0|1.5, 0.0|1.5, 0.5|0.0, 0.5')
+      call add_form(k, 'columns and rows of equal blocks', 0, 1, word='COPY')
+      call add_item(k, 'columns', KIND_INTEGER, 'number of them, the block itself counted')
+      call add_item(k, 'rows', KIND_INTEGER, 'number of them, the block itself counted')
+      call add_item(k, 'dx', KIND_REAL, 'along x from column to column', dimension='L')
+      call add_item(k, 'dy', KIND_REAL, 'along y from row to row', dimension='L')
+      call add_item(k, 'dx of rows', KIND_REAL, 'along x from row to row', dimension='L', default='0')
+      call add_item(k, 'dy of columns', KIND_REAL, 'along y from column to column', dimension='L', default='0')
+      call add_example(k, '*BLOCK, TYPE=CPE4, ELSET=plate, NX=15, NY=5|0.0, 0.0|1.5, 0.0|1.5, 0.5|0.0, 0.5|'// &
+                       '*BLOCK, TYPE=CPE4, ELSET=brick, NX=8, NY=4|0., 1.|2., 1.|2., 2.|0., 2.|COPY, 10, 5, 2., 2.')
    end subroutine define_block
 
    subroutine define_surface(k)

@@ -11,7 +11,7 @@ contains
    subroutine define_scene_keywords(table)
       type(keyword_t), allocatable, intent(out) :: table(:)
 
-      allocate (table(9))
+      allocate (table(13))
       call define_material(table(1))
       call define_elastic(table(2))
       call define_density(table(3))
@@ -20,7 +20,11 @@ contains
       call define_surface_behavior(table(6))
       call define_friction(table(7))
       call define_contact_pair(table(8))
-      call define_boundary(table(9))
+      call define_contact(table(9))
+      call define_contact_inclusions(table(10))
+      call define_contact_exclusions(table(11))
+      call define_contact_property_assignment(table(12))
+      call define_boundary(table(13))
    end subroutine define_scene_keywords
 
    subroutine define_material(k)
@@ -131,6 +135,61 @@ contains
       call add_item(k, 'master', KIND_NAME, 'surface of elements, or of a rigid body')
       call add_example(k, '*CONTACT PAIR, INTERACTION=rough|plate-BOTTOM, support-TOP')
    end subroutine define_contact_pair
+
+   subroutine define_contact(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'CONTACT', LEVEL_MODEL, 'begins contact that is found by itself', &
+                          doc='*CONTACT INCLUSIONS, *CONTACT EXCLUSIONS and *CONTACT PROPERTY ASSIGNMENT follow. Faces of '// &
+                          'different bodies that look at each other become pairs. The slave is the softer body, else the '// &
+                          'finer one, else the first in the deck; a rigid surface is the master. A slave ends where its '// &
+                          'outline has a corner and where another body or law begins; S_rho is not cut there. A '// &
+                          '*CONTACT PAIR goes before what is found.')
+      call add_option(k, 'DISTANCE', KIND_REAL, 'faces farther apart than this take no part; half a face when left out', &
+                      own=.true., dimension='L')
+      call add_option(k, 'QUADRATURE', KIND_WORD, 'as of *CONTACT PAIR', own=.true., choices='NODAL -GAUSS -MORTAR')
+      call add_example(k, '*CONTACT|*CONTACT INCLUSIONS, ALL EXTERIOR|*CONTACT PROPERTY ASSIGNMENT|, , rough')
+   end subroutine define_contact
+
+   subroutine define_contact_inclusions(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'CONTACT INCLUSIONS', LEVEL_MODEL, 'what may touch', parent='CONTACT', &
+                          doc='ALL EXTERIOR: all bodies each other. Rigid surfaces take part where a line names them.')
+      call add_option(k, 'ALL EXTERIOR', KIND_FLAG, 'the outlines of all bodies')
+      call add_surface_pair(k, '-ALL EXTERIOR')
+      call add_example(k, '*CONTACT INCLUSIONS, ALL EXTERIOR|*CONTACT INCLUSIONS|, floor')
+   end subroutine define_contact_inclusions
+
+   subroutine define_contact_exclusions(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'CONTACT EXCLUSIONS', LEVEL_MODEL, 'what does not touch', parent='CONTACT', &
+                          doc='Goes before the inclusions.')
+      call add_surface_pair(k, '')
+      call add_example(k, '*CONTACT EXCLUSIONS|brick-1-1-TOP, brick-1-2-BOTTOM')
+   end subroutine define_contact_exclusions
+
+   !> A line of two surfaces; with a condition on an option.
+   subroutine add_surface_pair(k, when)
+      type(keyword_t), intent(inout) :: k
+      character(len=*), intent(in) :: when
+
+      call add_form(k, 'one pair of surfaces a line', 1, ANY_NUMBER, when=when)
+      call add_item(k, 'surface', KIND_NAME, 'of elements, or of a rigid body', default='the outlines of all bodies')
+      call add_item(k, 'other surface', KIND_NAME, 'of elements, or of a rigid body', default='the first, bodies of it each other')
+   end subroutine add_surface_pair
+
+   subroutine define_contact_property_assignment(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'CONTACT PROPERTY ASSIGNMENT', LEVEL_MODEL, 'laws of the contact that is found', parent='CONTACT', &
+                          doc='Of several lines that a place belongs to the last one counts. Without one contact is hard and '// &
+                          'without friction.')
+      call add_surface_pair(k, '')
+      call add_item(k, 'interaction', KIND_NAME, 'the law of contact')
+      call add_example(k, '*CONTACT PROPERTY ASSIGNMENT|, , rough|brick-1-1-LEFT, , smooth')
+   end subroutine define_contact_property_assignment
 
    subroutine define_boundary(k)
       type(keyword_t), intent(out) :: k

@@ -19,7 +19,7 @@ contains
    subroutine define_step_keywords(table)
       type(keyword_t), allocatable, intent(out) :: table(:)
 
-      allocate (table(13))
+      allocate (table(15))
       call define_step(table(1))
       call define_static(table(2))
       call define_cload(table(3))
@@ -29,10 +29,12 @@ contains
       call define_node_print(table(7))
       call define_el_print(table(8))
       call define_contact_print(table(9))
-      call define_node_file(table(10))
-      call define_el_file(table(11))
-      call define_contact_file(table(12))
-      call define_end_step(table(13))
+      call define_body_print(table(10))
+      call define_joint_print(table(11))
+      call define_node_file(table(12))
+      call define_el_file(table(13))
+      call define_contact_file(table(14))
+      call define_end_step(table(15))
    end subroutine define_step_keywords
 
    subroutine define_harmless_keywords(table)
@@ -166,6 +168,25 @@ contains
                     repeats=.true.)
       call add_example(k, '*CONTACT PRINT')
    end subroutine define_contact_print
+
+   subroutine define_body_print(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'BODY PRINT', LEVEL_STEP, 'writes bodies.tab', own=.true., &
+                          doc='A row a body: its best rigid motion, and the resultants of loads, supports and contact. '// &
+                          'There are no options and no data lines.')
+      call add_example(k, '*BODY PRINT')
+   end subroutine define_body_print
+
+   subroutine define_joint_print(k)
+      type(keyword_t), intent(out) :: k
+
+      call define_keyword(k, 'JOINT PRINT', LEVEL_STEP, 'writes joints.tab', own=.true., &
+                          doc='A row for each two bodies that a contact pair brings together: the resultant, its moment '// &
+                          'and its place, opening and sliding. With --plot also a picture of the joints and the line of '// &
+                          'thrust. There are no options and no data lines.')
+      call add_example(k, '*JOINT PRINT')
+   end subroutine define_joint_print
 
    subroutine add_print_options(k)
       type(keyword_t), intent(inout) :: k

@@ -2,6 +2,9 @@
 !>
 !> Neighbours in a regular mesh are equal, and one stiffness serves them all. Elements are compared with the last one that was
 !> different, so that small differences do not add up along a mesh.
+!>
+!> Where the coordinates of a regular mesh were printed with 10 to 15 digits, no two elements are equal, but most are within the
+!> `grain` of those digits. Whoever puts the difference right afterwards takes one stiffness for these, too.
 module atrito_assembly
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, Q2_NODES
@@ -15,7 +18,7 @@ module atrito_assembly
    implicit none (type, external)
    private
    public :: fem_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
-             kept_diagonal, cached_stiffness, is_like_before
+             kept_diagonal, cached_stiffness, is_like_before, grain_of
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -23,6 +26,7 @@ module atrito_assembly
       type(bodies_t) :: bodies
       type(elastic_t), allocatable :: sections(:)
       integer(ip), allocatable :: section_of(:)    !< (n_elements)
+      real(wp) :: grain = 0.0_wp                   !< [L] what the last printed digits may make of equal elements; 0: nothing
    end type fem_t
 
    !> All that a stiffness depends on.
@@ -45,7 +49,23 @@ module atrito_assembly
       integer(ip) :: offset = 0                    !< different ones in earlier runs
    end type run_t
 
+   !> A coordinate that was printed with 10 digits is off by half a unit of the last one, of which there are 1e9 to 1e10 in the
+   !> largest coordinate; the difference of two differences of coordinates by two units.
+   real(wp), parameter :: PRINTED = 2.0e-9_wp
+   !> Elements that differ by more than this share of their size are not near.
+   real(wp), parameter :: NEAR = 1.0e-6_wp
+   !> Where more than this share of the elements differ it is asked whether they are near; it is worth it when no more than this
+   !> share of the different ones is left.
+   real(wp), parameter :: MANY = 0.1_wp, FEW = 0.25_wp
+
 contains
+
+   !> What the last digits of printed coordinates may make of equal elements [L].
+   pure real(wp) function grain_of(x) result(grain)
+      real(wp), intent(in) :: x(:, :)              !< (2, n_nodes) [L]
+
+      grain = PRINTED*max(maxval(x), -minval(x), 0.0_wp)
+   end function grain_of
 
    !> Column heights of a body's matrix; where it is not numbered for its profile, those that are to be expected if it were: a
    !> column reaches over two rows of nodes across the shorter side of the box round the body.
@@ -70,21 +90,25 @@ contains
    end subroutine body_profile
 
    !> Adds all elements of a body to its matrix.
-   subroutine assemble_body(fem, i_body, storage)
+   subroutine assemble_body(fem, i_body, storage, grain, is_near)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       class(storage_t), intent(inout) :: storage
+      real(wp), intent(in), optional :: grain      !< [L] elements that differ by no more may have one stiffness
+      logical, intent(out), optional :: is_near    !< some have that are not equal
       type(element_store_t) :: store
 
-      call collect_elements(fem, fem%bodies%list(i_body)%elements, store)
+      call collect_elements(fem, fem%bodies%list(i_body)%elements, store, grain)
+      if (present(is_near)) is_near = store%is_near
       call storage%add_store(store)
    end subroutine assemble_body
 
    !> Equations and stiffnesses of elements, in their order. Equal ones that follow one another have one stiffness in common.
-   subroutine collect_elements(fem, elements, store)
+   subroutine collect_elements(fem, elements, store, grain)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:)       !< of one body
       type(element_store_t), intent(out) :: store
+      real(wp), intent(in), optional :: grain      !< [L] those that differ by no more may have one in common, too
       type(run_t) :: runs(run_count(size(elements, kind=ip)))
       integer(ip), allocatable :: different(:)     ! the element of each matrix
       integer(ip) :: i
@@ -96,7 +120,8 @@ contains
          store%start(i + 1) = store%start(i) + 2*fem%mesh%shape(elements(i))
       end do
       call collect_equations(fem, elements, store)
-      call compare_runs(fem, elements, runs, store%matrix_of)
+      call compare_runs(fem, elements, 0.0_wp, runs, store%matrix_of)
+      if (present(grain)) call look_for_near(fem, elements, grain, runs, store)
       store%n_matrices = sum(runs%n)
       allocate (different(store%n_matrices))
       !$omp parallel do schedule(dynamic) if (is_shared(store%n))
@@ -106,6 +131,25 @@ contains
       !$omp end parallel do
       call compute_matrices(fem, different, store)
    end subroutine collect_elements
+
+   !> Where most elements differ from the one before, but few of them by more than the grain, the near ones are taken as equal.
+   subroutine look_for_near(fem, elements, grain, runs, store)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:)
+      real(wp), intent(in) :: grain
+      type(run_t), intent(inout) :: runs(:)
+      type(element_store_t), intent(inout) :: store
+      type(run_t) :: near_runs(size(runs))
+      integer(ip), allocatable :: number(:)
+
+      if (.not. grain > 0.0_wp .or. sum(runs%n) <= MANY*size(elements)) return
+      allocate (number(size(elements)))
+      call compare_runs(fem, elements, grain, near_runs, number)
+      store%is_near = sum(near_runs%n) <= FEW*sum(runs%n)
+      if (.not. store%is_near) return
+      runs = near_runs
+      call move_alloc(number, store%matrix_of)
+   end subroutine look_for_near
 
    subroutine collect_equations(fem, elements, store)
       type(fem_t), intent(in) :: fem
@@ -135,9 +179,10 @@ contains
 
    !> Compares every element with the last different one before it, runs side by side. A run has to guess what came before it (the
    !> first element of all, which is right in a regular mesh), and is compared again when it turns out to be another.
-   subroutine compare_runs(fem, elements, runs, number)
+   subroutine compare_runs(fem, elements, grain, runs, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:)
+      real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
       type(run_t), intent(inout) :: runs(:)
       integer(ip), intent(inout) :: number(:)      !< of the elements: the different ones of their run until there
       integer(ip) :: i
@@ -146,16 +191,17 @@ contains
       do while (any(runs%is_due))
          !$omp parallel do schedule(dynamic) if (is_shared(size(elements, kind=ip)))
          do i = 1, size(runs, kind=ip)
-            if (runs(i)%is_due) call compare_run(fem, elements, i, runs(i), number)
+            if (runs(i)%is_due) call compare_run(fem, elements, grain, i, runs(i), number)
          end do
          !$omp end parallel do
-         call join_runs(fem, elements, number, runs)
+         call join_runs(fem, elements, grain, number, runs)
       end do
    end subroutine compare_runs
 
-   pure subroutine compare_run(fem, elements, i_run, run, number)
+   pure subroutine compare_run(fem, elements, grain, i_run, run, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), i_run
+      real(wp), intent(in) :: grain
       type(run_t), intent(inout) :: run
       integer(ip), intent(inout) :: number(:)
       type(form_t) :: form
@@ -166,7 +212,7 @@ contains
       run%last = run%before
       if (run%before > 0) call take_form(fem, elements(run%before), form)
       do i = first, last
-         if (.not. has_form(fem, elements(i), form)) then
+         if (.not. has_form(fem, elements(i), form, grain)) then
             call take_form(fem, elements(i), form)
             run%n = run%n + 1
             run%last = i
@@ -176,9 +222,10 @@ contains
    end subroutine compare_run
 
    !> What came before each run; the runs that it makes a difference to have to be compared again.
-   pure subroutine join_runs(fem, elements, number, runs)
+   pure subroutine join_runs(fem, elements, grain, number, runs)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), number(:)
+      real(wp), intent(in) :: grain
       type(run_t), intent(inout) :: runs(:)
       type(form_t) :: form
       integer(ip) :: i, first, last
@@ -193,7 +240,7 @@ contains
          runs(i)%is_due = number(first) == 0
          if (runs(i)%is_due) cycle
          call take_form(fem, elements(runs(i)%before), form)
-         runs(i)%is_due = has_form(fem, elements(first), form)
+         runs(i)%is_due = has_form(fem, elements(first), form, grain)
       end do
    end subroutine join_runs
 
@@ -289,19 +336,20 @@ contains
       type(stiffness_cache_t), intent(inout) :: cache
       integer(ip) :: n
 
-      if (has_form(fem, element, cache%form_t)) return
+      if (has_form(fem, element, cache%form_t, 0.0_wp)) return
       call take_form(fem, element, cache%form_t)
       n = cache%shape
       call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n))
    end subroutine cached_stiffness
 
-   pure logical function has_form(fem, element, form)
+   pure logical function has_form(fem, element, form, grain)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
       type(form_t), intent(in) :: form
+      real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
 
       has_form = form%section == fem%section_of(element) .and. form%state == fem%mesh%state(element)
-      if (has_form) has_form = is_like_before(fem%mesh, element, form%shape, form%x)
+      if (has_form) has_form = is_like_before(fem%mesh, element, form%shape, form%x, grain)
    end function has_form
 
    pure subroutine take_form(fem, element, form)
@@ -319,12 +367,13 @@ contains
    end subroutine take_form
 
    !> Whether an element has the shape of another one, within the rounding of the coordinates and never coarser than 1e-12 of the
-   !> element.
-   pure logical function is_like_before(mesh, element, shape, x) result(alike)
+   !> element; or within a grain.
+   pure logical function is_like_before(mesh, element, shape, x, grain) result(alike)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element
       integer(ip), intent(in) :: shape             !< of the other one; 0: there is none
       real(wp), intent(in) :: x(2, Q2_NODES)       !< of the other one, less those of its first node [L]
+      real(wp), intent(in) :: grain                !< [L]
       real(wp) :: first(2), here(2), way(2), largest, size_of_element, difference
       integer(ip) :: k
 
@@ -341,7 +390,7 @@ contains
          size_of_element = max(size_of_element, abs(way(1)), abs(way(2)))
          difference = max(difference, abs(way(1) - x(1, k)), abs(way(2) - x(2, k)))
       end do
-      alike = difference <= min(2*EPS_MACH*largest, 1.0e-12_wp*size_of_element)
+      alike = difference <= max(min(2*EPS_MACH*largest, 1.0e-12_wp*size_of_element), min(grain, NEAR*size_of_element))
    end function is_like_before
 
 end module atrito_assembly

@@ -69,7 +69,7 @@ contains
       integer(ip) :: k, first
 
       if (geometry%section == fem%section_of(e) .and. geometry%state == fem%mesh%state(e)) then
-         if (is_like_before(fem%mesh, e, geometry%shape, geometry%x)) return
+         if (is_like_before(fem%mesh, e, geometry%shape, geometry%x, 0.0_wp)) return
       end if
       geometry%section = fem%section_of(e)
       geometry%state = fem%mesh%state(e)

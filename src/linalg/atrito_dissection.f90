@@ -2,18 +2,20 @@
 !>
 !> A set of elements is cut across its longer side, counted in elements; the nodes that both parts have are the separator and are
 !> eliminated last, after the two parts, which are cut in turn (George, SIAM J. Numer. Anal. 10 (1973) 345-363). Near the optimum
-!> for plane meshes, whatever the numbering, in n log n steps: minimum degree takes 0.7 to 3 times the operations, depending on the
-!> numbering, and METIS ten times as long to find an order no better (docs/developer). Sets of the same shape are cut alike, so
-!> that regular meshes have few different fronts.
+!> for plane meshes of even sizes, whatever the numbering, in n log n steps: minimum degree takes 0.7 to 3 times the operations,
+!> depending on the numbering. Sets of the same shape are cut alike, so that regular meshes have few different fronts. A guide
+!> gives cuts that were found otherwise, and has them refined.
 !>
 !> The largest sets are cut level by level, the sets of a level by several threads; then each of the others goes to one thread.
 module atrito_dissection
+   use atrito_cut_refinement, only: corner_lists_t, sides_of_cut_t, begin_sides, leave_out, refine_cut, &
+                                    LOWER_SIDE, UPPER_SIDE
    use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
-   public :: dissect, dissection_t
+   public :: dissect, dissection_t, dissection_guide_t
 
    !> The order of the nodes, and its parts in postorder: each separator after the two parts that it divides.
    type :: dissection_t
@@ -22,7 +24,19 @@ module atrito_dissection
       integer(ip) :: n = 0                       !< parts
       integer(ip), allocatable :: last(:)        !< (n or more) last place of each part in the order
       integer(ip), allocatable :: parent(:)      !< (n or more) 0: none
+      integer(ip), allocatable :: element(:)     !< the elements in the order of the parts that they belong to
+      real(wp) :: work = 0.0_wp                  !< sum of (nodes of a separator)**3
+      real(wp) :: regular_work = 0.0_wp          !< the same with separators no longer than those of a square of a regular mesh
    end type dissection_t
+
+   !> Where to cut, in place of what the places of the elements say.
+   type :: dissection_guide_t
+      real(wp) :: cosine = 1.0_wp, sine = 0.0_wp !< of the angle from the first axis to the direction across which is cut
+      integer :: n_halvings = 0                  !< the first cuts of each element are given: sets, halves, halves of these ...
+      integer(ip), allocatable :: half(:)        !< (all elements) bit n_halvings - 1: the half in the first cut, and so on
+      logical :: refines = .false.               !< elements change sides where that makes the separator smaller
+      type(corner_lists_t) :: lists              !< where it does
+   end type dissection_guide_t
 
    !> Elements with their centres, a set a run of them.
    type :: pieces_t
@@ -36,6 +50,7 @@ module atrito_dissection
       logical, allocatable :: taken(:)           !< in the order already, or not wanted there
       integer(lp), allocatable :: upper_of(:)    !< last cut that had the node in its upper part
       integer(ip), allocatable :: order(:)       !< each set has its own places there
+      type(sides_of_cut_t) :: sides              !< where cuts are refined
    end type marks_t
 
    !> Sets of so few nodes, counted with each element, are not cut any more.
@@ -59,18 +74,21 @@ module atrito_dissection
    real(wp), parameter :: ON_CUT = 1.0e-6_wp
    !> A cut in the middle is good when each part has this share of the elements.
    real(wp), parameter :: BALANCED = 0.4_wp
+   !> Elements from which on a cut is refined, where it is asked for.
+   integer(ip), parameter :: WORTH_REFINING = 256_ip
    !> A number a cut lasts for so many levels.
    integer(lp), parameter :: LAST_CUT = 2_lp**61
 
 contains
 
    !> Orders the wanted nodes of some elements.
-   subroutine dissect(elements, nodes, n_nodes_of, x, wanted, parts)
+   subroutine dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
       integer(ip), intent(in) :: elements(:)     !< which
       integer(ip), intent(in) :: nodes(:, :)     !< (most nodes, all elements)
       integer(ip), intent(in) :: n_nodes_of(:)   !< (all elements) nodes of each; the first four or all are its corners
       real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
       logical, intent(in) :: wanted(:)           !< (all nodes); those that are belong to the elements
+      type(dissection_guide_t), intent(in) :: guide
       type(dissection_t), intent(out) :: parts
       type(pieces_t) :: pieces
       type(marks_t) :: marks
@@ -79,37 +97,41 @@ contains
 
       allocate (pieces%centre(2, size(elements)), pieces%extent(2, size(n_nodes_of)))
       pieces%element = elements
-      !$omp parallel do default(none) shared(elements, x, nodes, n_nodes_of, pieces) if(is_shared(size(elements, kind=ip)))
+      !$omp parallel do default(none) shared(elements, x, nodes, n_nodes_of, guide, pieces) &
+      !$omp if(is_shared(size(elements, kind=ip)))
       do i = 1, size(elements, kind=ip)
-         call measure(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)), pieces%centre(:, i), &
+         call measure(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)), guide, pieces%centre(:, i), &
                       pieces%extent(:, elements(i)))
       end do
       !$omp end parallel do
       marks%taken = .not. wanted
+      if (guide%refines) call begin_sides(guide%lists, wanted, marks%sides)
       allocate (marks%upper_of(size(wanted)), source=0_lp)
       sets(1)%last = size(elements, kind=ip)
       sets(1)%n_free = count(wanted, kind=ip)
       allocate (marks%order(sets(1)%n_free))
-      call divide_sets(nodes, n_nodes_of, pieces, marks, sets)
-      !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, pieces, marks, sets) &
+      call divide_sets(nodes, n_nodes_of, guide, pieces, marks, sets)
+      !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, guide, pieces, marks, sets) &
       !$omp if(size(elements) > LARGE)
       do i = 1, size(sets, kind=ip)
          associate (set => sets(i))
             if (set%divided .or. set%first > set%last) cycle
             call begin_parts(set%parts, set%n_before)
-            call cut(nodes, n_nodes_of, pieces%element(set%first:set%last), pieces%centre(:, set%first:set%last), pieces%extent, &
-                     int(i, lp), marks, set%parts, set%root)
+            call cut(nodes, n_nodes_of, guide, pieces%element(set%first:set%last), pieces%centre(:, set%first:set%last), &
+                     pieces%extent, int(i, lp), marks, set%parts, set%root)
          end associate
       end do
       !$omp end parallel do
       call begin_parts(parts, 0_ip)
       call join(sets, 1_ip, marks%order, parts, root)
       call move_alloc(marks%order, parts%order)
+      call move_alloc(pieces%element, parts%element)
    end subroutine dissect
 
    !> Cuts the large sets, level by level. Sets have no element in common, nor a node that is not taken.
-   subroutine divide_sets(nodes, n_nodes_of, pieces, marks, sets)
+   subroutine divide_sets(nodes, n_nodes_of, guide, pieces, marks, sets)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      type(dissection_guide_t), intent(in) :: guide
       type(pieces_t), intent(inout) :: pieces
       type(marks_t), intent(inout) :: marks
       type(set_t), intent(inout) :: sets(:)      !< the first is given
@@ -117,11 +139,11 @@ contains
       integer :: level
 
       do level = 0, LEVELS - 1
-         !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, pieces, marks, sets, level) &
+         !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, guide, pieces, marks, sets, level) &
          !$omp if(level > 0 .and. sets(1)%last > LARGE)
          do k = 2**level, 2**(level + 1) - 1
             if (sets(k)%last - sets(k)%first < LARGE) cycle
-            call divide(nodes, n_nodes_of, pieces%element(sets(k)%first:sets(k)%last), &
+            call divide(nodes, n_nodes_of, guide, pieces%element(sets(k)%first:sets(k)%last), &
                         pieces%centre(:, sets(k)%first:sets(k)%last), pieces%extent, int(k, lp), marks, sets(k), sets(2*k), &
                         sets(2*k + 1))
          end do
@@ -129,8 +151,9 @@ contains
       end do
    end subroutine divide_sets
 
-   subroutine divide(nodes, n_nodes_of, element, centre, extent, number, marks, set, lower, upper)
+   subroutine divide(nodes, n_nodes_of, guide, element, centre, extent, number, marks, set, lower, upper)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      type(dissection_guide_t), intent(in) :: guide
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
       real(wp), intent(in), contiguous :: extent(:, :)
@@ -139,9 +162,10 @@ contains
       type(set_t), intent(inout) :: set, lower, upper
       integer(ip) :: n_lower
 
-      call split(element, centre, extent, n_lower)
+      call split(guide, number, element, centre, extent, marks, n_lower)
       if (n_lower == 0) return
       call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, set%separator, upper%n_free)
+      if (guide%refines) call leave_out(set%separator, marks%sides)
       set%divided = .true.
       lower%first = set%first
       lower%last = set%first + n_lower - 1
@@ -159,32 +183,37 @@ contains
       integer(ip), intent(inout) :: order(:)
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
-      integer(ip) :: children(2)
+      integer(ip) :: children(2), before
 
       if (sets(k)%divided) then
+         before = parts%n_nodes
          call join(sets, 2*k, order, parts, children(1))
          call join(sets, 2*k + 1, order, parts, children(2))
-         call add_part(sets(k)%separator, children, order, parts, root)
+         call add_part(before, sets(k)%separator, children, order, parts, root)
       else
          root = sets(k)%root
          if (root > 0) call append(parts, sets(k)%parts, root)
       end if
    end subroutine join
 
-   pure subroutine measure(x, corners, centre, extent)
+   pure subroutine measure(x, corners, guide, centre, extent)
       real(wp), intent(in) :: x(:, :)
       integer(ip), intent(in) :: corners(:)
+      type(dissection_guide_t), intent(in) :: guide
       real(wp), intent(out) :: centre(2), extent(2)
-      real(wp) :: low(2), high(2)
+      real(wp) :: low(2), high(2), place(2)
       integer(ip) :: i
 
       centre = 0.0_wp
-      low = x(:, corners(1))
-      high = low
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
       do i = 1, size(corners, kind=ip)
-         centre = centre + x(:, corners(i))/real(size(corners), wp)
-         low = min(low, x(:, corners(i)))
-         high = max(high, x(:, corners(i)))
+         place = x(:, corners(i))
+         if (abs(guide%sine) > 0.0_wp) place = [guide%cosine*place(1) + guide%sine*place(2), &
+                                                guide%cosine*place(2) - guide%sine*place(1)]
+         centre = centre + place/real(size(corners), wp)
+         low = min(low, place)
+         high = max(high, place)
       end do
       extent = high - low
    end subroutine measure
@@ -200,8 +229,9 @@ contains
    end subroutine begin_parts
 
    !> Appends the nodes of a set to the parts. The depth of the recursion is that of the tree, about log2 of the elements.
-   recursive subroutine cut(nodes, n_nodes_of, element, centre, extent, number, marks, parts, root)
+   recursive subroutine cut(nodes, n_nodes_of, guide, element, centre, extent, number, marks, parts, root)
       integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      type(dissection_guide_t), intent(in) :: guide
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
       real(wp), intent(in), contiguous :: extent(:, :)
@@ -209,19 +239,22 @@ contains
       type(marks_t), intent(inout) :: marks
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
-      integer(ip) :: n_lower, n_upper, children(2)
+      integer(ip) :: n_lower, n_upper, children(2), before
       integer(ip), allocatable :: separator(:)
 
+      before = parts%n_nodes
       n_lower = 0
-      if (is_large(n_nodes_of, element) .and. number < LAST_CUT) call split(element, centre, extent, n_lower)
+      if (is_large(n_nodes_of, element) .and. number < LAST_CUT) call split(guide, number, element, centre, extent, marks, n_lower)
       if (n_lower == 0) then
          call take_rest(nodes, n_nodes_of, element, marks%taken, marks%order, parts, root)
          return
       end if
       call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, separator, n_upper)
-      call cut(nodes, n_nodes_of, element(:n_lower), centre(:, :n_lower), extent, 2*number, marks, parts, children(1))
-      call cut(nodes, n_nodes_of, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, marks, parts, children(2))
-      call add_part(separator, children, marks%order, parts, root)
+      if (guide%refines) call leave_out(separator, marks%sides)
+      call cut(nodes, n_nodes_of, guide, element(:n_lower), centre(:, :n_lower), extent, 2*number, marks, parts, children(1))
+      call cut(nodes, n_nodes_of, guide, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, marks, parts, &
+               children(2))
+      call add_part(before, separator, children, marks%order, parts, root)
    end subroutine cut
 
    pure logical function is_large(n_nodes_of, element)
@@ -232,20 +265,52 @@ contains
    end function is_large
 
    !> Puts the elements below the cut first; their order stays. n_lower = 0: there is no cut.
-   pure subroutine split(element, centre, extent, n_lower)
+   subroutine split(guide, number, element, centre, extent, marks, n_lower)
+      type(dissection_guide_t), intent(in) :: guide
+      integer(lp), intent(in) :: number          !< of the cut
       integer(ip), intent(inout), contiguous :: element(:)
       real(wp), intent(inout), contiguous :: centre(:, :)
       real(wp), intent(in), contiguous :: extent(:, :)
+      type(marks_t), intent(inout) :: marks
+      integer(ip), intent(out) :: n_lower
+      logical :: is_upper(size(element))
+      real(wp) :: place
+      integer :: along, bit
+
+      bit = guide%n_halvings - 1 - depth_of(number)
+      if (bit >= 0) is_upper = btest(guide%half(element), bit)
+      if (bit >= 0 .and. any(is_upper) .and. .not. all(is_upper)) then
+      else
+         call choose_cut(element, centre, extent, along, place)
+         is_upper = centre(along, :) > place
+      end if
+      if (guide%refines .and. size(element) > WORTH_REFINING) then
+         marks%sides%side(element) = merge(UPPER_SIDE, LOWER_SIDE, is_upper)
+         call refine_cut(guide%lists, element, marks%sides)
+         is_upper = marks%sides%side(element) == UPPER_SIDE
+      end if
+      call sort_by_side(is_upper, element, centre, n_lower)
+   end subroutine split
+
+   !> Cuts that led to the set of a cut.
+   pure integer function depth_of(number)
+      integer(lp), intent(in) :: number
+
+      depth_of = int(bit_size(number)) - 1 - leadz(number)
+   end function depth_of
+
+   pure subroutine sort_by_side(is_upper, element, centre, n_lower)
+      logical, intent(in) :: is_upper(:)
+      integer(ip), intent(inout), contiguous :: element(:)
+      real(wp), intent(inout), contiguous :: centre(:, :)
       integer(ip), intent(out) :: n_lower
       integer(ip) :: upper(size(element)), i, n_upper
-      real(wp) :: upper_centre(2, size(element)), place
-      integer :: along
+      real(wp) :: upper_centre(2, size(element))
 
-      call choose_cut(element, centre, extent, along, place)
       n_lower = 0
       n_upper = 0
       do i = 1, size(element, kind=ip)
-         if (centre(along, i) > place) then
+         if (is_upper(i)) then
             n_upper = n_upper + 1
             upper(n_upper) = element(i)
             upper_centre(:, n_upper) = centre(:, i)
@@ -258,7 +323,7 @@ contains
       element(n_lower + 1:) = upper(:n_upper)
       centre(:, n_lower + 1:) = upper_centre(:, :n_upper)
       if (n_upper == 0) n_lower = 0
-   end subroutine split
+   end subroutine sort_by_side
 
    !> Where to cut: across the longer side, in the middle, or where that leaves too few on one side, at the median of a sample.
    pure subroutine choose_cut(element, centre, extent, along, place)
@@ -392,7 +457,8 @@ contains
    end subroutine take_rest
 
    !> Adds a separator, the parent of two parts where they are.
-   pure subroutine add_part(separator, children, order, parts, root)
+   pure subroutine add_part(before, separator, children, order, parts, root)
+      integer(ip), intent(in) :: before          !< nodes that stood in the order before those of the set
       integer(ip), intent(in) :: separator(:), children(2)
       integer(ip), intent(inout) :: order(:)
       type(dissection_t), intent(inout) :: parts
@@ -404,12 +470,24 @@ contains
       if (n == 0 .and. minval(children) == 0) return
       order(parts%n_nodes + 1:parts%n_nodes + n) = separator
       parts%n_nodes = parts%n_nodes + n
+      call add_work(n, parts%n_nodes - before, parts)
       call close_part(parts)
       root = parts%n
       do i = 1, 2
          if (children(i) > 0) parts%parent(children(i)) = root
       end do
    end subroutine add_part
+
+   !> Adds the work of a separator, and what it would be were its set a square of a regular mesh.
+   pure subroutine add_work(n_separator, n_nodes, parts)
+      integer(ip), intent(in) :: n_separator, n_nodes !< of the set, separator included
+      type(dissection_t), intent(inout) :: parts
+      real(wp) :: work
+
+      work = real(n_separator, wp)**3
+      parts%work = parts%work + work
+      parts%regular_work = parts%regular_work + min(work, real(n_nodes, wp)**1.5_wp)
+   end subroutine add_work
 
    !> Ends a part at the last node; it has no parent yet.
    pure subroutine close_part(parts)
@@ -433,6 +511,8 @@ contains
       if (root > 0) root = root + parts%n
       parts%n_nodes = more%n_nodes
       parts%n = parts%n + more%n
+      parts%work = parts%work + more%work
+      parts%regular_work = parts%regular_work + more%regular_work
    end subroutine append
 
    pure subroutine make_room(parts, n)

@@ -6,7 +6,15 @@ module atrito_element_store
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: element_store_t, begin_store, add_to_store, move_store, pack_matrix, unpack_matrix
+   public :: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, pack_matrix, unpack_matrix
+
+   !> The matrices that elements have themselves, where they were stored with that of another one.
+   type :: own_matrices_t
+      integer(ip) :: n = 0                       !< the first so many elements
+      integer(ip), allocatable :: matrix_of(:)   !< (n)
+      integer(lp), allocatable :: matrix_start(:) !< matrix m: values(matrix_start(m) + 1:)
+      real(wp), allocatable :: values(:)         !< lower triangles by columns
+   end type own_matrices_t
 
    type :: element_store_t
       integer(ip) :: n = 0                       !< elements
@@ -16,6 +24,8 @@ module atrito_element_store
       integer(ip) :: n_matrices = 0              !< different ones
       integer(lp), allocatable :: matrix_start(:) !< (n_matrices + 1 or more) matrix m: values(matrix_start(m) + 1:)
       real(wp), allocatable :: values(:)         !< lower triangles by columns
+      logical :: is_near = .false.               !< some elements have the matrix of one that they are near to, and not equal
+      type(own_matrices_t) :: own                !< then, where they are wanted
       logical :: enough = .true.                 !< memory, for all elements so far; the others are left out
    end type element_store_t
 
@@ -141,6 +151,19 @@ contains
       end do
    end subroutine unpack_matrix
 
+   !> Takes over the matrices of a store of the same elements, each with its own; nothing is left in it.
+   pure subroutine take_own_matrices(from, store)
+      type(element_store_t), intent(inout) :: from
+      type(element_store_t), intent(inout) :: store
+
+      store%own%n = from%n
+      call move_alloc(from%matrix_of, store%own%matrix_of)
+      call move_alloc(from%matrix_start, store%own%matrix_start)
+      call move_alloc(from%values, store%own%values)
+      from%n = 0
+      from%n_matrices = 0
+   end subroutine take_own_matrices
+
    !> Moves what a store holds into another one; nothing is left in it.
    pure subroutine move_store(from, to)
       type(element_store_t), intent(inout) :: from
@@ -153,6 +176,11 @@ contains
       call move_alloc(from%matrix_of, to%matrix_of)
       call move_alloc(from%matrix_start, to%matrix_start)
       call move_alloc(from%values, to%values)
+      to%is_near = from%is_near
+      to%own%n = from%own%n
+      call move_alloc(from%own%matrix_of, to%own%matrix_of)
+      call move_alloc(from%own%matrix_start, to%own%matrix_start)
+      call move_alloc(from%own%values, to%own%values)
       from%n = 0
       from%n_matrices = 0
    end subroutine move_store

@@ -12,6 +12,7 @@ module atrito_elimination
       integer(ip), allocatable :: place(:)       !< (n) of each equation, the kept ones last in their order
       integer(ip), allocatable :: last(:)        !< (parts) last place of each part, ascending; a part may be empty
       integer(ip), allocatable :: parent(:)      !< (parts) part that follows in the tree; 0: the kept equations
+      character(len=:), allocatable :: text      !< how the order was found, for the listing
    end type elimination_t
 
    !> Equations eliminated together when there is no better order than the one of the numbers.

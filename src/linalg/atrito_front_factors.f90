@@ -12,7 +12,8 @@ module atrito_front_factors
    use atrito_threads, only: n_threads, this_thread
    implicit none (type, external)
    private
-   public :: factor_t, factor_fronts
+   public :: factor_t, factor_fronts, begin_factors, factor_class, expect_factors, add_class
+   public :: front_bytes_t, CHUNK_BYTES
 
    !> The factor of a class of fronts.
    type :: factor_t
@@ -27,6 +28,12 @@ module atrito_front_factors
       real(wp) :: worst_pivot = 0.0_wp, smallest_pivot = 0.0_wp, largest_pivot = 0.0_wp
    end type factor_t
 
+   !> What fronts take [bytes].
+   type :: front_bytes_t
+      integer(lp) :: held = 0                    !< with the updates that wait
+      integer(lp) :: most = 0                    !< at a time so far
+   end type front_bytes_t
+
    !> Classes first..last, which are factored one after the other.
    type :: unit_t
       integer(ip) :: first = 0, last = 0
@@ -38,6 +45,10 @@ module atrito_front_factors
    type :: workspace_t
       real(wp), allocatable :: front(:)
    end type workspace_t
+
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
+   !> What the C library adds to each array.
+   integer(lp), parameter :: CHUNK_BYTES = 16_lp
 
    !> A unit has at most this share of the work, unless it is a single class.
    real(wp), parameter :: SHARE = 1.0_wp/64.0_wp
@@ -55,18 +66,10 @@ contains
       logical, intent(out) :: enough             !< memory; the factors are of no use without
       type(unit_t), allocatable :: units(:)
       real(wp) :: work(tree%n_classes)
-      integer(ip) :: c
-      integer :: no_memory
 
-      allocate (factors(tree%n_classes), stat=no_memory)
-      enough = no_memory == 0
+      call begin_factors(tree, factors, enough)
       if (.not. enough) return
-      do c = 1, tree%n_classes
-         factors(c)%n_pivots = tree%record(tree%start(c) + 1)
-         factors(c)%order = factors(c)%n_pivots + tree%record(tree%start(c) + 2)
-         work(c) = front_flops(factors(c)%order, factors(c)%n_pivots)
-         call count_children(tree, c, factors)
-      end do
+      work = front_flops(factors%order, factors%n_pivots)
       work(tree%n_classes) = 0.0_wp
       call make_units(tree, work, units)
       !$omp parallel default(none) shared(tree, store, diagonal, factors, units) if(sum(work) > WORTH_SHARING)
@@ -77,8 +80,88 @@ contains
       enough = all(factors%enough)
    end subroutine factor_fronts
 
+   !> What factor_fronts will take, before it does: its classes in its order, with one thread; and a front for each thread.
+   subroutine expect_factors(tree, bytes, enough)
+      type(front_tree_t), intent(in) :: tree
+      type(front_bytes_t), intent(out) :: bytes
+      logical, intent(out) :: enough             !< memory to tell
+      type(factor_t), allocatable :: factors(:)
+      type(unit_t), allocatable :: units(:)
+      real(wp) :: work(tree%n_classes)
+      integer(ip) :: wave, u, c
+
+      call begin_factors(tree, factors, enough)
+      if (.not. enough) return
+      work = front_flops(factors%order, factors%n_pivots)
+      work(tree%n_classes) = 0.0_wp
+      call make_units(tree, work, units)
+      factors(tree%n_classes)%n_pivots = 0
+      bytes%held = tree%n_classes*(storage_size(factors, kind=lp)/8)
+      do wave = 1, maxval(units%wave)
+         do u = 1, size(units, kind=ip)
+            if (units(u)%wave /= wave) cycle
+            do c = units(u)%first, units(u)%last
+               call add_class(tree, c, factors, bytes)
+            end do
+         end do
+      end do
+      bytes%most = bytes%most + n_threads()*(REAL_BYTES*int(maxval(factors%order), lp)**2)
+   end subroutine expect_factors
+
+   !> Counts a class as factor_class will make it: what its children leave is given back with their last parent.
+   pure subroutine add_class(tree, c, factors, bytes)
+      type(front_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: c
+      type(factor_t), intent(inout) :: factors(:) !< nothing but `waiting` changes
+      type(front_bytes_t), intent(inout) :: bytes
+      integer(ip) :: i, child
+      integer(lp) :: k
+
+      k = tree%start(c) + HEADER
+      do i = 1, tree%record(tree%start(c) + 3)
+         child = tree%record(k + 1)
+         factors(child)%waiting = factors(child)%waiting - 1
+         if (factors(child)%waiting == 0) bytes%held = bytes%held - update_bytes(factors(child))
+         k = k + 2 + tree%record(k + 2)
+      end do
+      bytes%held = bytes%held + column_bytes(factors(c)) + update_bytes(factors(c))
+      bytes%most = max(bytes%most, bytes%held)
+   end subroutine add_class
+
+   pure elemental integer(lp) function column_bytes(factor) result(bytes)
+      type(factor_t), intent(in) :: factor
+
+      bytes = REAL_BYTES*packed_length(factor%order, factor%n_pivots) + CHUNK_BYTES
+   end function column_bytes
+
+   pure elemental integer(lp) function update_bytes(factor) result(bytes)
+      type(factor_t), intent(in) :: factor
+      integer(ip) :: m
+
+      m = factor%order - factor%n_pivots
+      bytes = REAL_BYTES*packed_length(m, m) + CHUNK_BYTES
+   end function update_bytes
+
+   !> The sizes of all fronts, and how many parents wait for each; nothing is factored yet.
+   pure subroutine begin_factors(tree, factors, enough)
+      type(front_tree_t), intent(in) :: tree
+      type(factor_t), allocatable, intent(out) :: factors(:)
+      logical, intent(out) :: enough             !< memory
+      integer(ip) :: c
+      integer :: no_memory
+
+      allocate (factors(tree%n_classes), stat=no_memory)
+      enough = no_memory == 0
+      if (.not. enough) return
+      do c = 1, tree%n_classes
+         factors(c)%n_pivots = tree%record(tree%start(c) + 1)
+         factors(c)%order = factors(c)%n_pivots + tree%record(tree%start(c) + 2)
+         call count_children(tree, c, factors)
+      end do
+   end subroutine begin_factors
+
    !> Operations of the elimination of a front.
-   pure real(wp) function front_flops(order, n_pivots) result(flops)
+   pure elemental real(wp) function front_flops(order, n_pivots) result(flops)
       integer(ip), intent(in) :: order, n_pivots
       real(wp) :: n, m
 
@@ -201,12 +284,13 @@ contains
       end do
    end subroutine factor_unit
 
+   !> Assembles and factors the fronts of a class. What was there of it before is overwritten.
    subroutine factor_class(tree, store, diagonal, c, order, factors, front)
       type(front_tree_t), intent(in) :: tree
       type(element_store_t), intent(in) :: store
       real(wp), intent(in) :: diagonal(:)
       integer(ip), intent(in) :: c, order
-      type(factor_t), intent(inout) :: factors(:)
+      type(factor_t), intent(inout) :: factors(:) !< those of the children have their updates
       real(wp), intent(inout) :: front(order, order)
       integer(ip) :: n_pivots, place
       integer :: no_memory
@@ -219,9 +303,13 @@ contains
       call eliminate(order, n_pivots, front, factors(c)%failed)
       place = tree%first(tree%representative(c))
       call judge_pivots(order, n_pivots, front, diagonal(place:place + n_pivots - 1), size(diagonal, kind=ip), factors(c))
+      factors(c)%done = .false.
       if (factors(c)%failed > 0) return
-      allocate (factors(c)%columns(packed_length(order, n_pivots)), &
-                factors(c)%update(packed_length(order - n_pivots, order - n_pivots)), stat=no_memory)
+      no_memory = 0
+      if (.not. allocated(factors(c)%columns)) allocate (factors(c)%columns(packed_length(order, n_pivots)), stat=no_memory)
+      if (no_memory == 0 .and. .not. allocated(factors(c)%update)) then
+         allocate (factors(c)%update(packed_length(order - n_pivots, order - n_pivots)), stat=no_memory)
+      end if
       factors(c)%enough = no_memory == 0
       if (.not. factors(c)%enough) return
       factors(c)%done = .true.

@@ -8,7 +8,7 @@ module atrito_multifrontal
    use atrito_element_store, only: element_store_t, begin_store, add_to_store, move_store
    use atrito_elimination, only: elimination_t, chain_elimination
    use atrito_front, only: unpack_update
-   use atrito_front_factors, only: factor_t, factor_fronts
+   use atrito_front_factors, only: factor_t, front_bytes_t, factor_fronts, expect_factors
    use atrito_front_solves, only: solve_plan_t, plan_solves, forward, backward
    use atrito_front_tree, only: front_tree_t, build_front_tree
    use atrito_kinds, only: ip, lp, wp
@@ -18,7 +18,12 @@ module atrito_multifrontal
    use atrito_threads, only: n_threads, is_shared
    implicit none (type, external)
    private
-   public :: multifrontal_t
+   public :: multifrontal_t, expect_fronts
+
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8, &
+                             LONG_BYTES = storage_size(1_lp)/8
+   !> Numbers of a part of the tree.
+   integer(lp), parameter :: PART_NUMBERS = 4_lp
 
    !> Parts of the equations whose diagonal is summed side by side: for each, all elements are gone through.
    integer(ip), parameter :: MOST_PARTS = 8_ip
@@ -129,11 +134,12 @@ contains
    subroutine factor_and_report(self, status)
       class(multifrontal_t), intent(inout) :: self
       type(status_t), intent(out) :: status
+      integer(lp) :: held
       logical :: enough
 
       self%report = factor_report_t()
       call build_front_tree(self%elimination, self%n, self%n_kept, self%store, self%tree)
-      enough = self%tree%enough
+      call expect_bytes(self%tree, self%n, self%store, held, self%report%most_bytes, enough)
       if (enough) call factor_fronts(self%tree, self%store, self%diagonal, self%factors, enough)
       self%store = element_store_t()
       if (.not. enough) then
@@ -145,6 +151,40 @@ contains
       call plan_solves(self%tree, self%plan)
       deallocate (self%diagonal)
    end subroutine factor_and_report
+
+   !> What the solver will hold of a body, and for a while at the most [bytes], from the tree of its fronts.
+   subroutine expect_fronts(elimination, n, n_kept, store, held, most, enough)
+      type(elimination_t), intent(in) :: elimination
+      integer(ip), intent(in) :: n, n_kept
+      type(element_store_t), intent(in) :: store
+      integer(lp), intent(out) :: held, most
+      logical, intent(out) :: enough             !< memory to tell
+      type(front_tree_t) :: tree
+
+      call build_front_tree(elimination, n, n_kept, store, tree)
+      call expect_bytes(tree, n, store, held, most, enough)
+   end subroutine expect_fronts
+
+   subroutine expect_bytes(tree, n, store, held, most, enough)
+      type(front_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: n
+      type(element_store_t), intent(in) :: store
+      integer(lp), intent(out) :: held, most
+      logical, intent(out) :: enough
+      type(front_bytes_t) :: bytes
+
+      held = 0
+      most = 0
+      enough = tree%enough
+      if (enough) call expect_factors(tree, bytes, enough)
+      if (.not. enough) return
+      associate (lists => INDEX_BYTES*(tree%start(tree%n_classes + 1) + PART_NUMBERS*tree%n_parts + n), &
+                 elements => (LONG_BYTES + INDEX_BYTES)*store%n + INDEX_BYTES*size(store%equations, kind=lp) &
+                 + REAL_BYTES*size(store%values, kind=lp))
+         held = bytes%held + lists
+         most = bytes%most + lists + elements + REAL_BYTES*n
+      end associate
+   end subroutine expect_bytes
 
    subroutine tell_of_memory(status)
       type(status_t), intent(inout) :: status
@@ -235,7 +275,6 @@ contains
    !> The factors and what leads through them.
    pure integer(lp) function fronts_memory(self) result(bytes)
       class(multifrontal_t), intent(in) :: self
-      integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
       integer(ip) :: c
 
       bytes = 0

@@ -21,7 +21,7 @@ module atrito_mumps
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: mumps_t, mumps_facts_t
+   public :: mumps_t
 
    !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then.
    type :: instance_t
@@ -29,17 +29,7 @@ module atrito_mumps
       type(coordinate_matrix_t) :: matrix        !< until factor
       integer(ip), allocatable :: place(:)       !< (n) of the equations in the elimination; not allocated: MUMPS decides
       real(wp), allocatable :: reduced(:, :)     !< (n_interior, loads) the load whose half-solved part MUMPS holds
-      logical :: is_closed = .false., is_analysed = .false.
-      integer(ip) :: empty = 0                   !< an interior equation without stiffness; once it is closed
    end type instance_t
-
-   !> What MUMPS says of a factorisation.
-   type :: mumps_facts_t
-      integer(lp) :: entries = 0                 !< of the lower triangle of the matrix
-      integer(lp) :: factor_entries = 0
-      integer(lp) :: memory = 0                  !< bytes that MUMPS took, the matrix not counted
-      real(wp) :: operations = 0.0_wp            !< floating-point, of the elimination, as the analysis counts them
-   end type mumps_facts_t
 
    type, extends(storage_t) :: mumps_t
       private
@@ -55,14 +45,11 @@ module atrito_mumps
       procedure :: expand => expand_by_mumps
       procedure :: memory_bytes => mumps_memory
       procedure, nopass :: name => mumps_storage_name
-      procedure :: close => close_mumps
-      procedure :: analyse => analyse_by_mumps
-      procedure :: facts => mumps_facts
       final :: finish_mumps
    end type mumps_t
 
    ! JOB
-   integer, parameter :: BEGIN = -1, ANALYSE = 1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
+   integer, parameter :: BEGIN = -1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
    ! ICNTL(26)
    integer, parameter :: INTERIOR_ALONE = 0, CONDENSE = 1, EXPAND = 2
    ! INFOG(1)
@@ -111,43 +98,22 @@ contains
       call add_element_matrix(self%instance%matrix, equations, matrix)
    end subroutine add_to_mumps
 
-   !> The first step of factor: ends the assembly. To be called only where the steps are to be timed.
-   subroutine close_mumps(self)
-      class(mumps_t), intent(inout) :: self
-
-      call hand_over_matrix(self, self%instance%empty)
-      call prepare_schur(self)
-      self%instance%is_closed = .true.
-   end subroutine close_mumps
-
-   !> The second step of factor: finds the order, where none is given, and the structure of the factor. Like close_mumps.
-   subroutine analyse_by_mumps(self)
-      class(mumps_t), intent(inout) :: self
-
-      if (.not. self%instance%is_closed) call close_mumps(self)
-      if (self%n == self%n_kept .or. self%instance%empty > 0) return
-      call run(self, ANALYSE)
-      self%instance%is_analysed = .true.
-   end subroutine analyse_by_mumps
-
    subroutine factor_mumps(self, status)
       class(mumps_t), intent(inout) :: self
       type(status_t), intent(out) :: status
+      integer(ip) :: empty
 
       self%report = factor_report_t()
-      if (.not. self%instance%is_closed) call close_mumps(self)
+      call hand_over_matrix(self, empty)
+      call prepare_schur(self)
       if (self%n == self%n_kept) then
          call add_kept(self)
-      else if (self%instance%empty > 0) then
-         self%report%worst_equation = self%instance%empty
+      else if (empty > 0) then
+         self%report%worst_equation = empty
          self%report%digits_lost = ALL_DIGITS
-         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: equation '//to_text(self%instance%empty)//' is empty')
+         call set_status(status, STATUS_SINGULAR, 'the matrix is singular: equation '//to_text(empty)//' is empty')
       else
-         if (self%instance%is_analysed) then
-            call run(self, FACTOR_AGAIN)
-         else
-            call run(self, ANALYSE_AND_FACTOR)
-         end if
+         call run(self, ANALYSE_AND_FACTOR)
          if (self%instance%mumps%infog(1) == NO_ROOM) then
             self%instance%mumps%icntl(14) = 200
             call run(self, FACTOR_AGAIN)
@@ -425,21 +391,6 @@ contains
                                                   + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
       end associate
    end function mumps_memory
-
-   !> After factor; entries and operations already after analyse.
-   pure type(mumps_facts_t) function mumps_facts(self) result(facts)
-      class(mumps_t), intent(in) :: self
-      integer(lp), parameter :: MEGABYTE = 1000000_lp
-
-      if (.not. associated(self%instance) .or. self%n == self%n_kept) return
-      associate (mumps => self%instance%mumps)
-         facts%entries = mumps%nnz
-         facts%factor_entries = int(mumps%infog(29), lp)
-         if (mumps%infog(29) < 0) facts%factor_entries = -1000000_lp*int(mumps%infog(29), lp)
-         facts%memory = MEGABYTE*int(mumps%infog(22), lp)
-         facts%operations = mumps%rinfog(1)
-      end associate
-   end function mumps_facts
 
    pure function mumps_storage_name() result(name)
       character(len=:), allocatable :: name

@@ -9,15 +9,15 @@ module atrito_solver_choice
    implicit none (type, external)
    private
    public :: new_storage, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
-   public :: needs_profile, LEAST_SPARSE
+   public :: needs_profile
 
    integer, parameter :: STORAGE_SKYLINE = 1
    integer, parameter :: STORAGE_BANDED = 2
    integer, parameter :: STORAGE_SPARSE = 3
    integer, parameter :: STORAGE_MUMPS = 4
    integer, parameter :: N_STORAGES = 4
-   !> Equations from which on a body gets the sparse solver unasked. It pays from a twentieth of that on: docs/performance.md.
-   integer(ip), parameter :: LEAST_SPARSE = 32000_ip
+   !> Equations from which on the sparse solver is the fastest for a body of any shape, so that no profile is needed to choose it.
+   integer(ip), parameter :: LEAST_SPARSE = 4000_ip
 
 contains
 

@@ -26,6 +26,7 @@ module atrito_storage
       integer(ip) :: n_fronts = 0           !< of the sparse solver; 0: no fronts
       integer(ip) :: n_different = 0        !< of them: these are factored
       integer(lp) :: entries = 0            !< of their factors
+      integer(lp) :: most_bytes = 0         !< that the factorisation takes for a while
    end type factor_report_t
 
    type, abstract :: storage_t

@@ -4,7 +4,8 @@ module atrito_bodies
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_dense, only: null_space
-   use atrito_dissection, only: dissect, dissection_t
+   use atrito_dissection, only: dissection_t
+   use atrito_element_order, only: order_elements
    use atrito_elimination, only: elimination_t
    use atrito_ordering, only: graph_t, build_graph, mesh_components, order_contact_last
    use atrito_threads, only: is_shared
@@ -129,10 +130,11 @@ contains
 
       associate (body => bodies%list(i_body))
          body%by_profile = by_profile
+         ! the nodes have no equations yet: until then these hold what the order needs of them
          if (by_profile) then
-            call order_by_profile(mesh, body, contact_nodes)
+            call order_by_profile(mesh, contact_nodes, body, bodies%equation(1, :))
          else
-            call put_last(mesh%n_nodes, contact_nodes, body%nodes)
+            call put_last(contact_nodes, body%nodes, bodies%equation(1, :))
          end if
          body%n = 0
          body%n_kept = 0
@@ -149,11 +151,13 @@ contains
       end associate
    end subroutine number_equations
 
-   subroutine order_by_profile(mesh, body, contact_nodes)
+   !> (A list of all nodes of the mesh for each body would make thousands of bodies slow: `local` is one for all of them.)
+   subroutine order_by_profile(mesh, contact_nodes, body, local)
       type(mesh_t), intent(in) :: mesh
-      type(body_t), intent(inout) :: body
       integer(ip), intent(in) :: contact_nodes(:)
-      integer(ip), allocatable :: local(:), order(:)
+      type(body_t), intent(inout) :: body
+      integer(ip), intent(inout) :: local(:)        !< (n_nodes) used for the nodes of the body: their places
+      integer(ip), allocatable :: order(:)
       type(graph_t) :: graph
 
       call body_graph(mesh, body, local, graph)
@@ -163,18 +167,17 @@ contains
    end subroutine order_by_profile
 
    !> Moves some of the nodes to the end of a list, in their own order.
-   pure subroutine put_last(n_nodes, last, nodes)
-      integer(ip), intent(in) :: n_nodes            !< of the mesh
+   pure subroutine put_last(last, nodes, mark)
       integer(ip), intent(in) :: last(:)
       integer(ip), intent(inout) :: nodes(:)
-      logical :: comes_last(n_nodes)
+      integer(ip), intent(inout) :: mark(:)         !< (nodes of the mesh) used for the nodes of the list
       integer(ip) :: i, n
 
-      comes_last = .false.
-      comes_last(last) = .true.
+      mark(nodes) = 0
+      mark(last) = 1
       n = 0
       do i = 1, size(nodes, kind=ip)
-         if (comes_last(nodes(i))) cycle
+         if (mark(nodes(i)) == 1) cycle
          n = n + 1
          nodes(n) = nodes(i)
       end do
@@ -185,12 +188,11 @@ contains
    subroutine body_graph(mesh, body, local, graph)
       type(mesh_t), intent(in) :: mesh
       type(body_t), intent(in) :: body
-      integer(ip), allocatable, intent(out) :: local(:)   !< (n_nodes) place of a node in body%nodes
+      integer(ip), intent(inout) :: local(:)        !< (n_nodes) place of a node in body%nodes, for those that are there
       type(graph_t), intent(out) :: graph
       integer(ip), allocatable :: connectivity(:, :)
       integer(ip) :: i
 
-      allocate (local(mesh%n_nodes), source=0_ip)
       local(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
       allocate (connectivity(maxval(mesh%shape(body%elements)), size(body%elements)))
       do i = 1, size(body%elements, kind=ip)
@@ -210,7 +212,8 @@ contains
       integer(ip) :: k, p
 
       associate (body => bodies%list(i_body))
-         call dissect(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts)
+         call order_elements(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts, &
+                             elimination%text)
          allocate (elimination%place(body%n), elimination%last(parts%n))
          elimination%parent = parts%parent(:parts%n)
          !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))

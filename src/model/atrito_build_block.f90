@@ -4,21 +4,22 @@
 !> those of *SURFACE; a draft keeps the block in between.
 module atrito_build_block
    use atrito_block, only: graded_lines, block_nodes
+   use atrito_block_copies, only: copies_t, read_copies, copy_offset, name_copy
    use atrito_build_elements, only: read_element_type
    use atrito_build_nodes, only: put_node_set, MOST_NODES
    use atrito_coincidence, only: match_points
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item
    use atrito_diagnostics, only: report_error, report_warning
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, note_places, spoil_block
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, add_draft_block, note_places, spoil_block
    use atrito_items, only: get_real, option_text, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh, Q2_NODES
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
-   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set, grow_set, set_names
+   use atrito_sets, only: find_set, grow_set
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -32,6 +33,9 @@ module atrito_build_block
    !> The first or the last element would be flat beyond it.
    real(wp), parameter :: LARGEST_GRADE = 1.0e12_wp
 
+   !> Words of the lines that divide a direction.
+   character(len=5), parameter :: DIVISIONS(3) = ['GRADE', 'X    ', 'Y    ']
+
    !> What a *BLOCK says.
    type :: spec_t
       integer(ip) :: state = 0
@@ -40,35 +44,77 @@ module atrito_build_block
       real(wp) :: corners(2, CORNERS) = 0.0_wp         !< [L]
       real(wp) :: grade(2) = 1.0_wp
       real(wp), allocatable :: along(:), across(:)     !< inner break points, 0..1; not allocated: graded
+      type(copies_t) :: copies
    end type spec_t
 
 contains
 
-   !> The nodes of a block and its node sets.
+   !> The nodes of a block, or of its copies, and the node sets.
    subroutine read_block_card(deck, i_card, model, draft)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(spec_t) :: spec
-      type(block_t) :: block
+      character(len=:), allocatable :: name
       logical :: ok, named
 
-      call option_text(deck, deck%cards(i_card), 'ELSET', block%name, named)
+      call option_text(deck, deck%cards(i_card), 'ELSET', name, named)
       call read_spec(deck, deck%cards(i_card), spec, ok)
+      ok = ok .and. named
+      if (ok) ok = fits_memory(deck, deck%cards(i_card)%place, model, draft, count_nodes(spec), &
+                               product(int(spec%n, lp))*product(int(spec%copies%n, lp)), 'BLOCK')
+      if (ok) call place_copies(deck, i_card, spec, name, model, draft, ok)
+      if (.not. ok) call spoil_block(draft, name)
+   end subroutine read_block_card
+
+   subroutine place_copies(deck, i_card, spec, name, model, draft, ok)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card
+      type(spec_t), intent(in) :: spec
+      character(len=*), intent(in) :: name             !< of the *BLOCK
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      logical, intent(out) :: ok
+      integer(ip) :: i, j
+
+      ok = .true.
+      do j = 1, spec%copies%n(2)
+         do i = 1, spec%copies%n(1)
+            if (ok) call place_copy(deck, i_card, spec, name, i, j, model, draft, ok)
+         end do
+      end do
+      if (ok .and. spec%copies%given) call put_array_sets(i_card, name, model, draft)
+   end subroutine place_copies
+
+   !> Copy i, j of a block; the block itself where there are no others.
+   subroutine place_copy(deck, i_card, spec, name, i, j, model, draft, ok)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card
+      type(spec_t), intent(in) :: spec
+      character(len=*), intent(in) :: name             !< of the *BLOCK
+      integer(ip), intent(in) :: i, j
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      logical, intent(out) :: ok
+      type(spec_t) :: shifted
+      type(block_t) :: block
+      integer(ip) :: k
+
+      shifted = spec
+      do k = 1, CORNERS
+         shifted%corners(:, k) = spec%corners(:, k) + copy_offset(spec%copies, i, j)
+      end do
+      call name_copy(spec%copies, name, i, j, block)
       block%card = i_card
       block%state = spec%state
       block%order = spec%order
-      if (ok .and. named) ok = fits_memory(deck, deck%cards(i_card)%place, model, draft, count_nodes(spec), &
-                                           product(int(spec%n, lp)), 'BLOCK')
-      if (ok .and. named) call place_block_nodes(deck, i_card, spec, model, draft, block, ok)
-      if (ok .and. named) then
-         call put_block_sets(model, draft, block)
-         draft%blocks = [draft%blocks, block]
-      else
-         call spoil_block(draft, block%name)
-      end if
-   end subroutine read_block_card
+      call place_block_nodes(deck, i_card, shifted, model, draft, block, ok)
+      if (.not. ok) return
+      call put_block_sets(model, draft, block)
+      call add_draft_block(draft, block)
+      draft%elements_to_come = draft%elements_to_come + count_elements(block)
+   end subroutine place_copy
 
    subroutine read_spec(deck, card, spec, ok)
       type(deck_t), intent(in) :: deck
@@ -76,7 +122,7 @@ contains
       type(spec_t), intent(out) :: spec
       logical, intent(out) :: ok
       integer(ip) :: n_nodes
-      logical :: good(5)
+      logical :: good(6)
 
       call read_element_type(deck, card, n_nodes, spec%state, good(1))
       if (n_nodes == Q2_NODES) spec%order = 2
@@ -84,33 +130,36 @@ contains
       call read_count(deck, card, 'NY', spec%n(2), good(3))
       call read_corners(deck, card, spec, good(4))
       call read_divisions(deck, card, all(good(2:3)), spec, good(5))
+      call read_copies(deck, card, spec%copies, good(6))
       ok = all(good)
-      if (.not. all(good(2:3))) return
+      if (.not. all(good([2, 3, 6]))) return
       if (count_nodes(spec) <= int(MOST_NODES, lp)) return
       ok = .false.
       call report_error(deck, card%place, 'E-VALUE', 'a block of more than '//to_text(MOST_NODES)//' nodes', &
-                        expected='fewer elements NX, NY', keyword='BLOCK')
+                        expected='fewer elements NX, NY, or fewer copies', keyword='BLOCK')
    end subroutine read_spec
 
-   !> Nodes of a block of two counts; many more than there can be where they would not fit into a long integer.
+   !> Nodes of a block of two counts with all copies; many more than there can be where they would not fit into a long integer.
    pure integer(lp) function count_nodes(spec) result(n)
       type(spec_t), intent(in) :: spec
-      integer(lp) :: width(2)
+      integer(lp) :: factors(4)
 
-      width = int(spec%order, lp)*int(spec%n, lp) + 1_lp
+      factors = [int(spec%order, lp)*int(spec%n, lp) + 1_lp, int(spec%copies%n, lp)]
       n = huge(1_ip)
-      if (all(width < int(huge(1_ip), lp))) n = product(width)
+      if (product(real(factors, wp)) < real(n, wp)) n = product(factors)
    end function count_nodes
 
-   !> The line divides a direction; other lines are corners.
-   pure logical function is_division(deck, line)
+   !> The line begins with one of these words; other lines are corners.
+   pure logical function has_word(deck, line, words)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
+      character(len=*), intent(in) :: words(:)
       character(len=:), allocatable :: word
+      integer :: i
 
       word = token_text(deck, line_item(deck, line, 1_ip))
-      is_division = same_name(word, 'GRADE') .or. same_name(word, 'X') .or. same_name(word, 'Y')
-   end function is_division
+      has_word = any([(same_name(word, words(i)), i=1, size(words))])
+   end function has_word
 
    subroutine read_count(deck, card, name, n, ok)
       type(deck_t), intent(in) :: deck
@@ -142,7 +191,7 @@ contains
       ok = .true.
       n = 0
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (is_division(deck, deck%lines(i)) .or. n == CORNERS) cycle
+         if (has_word(deck, deck%lines(i), [DIVISIONS, 'COPY ']) .or. n == CORNERS) cycle
          n = n + 1
          lines(n) = i
          ok = ok .and. deck%lines(i)%ok
@@ -168,7 +217,7 @@ contains
 
       ok = .true.
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (.not. counted .or. .not. is_division(deck, deck%lines(i))) cycle
+         if (.not. counted .or. .not. has_word(deck, deck%lines(i), DIVISIONS)) cycle
          call read_division(deck, deck%lines(i), spec, good)
          ok = ok .and. good
       end do
@@ -373,7 +422,7 @@ contains
       i_set = find_set(model%node_sets, other)
       ok = i_set > 0
       if (.not. ok) then
-         call report_unknown(deck, draft, place, 'earlier node set', 'E-SET', set_names(model%node_sets), 'BLOCK')
+         call report_unknown(deck, draft, place, 'earlier node set', 'E-SET', model%node_sets%names, 'BLOCK')
          return
       end if
       width = size(nodes, 1, kind=ip)
@@ -442,36 +491,87 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(block_t), intent(in) :: block
-      integer(ip) :: nx, ny
+      integer(ip) :: k
 
-      nx = ubound(block%nodes, 1, kind=ip)
-      ny = ubound(block%nodes, 2, kind=ip)
       call put_node_set(model, draft, block%card, block%name, reshape(block%nodes, [size(block%nodes)]))
-      call put_node_set(model, draft, block%card, block%name//trim(BLOCK_SIDES(1)), block%nodes(:, 0))
-      call put_node_set(model, draft, block%card, block%name//trim(BLOCK_SIDES(2)), block%nodes(nx, :))
-      call put_node_set(model, draft, block%card, block%name//trim(BLOCK_SIDES(3)), block%nodes(:, ny))
-      call put_node_set(model, draft, block%card, block%name//trim(BLOCK_SIDES(4)), block%nodes(0, :))
+      do k = 1, size(BLOCK_SIDES, kind=ip)
+         call put_node_set(model, draft, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
+      end do
    end subroutine put_block_sets
 
-   !> The elements of the block that a card made, if it could.
+   pure function side_nodes(block, side) result(nodes)
+      type(block_t), intent(in) :: block
+      integer(ip), intent(in) :: side                  !< 1..4, as in BLOCK_SIDES
+      integer(ip), allocatable :: nodes(:)
+
+      select case (side)
+      case (1)
+         nodes = block%nodes(:, 0)
+      case (2)
+         nodes = block%nodes(ubound(block%nodes, 1), :)
+      case (3)
+         nodes = block%nodes(:, ubound(block%nodes, 2))
+      case default
+         nodes = block%nodes(0, :)
+      end select
+   end function side_nodes
+
+   !> All nodes of the copies of a block, and those at the sides of all of them.
+   subroutine put_array_sets(i_card, name, model, draft)
+      integer(ip), intent(in) :: i_card
+      character(len=*), intent(in) :: name             !< of the *BLOCK
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(number_list_t) :: at_side(size(BLOCK_SIDES))
+      integer(ip) :: b, k, first
+
+      first = draft%blocks(draft%block_of_card(i_card))%nodes(0, 0)
+      call put_node_set(model, draft, i_card, name, [(k, k=first, model%mesh%n_nodes)])
+      do b = draft%block_of_card(i_card), draft%n_blocks
+         do k = 1, size(BLOCK_SIDES, kind=ip)
+            if (draft%blocks(b)%at_side(k)) call add_numbers(at_side(k), side_nodes(draft%blocks(b), k))
+         end do
+      end do
+      do k = 1, size(BLOCK_SIDES, kind=ip)
+         call put_node_set(model, draft, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side(k)))
+      end do
+   end subroutine put_array_sets
+
+   !> The elements of the blocks that a card made, if it could.
    subroutine place_block_elements(deck, i_card, model, draft)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: i_card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      integer(ip) :: b, k, n
+      integer(ip) :: b, k, first
+
+      first = model%mesh%n_elements + 1
+      b = draft%block_of_card(i_card)
+      if (b == 0) return
+      do
+         call place_elements_of(deck, b, model, draft)
+         if (b == draft%n_blocks) exit
+         if (draft%blocks(b + 1)%card /= i_card) exit
+         b = b + 1
+      end do
+      if (allocated(draft%blocks(b)%array)) call grow_set(model%element_sets, draft%blocks(b)%array, &
+                                                          [(k, k=first, model%mesh%n_elements)])
+   end subroutine place_block_elements
+
+   subroutine place_elements_of(deck, b, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: b                     !< place in draft%blocks
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip) :: k, n
       logical :: ok
 
-      do b = 1, size(draft%blocks, kind=ip)
-         if (draft%blocks(b)%card == i_card) exit
-      end do
-      if (b > size(draft%blocks)) return
-      associate (block => draft%blocks(b))
+      associate (block => draft%blocks(b), i_card => draft%blocks(b)%card)
          n = count_elements(block)
          block%first_element = model%mesh%n_elements + 1
          ok = draft%greatest_element <= huge(1_ip) - n
          if (ok) then
-            call reserve_mesh(model%mesh, 0_ip, sum(count_elements(draft%blocks(b:))))   ! with those of the blocks that follow
+            call reserve_mesh(model%mesh, 0_ip, draft%elements_to_come)   ! with those of the blocks that follow
             call add_block(model%mesh, draft%greatest_element + 1, block%state, block%order, block%nodes)
             call note_places(draft%element_place, block%first_element, model%mesh%n_elements, -i_card)
             draft%greatest_element = draft%greatest_element + n
@@ -479,11 +579,12 @@ contains
             call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the element numbers of the block, which follow the '// &
                               'greatest so far, are too large', keyword='BLOCK')
          end if
+         draft%elements_to_come = draft%elements_to_come - n
          call grow_set(model%element_sets, block%name, [(k, k=block%first_element, model%mesh%n_elements)])
       end associate
-   end subroutine place_block_elements
+   end subroutine place_elements_of
 
-   elemental integer(ip) function count_elements(block) result(n)
+   pure integer(ip) function count_elements(block) result(n)
       type(block_t), intent(in) :: block
 
       n = (ubound(block%nodes, 1, kind=ip)/block%order)*(ubound(block%nodes, 2, kind=ip)/block%order)

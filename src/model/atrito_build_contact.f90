@@ -2,12 +2,12 @@
 module atrito_build_contact
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, keep_token
+   use atrito_draft, only: draft_t, place_text, keep_token, count_cards
    use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, &
                            KERNEL_LINE
-   use atrito_model_names, only: interaction_names, surface_names, find_name
+   use atrito_name_list, only: add_name, find_name
    use atrito_references, only: report_unknown
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -22,9 +22,9 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       logical :: given(2)                              ! *SURFACE BEHAVIOR, *FRICTION of the current interaction
-      integer(ip) :: i, current
+      integer(ip) :: i, current, n_pairs
 
-      allocate (model%interactions(0), model%pairs(0))
+      allocate (model%interactions(count_cards(deck, 'SURFACE INTERACTION')), model%pairs(count_pair_lines(deck)))
       current = 0
       given = .false.
       do i = 1, deck%n_cards
@@ -38,10 +38,24 @@ contains
             if (current > 0) call read_friction_card(deck, deck%cards(i), model%interactions(current), given(2))
          end select
       end do
+      model%interactions = model%interactions(:draft%interaction_names%n)
+      n_pairs = 0
       do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(deck, deck%cards(i), model, draft)
+         if (keyword_name(deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(deck, deck%cards(i), model, draft, n_pairs)
       end do
+      model%pairs = model%pairs(:n_pairs)
    end subroutine build_contact
+
+   !> Each line makes a pair at most.
+   pure integer(ip) function count_pair_lines(deck) result(n)
+      type(deck_t), intent(in) :: deck
+      integer(ip) :: i
+
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == 'CONTACT PAIR') n = n + deck%cards(i)%n_lines
+      end do
+   end function count_pair_lines
 
    subroutine read_interaction_card(deck, card, model, draft, current)
       type(deck_t), intent(in) :: deck
@@ -56,7 +70,7 @@ contains
       current = 0
       call option_text(deck, card, 'NAME', interaction%name, found, place)
       if (.not. found) return
-      current = find_name(interaction_names(model), interaction%name)
+      current = find_name(draft%interaction_names, interaction%name)
       if (current > 0) then
          call report_error(deck, place, 'E-TWICE', 'surface interaction '//interaction%name//' is defined twice, first in '// &
                            place_text(deck, draft%interactions(current), place), &
@@ -64,9 +78,10 @@ contains
          current = 0
          return
       end if
-      model%interactions = [model%interactions, interaction]
-      call keep_token(draft%interactions, place)
-      current = size(model%interactions, kind=ip)
+      call add_name(draft%interaction_names, interaction%name)
+      current = draft%interaction_names%n
+      model%interactions(current) = interaction
+      call keep_token(draft%interactions, current, place)
    end subroutine read_interaction_card
 
    !> A keyword that an interaction has at most once.
@@ -157,11 +172,12 @@ contains
    end subroutine read_friction_card
 
    !> *CONTACT PAIR: slave, master.
-   subroutine read_pair_card(deck, card, model, draft)
+   subroutine read_pair_card(deck, card, model, draft, n_pairs)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
+      integer(ip), intent(inout) :: n_pairs            !< that there are
       type(pair_t) :: pair
       type(token_t) :: place
       character(len=:), allocatable :: name
@@ -169,34 +185,34 @@ contains
       logical :: found
 
       call option_text(deck, card, 'INTERACTION', name, found, place)
-      pair%interaction = find_name(interaction_names(model), name)
+      pair%interaction = find_name(draft%interaction_names, name)
       if (found .and. pair%interaction == 0) call report_unknown(deck, draft, place, 'surface interaction', 'E-INTERACTION', &
-                                                                 interaction_names(model), 'CONTACT PAIR')
+                                                                 draft%interaction_names, 'CONTACT PAIR')
       pair%quadrature_given = has_option(deck, card, 'QUADRATURE')
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. deck%lines(i)%ok) cycle
-         call find_surface(deck, deck%lines(i), 1_ip, model, draft, pair%slave)
-         call find_surface(deck, deck%lines(i), 2_ip, model, draft, pair%master)
+         call find_surface(deck, deck%lines(i), 1_ip, draft, pair%slave)
+         call find_surface(deck, deck%lines(i), 2_ip, draft, pair%master)
          draft%pairs_unsure = draft%pairs_unsure .or. pair%interaction == 0
          if (min(pair%interaction, pair%slave, pair%master) == 0) cycle
-         model%pairs = [model%pairs, pair]
-         call keep_token(draft%slaves, line_item(deck, deck%lines(i), 1_ip))
-         call keep_token(draft%masters, line_item(deck, deck%lines(i), 2_ip))
+         n_pairs = n_pairs + 1
+         model%pairs(n_pairs) = pair
+         call keep_token(draft%slaves, n_pairs, line_item(deck, deck%lines(i), 1_ip))
+         call keep_token(draft%masters, n_pairs, line_item(deck, deck%lines(i), 2_ip))
       end do
    end subroutine read_pair_card
 
-   subroutine find_surface(deck, line, item, model, draft, surface)
+   subroutine find_surface(deck, line, item, draft, surface)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: item
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(out) :: surface              !< place; 0: unknown, reported
       type(token_t) :: token
 
       token = line_item(deck, line, item)
-      surface = find_name(surface_names(model), token_text(deck, token))
-      if (surface == 0) call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', surface_names(model), 'CONTACT PAIR')
+      surface = find_name(draft%surface_names, token_text(deck, token))
+      if (surface == 0) call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'CONTACT PAIR')
    end subroutine find_surface
 
 end module atrito_build_contact

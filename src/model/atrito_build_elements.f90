@@ -2,7 +2,7 @@
 module atrito_build_elements
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors
+   use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors, is_unsure
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
    use atrito_kinds, only: ip, lp, wp
@@ -15,7 +15,7 @@ module atrito_build_elements
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_element_card, read_elgen_card, read_element_type, place_element
+   public :: read_element_card, read_elgen_card, read_element_type, place_element, copy_element_once
 
    !> One direction of *ELGEN.
    type :: repeat_t
@@ -224,27 +224,30 @@ contains
             do i = 0, repeats(1)%n - 1
                shift = [i, j, k]
                if (all(shift == 0_lp)) cycle
-               call copy_once(deck, line, model, draft, master, sum(shift*repeats%node_step), &
-                              sum(shift*repeats%element_step), ok)
+               call copy_element_once(deck, line_item(deck, line, 1_ip), line%first_token, 'ELGEN', model, draft, master, &
+                                      [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
                if (.not. ok) return
             end do
          end do
       end do
    end subroutine copy_element
 
-   subroutine copy_once(deck, line, model, draft, master, node_shift, element_shift, ok)
+   !> An element once more on other nodes.
+   subroutine copy_element_once(deck, token, place, keyword, model, draft, master, shift, ok)
       type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
+      type(token_t), intent(in) :: token               !< at which errors are told
+      integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
+      character(len=*), intent(in) :: keyword
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      integer(ip), intent(in) :: master
-      integer(lp), intent(in) :: node_shift, element_shift   !< of the numbers, which may leave the range of an integer
+      integer(ip), intent(in) :: master                !< place
+      integer(lp), intent(in) :: shift(2)              !< of the numbers of nodes and of elements, which may become too large
       logical, intent(out) :: ok
       integer(lp) :: ids(model%mesh%shape(master)), id
       integer(ip) :: nodes(size(ids)), i
 
-      id = model%mesh%element_id(master) + element_shift
-      ids = model%mesh%node_id(model%mesh%nodes(:size(nodes), master)) + node_shift
+      id = model%mesh%element_id(master) + shift(2)
+      ids = model%mesh%node_id(model%mesh%nodes(:size(nodes), master)) + shift(1)
       do i = 1, size(nodes, kind=ip)
          nodes(i) = 0
          if (ids(i) <= int(huge(1_ip), lp)) nodes(i) = find_node(model%mesh, int(max(ids(i), 0_lp), ip))
@@ -252,20 +255,18 @@ contains
          if (.not. ok) exit
       end do
       if (.not. ok) then
-         if (is_spoiled_node(draft, ids(i))) return
-         call report_error(deck, line_item(deck, line, 1_ip), 'E-NODE', 'node '//to_text(ids(i))// &
-                           ' of the generated element '//to_text(id)//' does not exist', &
-                           expected='copies whose nodes all exist', keyword='ELGEN')
+         if (is_spoiled_node(draft, ids(i)) .or. is_unsure(draft, 'node')) return
+         call report_error(deck, token, 'E-NODE', 'node '//to_text(ids(i))//' of the generated element '//to_text(id)// &
+                           ' does not exist', expected='copies whose nodes all exist', keyword=keyword)
       else if (id < 1_lp .or. id > int(huge(1_ip), lp)) then
          ok = .false.
-         call report_error(deck, line_item(deck, line, 1_ip), 'E-ID', 'the generated element number '//to_text(id)// &
+         call report_error(deck, token, 'E-ID', 'the generated element number '//to_text(id)// &
                            trim(merge(' is too large   ', ' is not positive', id > 0_lp)), expected='positive element numbers', &
-                           keyword='ELGEN')
+                           keyword=keyword)
       else
-         call place_element(deck, model, draft, int(id, ip), model%mesh%state(master), nodes, line%first_token, ok, &
-                            'ELGEN')
+         call place_element(deck, model, draft, int(id, ip), model%mesh%state(master), nodes, place, ok, keyword)
       end if
-   end subroutine copy_once
+   end subroutine copy_element_once
 
    logical function is_spoiled_node(draft, id)
       type(draft_t), intent(in) :: draft

@@ -9,7 +9,7 @@ module atrito_build_loads
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_node_load, add_element_load, trim_node_loads, trim_element_loads
    use atrito_model, only: model_t, LOAD_PRESSURE, LOAD_BODY, SURFACE_ELEMENTS
-   use atrito_model_names, only: surface_names, find_name
+   use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_references, only: find_nodes, find_elements, report_unknown
@@ -279,9 +279,9 @@ contains
 
       token = deck%tokens(line%first_token)
       call get_real(deck, line_item(deck, line, 3_ip), magnitude_of('P'), pressure, ok, keyword='DSLOAD')
-      s = find_name(surface_names(model), token_text(deck, token))
+      s = find_name(draft%surface_names, token_text(deck, token))
       if (s == 0) then
-         call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', surface_names(model), 'DSLOAD')
+         call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'DSLOAD')
          return
       end if
       associate (surface => model%surfaces(s))

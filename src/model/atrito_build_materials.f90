@@ -2,14 +2,14 @@
 module atrito_build_materials
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_name, place_text, keep_token, ids_text, is_spoiled, has_errors
+   use atrito_draft, only: draft_t, spoil_name, place_text, keep_token, count_cards, ids_text, is_spoiled, has_errors
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, material_t, section_t, FORMULATION_BBAR
-   use atrito_model_names, only: material_names, find_name
+   use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set, set_names
+   use atrito_sets, only: find_set
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -25,10 +25,12 @@ contains
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
-      integer(ip) :: i, current
+      integer(ip) :: i, current, n_sections
       logical :: is_open                               ! nothing but *ELASTIC and *DENSITY since the last *MATERIAL
 
-      allocate (model%materials(0), model%sections(0))
+      i = count_cards(deck, 'MATERIAL')
+      allocate (model%materials(i), model%sections(count_cards(deck, 'SOLID SECTION')))
+      allocate (draft%elastic_given(i), draft%elastic_spoiled(i), source=.false.)
       allocate (model%section_of(model%mesh%n_elements), source=0_ip)
       current = 0
       is_open = .false.
@@ -48,9 +50,14 @@ contains
             is_open = .false.
          end select
       end do
+      model%materials = model%materials(:draft%material_names%n)
+      n_sections = 0
       do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'SOLID SECTION') call read_section_card(deck, deck%cards(i), model, draft)
+         if (keyword_name(deck%cards(i)) == 'SOLID SECTION') then
+            call read_section_card(deck, deck%cards(i), model, draft, n_sections)
+         end if
       end do
+      model%sections = model%sections(:n_sections)
    end subroutine build_materials
 
    subroutine read_material_card(deck, card, model, draft, current)
@@ -66,7 +73,7 @@ contains
       current = 0
       call option_text(deck, card, 'NAME', material%name, found, place)
       if (.not. found) return
-      current = find_name(material_names(model), material%name)
+      current = find_name(draft%material_names, material%name)
       if (current > 0) then
          call report_error(deck, place, 'E-TWICE', 'material '//material%name//' is defined twice, first in '// &
                            place_text(deck, draft%materials(current), place), expected='a name that no other material has', &
@@ -74,12 +81,12 @@ contains
          current = 0
          return
       end if
-      model%materials = [model%materials, material]
-      draft%elastic_given = [draft%elastic_given, .false.]
-      draft%elastic_spoiled = [draft%elastic_spoiled,.not. card%ok]
-      call keep_token(draft%materials, place)
-      call keep_token(draft%poisson, place)
-      current = size(model%materials, kind=ip)
+      call add_name(draft%material_names, material%name)
+      current = draft%material_names%n
+      model%materials(current) = material
+      draft%elastic_spoiled(current) = .not. card%ok
+      call keep_token(draft%materials, current, place)
+      call keep_token(draft%poisson, current, place)
    end subroutine read_material_card
 
    subroutine read_elastic_card(deck, card, material, draft, i)
@@ -136,11 +143,12 @@ contains
    end subroutine read_density_card
 
    !> *SOLID SECTION.
-   subroutine read_section_card(deck, card, model, draft)
+   subroutine read_section_card(deck, card, model, draft, n_sections)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
+      integer(ip), intent(inout) :: n_sections         !< that there are
       type(section_t) :: section
       type(token_t) :: place
       character(len=:), allocatable :: material
@@ -150,22 +158,23 @@ contains
       call option_text(deck, card, 'ELSET', section%elset, named, place)
       i_set = find_set(model%element_sets, section%elset)
       if (named .and. i_set == 0) call report_unknown(deck, draft, place, 'element set', 'E-SET', &
-                                                      set_names(model%element_sets), 'SOLID SECTION')
+                                                      model%element_sets%names, 'SOLID SECTION')
       ok = i_set > 0 .and. card%ok
       if (option_word(deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
       call read_thickness(deck, card, section%thickness, ok)
       if (i_set == 0) draft%sections_unsure = .true.
 
       call option_text(deck, card, 'MATERIAL', material, named, place)
-      section%material = find_name(material_names(model), material)
+      section%material = find_name(draft%material_names, material)
       if (named .and. section%material == 0) call report_unknown(deck, draft, place, 'material', 'E-MATERIAL', &
-                                                                 material_names(model), 'SOLID SECTION')
+                                                                 draft%material_names, 'SOLID SECTION')
       ok = ok .and. section%material > 0
       number = SECTION_SPOILED
       if (ok) then
-         model%sections = [model%sections, section]
-         call keep_token(draft%sections, card%place)
-         number = size(model%sections, kind=ip)
+         n_sections = n_sections + 1
+         model%sections(n_sections) = section
+         call keep_token(draft%sections, n_sections, card%place)
+         number = n_sections
       end if
       if (i_set > 0) call assign_section(deck, card, model, draft, model%element_sets%sets(i_set)%members, number)
    end subroutine read_section_card

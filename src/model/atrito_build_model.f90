@@ -2,6 +2,7 @@
 module atrito_build_model
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
+   use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
    use atrito_build_elements, only: read_element_card, read_elgen_card
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
@@ -10,11 +11,13 @@ module atrito_build_model
    use atrito_build_sets, only: try_nset_card, read_nset_card, read_elset_card
    use atrito_build_supports, only: build_supports
    use atrito_build_surfaces, only: build_surfaces
-   use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs
+   use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
    use atrito_check_mesh, only: check_mesh
+   use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_draft, only: draft_t, prepare_draft, has_errors
    use atrito_faces, only: list_node_elements
+   use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
@@ -68,6 +71,7 @@ contains
       integer(lp), intent(in) :: memory
       type(model_t), intent(out) :: model
       type(draft_t) :: draft
+      type(contact_rules_t) :: rules
 
       call prepare_draft(deck, draft)
       draft%memory = memory
@@ -81,12 +85,16 @@ contains
       call build_surfaces(deck, model, draft)
       call build_materials(deck, model, draft)
       call build_contact(deck, model, draft)
+      call read_contact_rules(deck, model, draft, rules)
       call build_supports(deck, model, draft)
       call build_loads(deck, model, draft)
       call build_requests(deck, model, draft)
       call check_mesh(deck, model, draft)
       call check_surfaces_of_pairs(deck, model, draft)
-      if (.not. has_errors()) call check_points_of_pairs(deck, model, draft)
+      if (has_errors()) return
+      call find_contact(deck, rules, model, draft)
+      call note_unused_interactions(deck, model, draft)
+      call check_points_of_pairs(deck, model, draft)
    end subroutine build_once
 
    subroutine take_titles(deck, model)
@@ -139,6 +147,8 @@ contains
             call read_ngen_card(deck, i, model, draft)
          case ('NFILL')
             call read_nfill_card(deck, i, model, draft)
+         case ('NCOPY')
+            call read_ncopy_card(deck, i, model, draft)
          case ('BLOCK')
             call read_block_card(deck, i, model, draft)
          case ('NSET')
@@ -164,12 +174,15 @@ contains
             call read_element_card(deck, i, model, draft)
          case ('ELGEN')
             call read_elgen_card(deck, i, model, draft)
+         case ('ELCOPY')
+            call read_elcopy_card(deck, i, model, draft)
          case ('BLOCK')
             call place_block_elements(deck, i, model, draft)
          end select
       end do
       do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'ELSET') call read_elset_card(deck, i, model, draft)
+         if (keyword_name(deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
+         call read_elset_card(deck, i, model, draft)
       end do
    end subroutine build_elements
 

@@ -10,7 +10,7 @@ module atrito_build_nodes
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_references, only: get_id, find_nodes, find_one_node
-   use atrito_sets, only: grow_set
+   use atrito_sets, only: grow_set, set_count
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -101,9 +101,11 @@ contains
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: members(:)            !< places
+      integer(ip) :: n
 
+      n = set_count(model%node_sets)
       call grow_set(model%node_sets, name, members)
-      if (size(model%node_sets%sets) > size(draft%set_card)) draft%set_card = [draft%set_card, i_card]
+      if (set_count(model%node_sets) > n) call note_place(draft%set_card, n + 1, i_card)
    end subroutine put_node_set
 
    !> The set that NSET= of a card names.

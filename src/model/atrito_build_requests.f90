@@ -8,7 +8,7 @@ module atrito_build_requests
    use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t, controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_references, only: report_unknown
-   use atrito_sets, only: set_list_t, find_set, set_names
+   use atrito_sets, only: set_list_t, find_set
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -40,6 +40,10 @@ contains
                               model%requests%requested_t)
          case ('CONTACT PRINT')
             model%requests%contact = .true.
+         case ('BODY PRINT')
+            model%requests%bodies = .true.
+         case ('JOINT PRINT')
+            model%requests%joints = .true.
          case ('NODE FILE')
             call read_node_card(deck, deck%cards(i), model%mesh, model%node_sets, draft, &
                                 model%requests%fields)
@@ -209,7 +213,7 @@ contains
       if (ok) then
          chosen(sets%sets(i)%members) = .true.
       else
-         call report_unknown(deck, draft, place, noun, 'E-SET', set_names(sets), keyword_name(card))
+         call report_unknown(deck, draft, place, noun, 'E-SET', sets%names, keyword_name(card))
       end if
    end subroutine choose_members
 

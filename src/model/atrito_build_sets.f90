@@ -11,11 +11,11 @@ module atrito_build_sets
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_references, only: get_id, find_nodes, find_elements
-   use atrito_sets, only: find_set, grow_set
+   use atrito_sets, only: set_list_t, find_set, grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: try_nset_card, read_nset_card, read_elset_card
+   public :: try_nset_card, try_elset_card, read_nset_card, read_elset_card
 
 contains
 
@@ -27,19 +27,41 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
 
-      if (has_option(deck, deck%cards(i_card), 'GENERATE')) then
-         if (.not. ranges_are_known(deck, deck%cards(i_card), model)) return
-      else
-         if (.not. items_are_known(deck, deck%cards(i_card), model)) return
-      end if
+      if (.not. members_are_known(deck, deck%cards(i_card), model%mesh%node_map, model%node_sets)) return
       call read_nset_card(deck, i_card, model, draft)
       draft%card_done(i_card) = .true.
    end subroutine try_nset_card
 
-   pure logical function items_are_known(deck, card, model) result(known)
+   !> The same of a *ELSET, for a *ELCOPY below.
+   subroutine try_elset_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+
+      if (.not. members_are_known(deck, deck%cards(i_card), model%mesh%element_map, model%element_sets)) return
+      call read_elset_card(deck, i_card, model, draft)
+      draft%card_done(i_card) = .true.
+   end subroutine try_elset_card
+
+   pure logical function members_are_known(deck, card, map, sets) result(known)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
-      type(model_t), intent(in) :: model
+      type(id_map_t), intent(in) :: map                !< of the numbers there are
+      type(set_list_t), intent(in) :: sets
+
+      if (has_option(deck, card, 'GENERATE')) then
+         known = ranges_are_known(deck, card, map)
+      else
+         known = items_are_known(deck, card, map, sets)
+      end if
+   end function members_are_known
+
+   pure logical function items_are_known(deck, card, map, sets) result(known)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(id_map_t), intent(in) :: map
+      type(set_list_t), intent(in) :: sets
       integer(ip) :: i, t, id
       integer :: outcome
 
@@ -50,19 +72,19 @@ contains
             if (is_id_token(deck, deck%tokens(t))) then
                call read_integer(token_text(deck, deck%tokens(t)), id, outcome)
                known = outcome == NUMBER_OK
-               if (known) known = find_id(model%mesh%node_map, id) > 0
+               if (known) known = find_id(map, id) > 0
             else
-               known = find_set(model%node_sets, token_text(deck, deck%tokens(t))) > 0
+               known = find_set(sets, token_text(deck, deck%tokens(t))) > 0
             end if
             if (.not. known) return
          end do
       end do
    end function items_are_known
 
-   pure logical function ranges_are_known(deck, card, model) result(known)
+   pure logical function ranges_are_known(deck, card, map) result(known)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
-      type(model_t), intent(in) :: model
+      type(id_map_t), intent(in) :: map
       integer(ip) :: i, k, range(3)
       integer :: outcome
 
@@ -77,7 +99,7 @@ contains
          known = known .and. range(3) > 0
          if (.not. known) return
          do k = range(1), range(2), range(3)
-            known = find_id(model%mesh%node_map, k) > 0
+            known = find_id(map, k) > 0
             if (.not. known) return
          end do
       end do

@@ -3,13 +3,15 @@ module atrito_build_surfaces
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, ids_text, is_spoiled
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, count_cards, ids_text, &
+                           is_spoiled
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
+   use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: MOST_FACES => FACES
    use atrito_model, only: model_t, surface_t, SURFACE_ELEMENTS, SURFACE_SEGMENTS
-   use atrito_model_names, only: surface_names, find_name
+   use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_references, only: find_elements, report_unknown
@@ -31,19 +33,22 @@ contains
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
-      allocate (model%surfaces(0))
-      do i = 1, size(draft%blocks, kind=ip)
+      ! each block may have four sides of its own, and those of all copies are of their *BLOCK
+      allocate (model%surfaces((draft%n_blocks + count_cards(deck, 'BLOCK'))*size(BLOCK_SIDES, kind=ip) + &
+                               count_cards(deck, 'SURFACE')))
+      do i = 1, draft%n_blocks
          call put_block_surfaces(deck, draft%blocks(i), model, draft)
       end do
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) == 'SURFACE') call read_surface_card(deck, deck%cards(i), model, draft)
       end do
+      if (draft%surface_names%n < size(model%surfaces)) model%surfaces = model%surfaces(:draft%surface_names%n)
       do i = 1, deck%n_cards
          if (keyword_name(deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(deck, deck%cards(i), model, draft)
       end do
    end subroutine build_surfaces
 
-   !> The four sides of a block; faces that another block has joined are left out.
+   !> The four sides of a block, and its part of the sides of all copies; faces that another block has joined are left out.
    subroutine put_block_surfaces(deck, block, model, draft)
       type(deck_t), intent(in) :: deck
       type(block_t), intent(in) :: block
@@ -64,22 +69,28 @@ contains
       subroutine put_side(face, elements)
          integer(ip), intent(in) :: face
          integer(ip), intent(in) :: elements(:)        !< counted from the first of the block
-         character(len=:), allocatable :: name
          integer(ip), allocatable :: pieces(:)
+
+         pieces = fine_elements(draft%refinement, block%first_element + elements)
+         call put_faces(block%name//trim(BLOCK_SIDES(face)), face, pieces)
+         if (block%at_side(face)) call put_faces(block%array//trim(BLOCK_SIDES(face)), face, pieces)
+      end subroutine put_side
+
+      subroutine put_faces(name, face, pieces)
+         character(len=*), intent(in) :: name          !< of the surface
+         integer(ip), intent(in) :: face, pieces(:)
          integer(ip) :: k, s
 
-         name = block%name//trim(BLOCK_SIDES(face))
-         s = find_name(surface_names(model), name)
+         s = find_name(draft%surface_names, name)
          if (s == 0) then
             call add_surface(model, draft, surface_t(name=name), deck%cards(block%card)%place)
-            s = size(model%surfaces, kind=ip)
+            s = draft%surface_names%n
          end if
-         pieces = fine_elements(draft%refinement, block%first_element + elements)
          do k = 1, size(pieces, kind=ip)
             if (.not. is_on_side(draft%refinement, pieces(k), face)) cycle
             if (is_outer_face(model%mesh, draft%around, pieces(k), face)) call add_face(model%surfaces(s)%faces, pieces(k), face)
          end do
-      end subroutine put_side
+      end subroutine put_faces
 
    end subroutine put_block_surfaces
 
@@ -89,8 +100,9 @@ contains
       type(surface_t), intent(in) :: surface
       type(token_t), intent(in) :: place               !< where it is defined
 
-      model%surfaces = [model%surfaces, surface]
-      call keep_token(draft%surfaces, place)
+      call add_name(draft%surface_names, surface%name)
+      model%surfaces(draft%surface_names%n) = surface
+      call keep_token(draft%surfaces, draft%surface_names%n, place)
    end subroutine add_surface
 
    !> *SURFACE.
@@ -106,7 +118,7 @@ contains
 
       call option_text(deck, card, 'NAME', surface%name, found, place)
       if (.not. found) return
-      i = find_name(surface_names(model), surface%name)
+      i = find_name(draft%surface_names, surface%name)
       if (i > 0) then
          call report_error(deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
                            place_text(deck, draft%surfaces(i), place), expected='a name that no other surface has', &
@@ -144,22 +156,20 @@ contains
          if (good) call take_faces(deck, deck%lines(i), model, draft, elements, faces, good)
          ok = ok .and. good
       end do
-      call keep_once(model%mesh%n_elements, faces)
+      call keep_once(faces)
    end subroutine read_faces
 
    !> Faces that several lines name are faces of the surface once: a pressure would act twice on them.
-   pure subroutine keep_once(n_elements, faces)
-      integer(ip), intent(in) :: n_elements
+   pure subroutine keep_once(faces)
       type(face_list_t), intent(inout) :: faces
-      logical, allocatable :: seen(:, :)
+      type(id_map_t) :: seen(MOST_FACES)               ! the elements, by their face
       type(face_list_t) :: once
       integer(ip) :: i
+      logical :: known
 
-      allocate (seen(MOST_FACES, n_elements), source=.false.)
       do i = 1, faces%n
-         if (seen(faces%face(i), faces%element(i))) cycle
-         seen(faces%face(i), faces%element(i)) = .true.
-         call add_face(once, faces%element(i), faces%face(i))
+         call add_id(seen(faces%face(i)), faces%element(i), i, known)
+         if (.not. known) call add_face(once, faces%element(i), faces%face(i))
       end do
       faces = once
    end subroutine keep_once
@@ -328,9 +338,9 @@ contains
 
       call option_text(deck, card, 'ANALYTICAL SURFACE', name, found, place)
       if (.not. found) return
-      i = find_name(surface_names(model), name)
+      i = find_name(draft%surface_names, name)
       if (i == 0) then
-         call report_unknown(deck, draft, place, 'surface', 'E-SURFACE', surface_names(model), 'RIGID BODY')
+         call report_unknown(deck, draft, place, 'surface', 'E-SURFACE', draft%surface_names, 'RIGID BODY')
       else if (model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
          call report_error(deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')

@@ -5,15 +5,28 @@ module atrito_check_contact
    use atrito_draft, only: draft_t, ids_text, place_text, has_errors, is_spoiled
    use atrito_face_geometry, only: has_quarter_node
    use atrito_faces, only: order_chain, chain_report_t, face_list_t, face_normal
-   use atrito_kinds, only: ip, wp
+   use atrito_incidence, only: list_holders
+   use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_points, only: contact_points_t, pair_surfaces
+   use atrito_pairing, only: pairing_t, prepare_pairing, pair_points
+   use atrito_points, only: contact_points_t
+   use atrito_sorting, only: sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: check_surfaces_of_pairs, check_points_of_pairs, element_thickness
+   public :: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
+
+   integer(ip), parameter :: MOST_FACE_NODES = 3
+
+   !> What the checks of the pairs share: thousands of pairs may have surfaces in common.
+   type :: pairs_draft_t
+      integer(ip), allocatable :: first_of(:)          !< (pairs) the first one of the same two surfaces
+      logical, allocatable :: is_ordered(:)            !< (surfaces) it is a slave, and its faces stand in their order
+      integer(ip), allocatable :: first(:), face(:)    !< face(first(i):first(i + 1) - 1): the faces of masters at node i
+      integer(ip), allocatable :: surface_of(:)        !< the surface of such a face
+   end type pairs_draft_t
 
    real(wp), parameter :: LINE_SPACINGS = 3.0_wp       !< KERNEL=LINE needs so many spacings within rho
 
@@ -24,19 +37,70 @@ contains
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
+      type(pairs_draft_t) :: known
       integer(ip) :: i
 
+      known%first_of = first_of_each(model%pairs)
+      allocate (known%is_ordered(size(model%surfaces)), source=.false.)
+      call list_masters(model, known)
       do i = 1, size(model%pairs, kind=ip)
-         call check_sides(deck, model, draft, i)
+         call check_sides(deck, model, draft, i, known)
       end do
-      call note_unused_interactions(deck, model, draft)
    end subroutine check_surfaces_of_pairs
 
-   subroutine check_sides(deck, model, draft, i)
+   !> For each pair the first one that has the same two surfaces.
+   pure function first_of_each(pairs) result(first)
+      type(pair_t), intent(in) :: pairs(:)
+      integer(ip) :: first(size(pairs))
+      integer(lp) :: key(size(pairs))
+      integer(ip) :: order(size(pairs)), i
+
+      key = int(pairs%slave, lp)*(int(huge(1_ip), lp) + 1_lp) + int(pairs%master, lp)
+      order = sorted_places(key)
+      do i = 1, size(pairs, kind=ip)
+         first(i) = i
+      end do
+      do i = 2, size(pairs, kind=ip)
+         if (key(order(i)) == key(order(i - 1))) first(order(i)) = first(order(i - 1))
+      end do
+   end function first_of_each
+
+   !> The faces of all masters, and which of them are at each node.
+   subroutine list_masters(model, known)
+      type(model_t), intent(in) :: model
+      type(pairs_draft_t), intent(inout) :: known
+      logical :: is_master(size(model%surfaces))
+      integer(ip), allocatable :: nodes(:, :)
+      integer(ip) :: i, k, n, n_nodes
+
+      is_master = .false.
+      is_master(model%pairs%master) = .true.
+      n = 0
+      do i = 1, size(is_master, kind=ip)
+         if (is_master(i)) n = n + model%surfaces(i)%faces%n
+      end do
+      allocate (nodes(MOST_FACE_NODES, n), known%surface_of(n), source=0_ip)
+      n = 0
+      do i = 1, size(is_master, kind=ip)
+         if (.not. is_master(i)) cycle
+         associate (faces => model%surfaces(i)%faces)
+            do k = 1, faces%n
+               n = n + 1
+               known%surface_of(n) = i
+               n_nodes = size(face_nodes(model%mesh, faces%element(k), faces%face(k)), kind=ip)
+               nodes(:n_nodes, n) = face_nodes(model%mesh, faces%element(k), faces%face(k))
+            end do
+         end associate
+      end do
+      call list_holders(model%mesh%n_nodes, nodes, known%first, known%face)
+   end subroutine list_masters
+
+   subroutine check_sides(deck, model, draft, i, known)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i
+      type(pairs_draft_t), intent(inout) :: known
       integer(ip) :: slave, master, k
 
       slave = model%pairs(i)%slave
@@ -46,28 +110,27 @@ contains
                            expected='two surfaces that face each other', keyword='CONTACT PAIR')
          return
       end if
-      do k = 1, i - 1
-         if (model%pairs(k)%slave == slave .and. model%pairs(k)%master == master) exit
-      end do
+      k = known%first_of(i)
       if (k < i) then
          call report_error(deck, draft%slaves(i), 'E-TWICE', 'this pair is given twice, first in '// &
                            place_text(deck, draft%slaves(k), draft%slaves(i)), expected='each pair of surfaces once', &
                            keyword='CONTACT PAIR')
          return
       end if
-      call check_slave(deck, model, draft, slave, draft%slaves(i))
+      call check_slave(deck, model, draft, slave, draft%slaves(i), known%is_ordered(slave))
       call check_master(deck, model, draft, master, draft%masters(i))
       if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
-         call check_shared_nodes(deck, model, slave, master, draft%masters(i))
+         call check_shared_nodes(deck, model, slave, master, draft%masters(i), known)
       end if
    end subroutine check_sides
 
-   subroutine check_slave(deck, model, draft, i, place)
+   subroutine check_slave(deck, model, draft, i, place, is_ordered)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i                     !< the slave's surface
       type(token_t), intent(in) :: place
+      logical, intent(inout) :: is_ordered             !< it was the slave of an earlier pair
       type(chain_report_t) :: report
 
       associate (surface => model%surfaces(i))
@@ -81,7 +144,9 @@ contains
             call report_no_faces(deck, place, surface%name)
             return
          end if
+         if (is_ordered) return
          call order_chain(model%mesh, surface%faces, report)
+         is_ordered = .true.
          if (has_errors()) return            ! the chain may be broken by what was told already
          if (report%branch_node > 0) then
             call report_error(deck, place, 'E-CHAIN', 'the slave branches at node '// &
@@ -147,86 +212,90 @@ contains
                         expected='a surface on the outline of a body', keyword='CONTACT PAIR')
    end subroutine report_no_faces
 
-   subroutine check_shared_nodes(deck, model, slave, master, place)
+   subroutine check_shared_nodes(deck, model, slave, master, place, known)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: slave, master
       type(token_t), intent(in) :: place
+      type(pairs_draft_t), intent(in) :: known
       type(number_list_t) :: shared
-      logical, allocatable :: on_slave(:), on_master(:)
-      integer(ip) :: i
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: i, k
 
-      on_slave = nodes_of(model%mesh, model%surfaces(slave)%faces)
-      on_master = nodes_of(model%mesh, model%surfaces(master)%faces)
-      do i = 1, model%mesh%n_nodes
-         if (on_slave(i) .and. on_master(i)) call add_number(shared, model%mesh%node_id(i))
-      end do
-      if (shared%n > 0) call report_error(deck, place, 'E-PAIR', 'slave and master share node '//ids_text(numbers_of(shared)), &
+      associate (faces => model%surfaces(slave)%faces)
+         do i = 1, faces%n
+            nodes = face_nodes(model%mesh, faces%element(i), faces%face(i))
+            do k = 1, size(nodes, kind=ip)
+               if (is_on(known, nodes(k), master)) call add_number(shared, nodes(k))
+            end do
+         end do
+      end associate
+      if (shared%n > 0) call report_error(deck, place, 'E-PAIR', 'slave and master share node '// &
+                                          ids_text(model%mesh%node_id(rising(numbers_of(shared)))), &
                                           expected='surfaces of different bodies, each with its own nodes', &
                                           keyword='CONTACT PAIR')
    end subroutine check_shared_nodes
 
-   pure function nodes_of(mesh, faces) result(on_faces)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: faces
-      logical, allocatable :: on_faces(:)
-      integer(ip) :: i
+   !> A node belongs to a master.
+   pure logical function is_on(known, node, master)
+      type(pairs_draft_t), intent(in) :: known
+      integer(ip), intent(in) :: node, master
+      integer(ip) :: k
 
-      allocate (on_faces(mesh%n_nodes), source=.false.)
-      do i = 1, faces%n
-         on_faces(face_nodes(mesh, faces%element(i), faces%face(i))) = .true.
+      is_on = .false.
+      do k = known%first(node), known%first(node + 1) - 1
+         is_on = is_on .or. known%surface_of(known%face(k)) == master
       end do
-   end function nodes_of
+   end function is_on
 
+   !> Numbers in rising order, each once.
+   pure function rising(numbers) result(once)
+      integer(ip), intent(in) :: numbers(:)
+      integer(ip), allocatable :: once(:)
+      logical :: is_new(size(numbers))
+
+      once = numbers(sorted_places(int(numbers, lp)))
+      is_new = .true.
+      is_new(2:) = once(2:) > once(:size(once) - 1)
+      once = pack(once, is_new)
+   end function rising
+
+   !> Tells of interactions that no pair has; for models without any error.
    subroutine note_unused_interactions(deck, model, draft)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
+      logical :: is_used(size(model%interactions))
       integer(ip) :: i
 
-      if (draft%pairs_unsure) return
+      is_used = .false.
+      is_used(model%pairs%interaction) = .true.
       do i = 1, size(model%interactions, kind=ip)
-         if (any(model%pairs%interaction == i) .or. has_errors()) cycle
+         if (is_used(i)) cycle
          call report_note(deck, draft%interactions(i), 'N-UNUSED', &
-                          'no *CONTACT PAIR uses the surface interaction '//model%interactions(i)%name, keyword='CONTACT PAIR')
+                          'no contact pair uses the surface interaction '//model%interactions(i)%name, keyword='CONTACT PAIR')
       end do
    end subroutine note_unused_interactions
-
-   !> Thickness [L] of each element.
-   pure function element_thickness(model) result(thickness)
-      type(model_t), intent(in) :: model
-      real(wp), allocatable :: thickness(:)
-
-      thickness = model%sections(model%section_of)%thickness
-   end function element_thickness
 
    !> Places the points of each pair; for models without any error.
    subroutine check_points_of_pairs(deck, model, draft)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
+      type(pairing_t) :: pairing
       type(contact_points_t) :: points
-      real(wp), allocatable :: thickness(:), no_points(:, :)
-      type(face_list_t) :: no_faces
+      logical :: is_judged(size(model%interactions))         ! its radius, too small for some points, was told of
       integer(ip) :: i
 
-      if (size(model%pairs) == 0) return
-      thickness = element_thickness(model)
-      allocate (no_points(2, 0))
+      call prepare_pairing(model, pairing)
+      is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
-         associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
-            if (master%kind == SURFACE_SEGMENTS) then
-               call pair_surfaces(model%mesh, thickness, slave%faces, no_faces, master%points, points, &
-                                  master%is_arc, master%centre)
-            else
-               call pair_surfaces(model%mesh, thickness, slave%faces, master%faces, no_points, points)
-            end if
-            if (points%n == 0) then
-               call report_blind(deck, model%mesh, slave%faces, draft%slaves(i))
-            else
-               call judge_points(deck, draft, model, i, points)
-            end if
-         end associate
+         call pair_points(model, pairing, i, points)
+         if (points%n == 0) then
+            call report_blind(deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, draft%slaves(i))
+         else
+            call judge_points(deck, draft, model, i, points, is_judged(model%pairs(i)%interaction))
+         end if
       end do
    end subroutine check_points_of_pairs
 
@@ -246,39 +315,54 @@ contains
                         'at its left', keyword='CONTACT PAIR')
    end subroutine report_blind
 
-   subroutine judge_points(deck, draft, model, i, points)
+   subroutine judge_points(deck, draft, model, i, points, is_judged)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(in) :: draft
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
       type(contact_points_t), intent(in) :: points
+      logical, intent(inout) :: is_judged              !< of the interaction
 
       if (points%n_left_out > 0) call report_note(deck, draft%slaves(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
                to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
       if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) then
-         call report_error(deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides do not match, and MORTAR, the '// &
-                           'quadrature for such sides, is not built yet', expected='QUADRATURE=NODAL, or sides whose nodes '// &
-                           'face each other', keyword='CONTACT PAIR')
+         call report_error(deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides '//of_pair(model, i)// &
+                           'do not match, and MORTAR, the quadrature for such sides, is not built yet', &
+                           expected='QUADRATURE=NODAL, or sides whose nodes face each other', keyword='CONTACT PAIR')
       end if
-      call judge_radius(deck, draft%interactions(model%pairs(i)%interaction), model%interactions(model%pairs(i)%interaction), &
-                        least_spacing(points))
+      if (.not. is_judged) call judge_radius(deck, draft%interactions(model%pairs(i)%interaction), &
+                                             model%interactions(model%pairs(i)%interaction), least_spacing(points), is_judged)
    end subroutine judge_points
 
+   !> What a pair is called that the deck does not give; '' for one that it gives.
+   pure function of_pair(model, i) result(text)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (model%pairs(i)%outline > 0) text = 'of '//model%surfaces(model%pairs(i)%slave)%name//' on '// &
+                                             model%surfaces(model%pairs(i)%master)%name//' '
+   end function of_pair
+
    !> The radius of the average against the distance of the points.
-   subroutine judge_radius(deck, place, interaction, spacing)
+   subroutine judge_radius(deck, place, interaction, spacing, is_told)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: place
       type(interaction_t), intent(in) :: interaction
       real(wp), intent(in) :: spacing
+      logical, intent(inout) :: is_told
 
       if (interaction%friction /= FRICTION_NONLOCAL .or. .not. interaction%rho > 0.0_wp) return
       if (interaction%rho < spacing) then
          call report_note(deck, place, 'N-RADIUS', 'rho = '//to_text(interaction%rho)//' is less than the least distance of '// &
                           'contact points, '//to_text(spacing)//': the average leaves the pressure as it is', keyword='FRICTION')
+         is_told = .true.
       else if (interaction%kernel == KERNEL_LINE .and. interaction%rho < LINE_SPACINGS*spacing) then
          call report_warning(deck, place, 'W-RADIUS', 'rho = '//to_text(interaction%rho)//' is less than three distances of '// &
                              'contact points, '//to_text(spacing)//': with KERNEL=LINE a uniform pressure does not stay uniform', &
                              expected='rho >= '//to_text(LINE_SPACINGS*spacing)//' [L], or KERNEL=POINTS', keyword='FRICTION')
+         is_told = .true.
       end if
    end subroutine judge_radius
 

@@ -125,21 +125,21 @@ contains
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
-      type(number_list_t) :: others
+      type(number_list_t), allocatable :: elements(:)  ! of each section, those that it is not for
       integer(ip) :: i, e
 
       if (has_errors()) return
-      do i = 1, size(model%sections, kind=ip)
+      allocate (elements(size(model%sections)))
+      do e = 1, model%mesh%n_elements
+         i = model%section_of(e)
          if (model%sections(i)%formulation /= FORMULATION_BBAR) cycle
-         others = number_list_t()
-         do e = 1, model%mesh%n_elements
-            if (model%section_of(e) /= i) cycle
-            if (model%mesh%state(e) == PLANE_STRAIN .and. model%mesh%shape(e) == Q1_NODES) cycle
-            call add_number(others, model%mesh%element_id(e))
-         end do
-         if (others%n == 0) cycle
+         if (model%mesh%state(e) == PLANE_STRAIN .and. model%mesh%shape(e) == Q1_NODES) cycle
+         call add_number(elements(i), model%mesh%element_id(e))
+      end do
+      do i = 1, size(model%sections, kind=ip)
+         if (elements(i)%n == 0) cycle
          call report_note(deck, draft%sections(i), 'N-FORMULATION', 'FORMULATION=BBAR changes nothing in element '// &
-                          ids_text(numbers_of(others))//' of set '//model%sections(i)%elset// &
+                          ids_text(numbers_of(elements(i)))//' of set '//model%sections(i)%elset// &
                           ': it is for four nodes in plane strain', expected='CPE4 elements', keyword='SOLID SECTION')
       end do
    end subroutine note_formulations

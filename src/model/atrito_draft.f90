@@ -16,8 +16,8 @@ module atrito_draft
    implicit none (type, external)
    private
    public :: draft_t, block_t, BLOCK_SIDES
-   public :: prepare_draft, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, is_unsure, has_errors
-   public :: place_token, place_text, note_place, note_places, keep_token, ids_text
+   public :: prepare_draft, add_draft_block, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, is_unsure, has_errors
+   public :: place_token, place_text, note_place, note_places, keep_token, count_cards, ids_text
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
    character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
@@ -30,18 +30,24 @@ module atrito_draft
       integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2
       integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
+      character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
+      logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
    end type block_t
 
    type :: draft_t
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(name_list_t) :: spoiled                     !< names whose definition is faulty
+      type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
       type(name_list_t) :: unsure                      !< nouns: one of these should have been defined, its name is not known
       type(id_map_t) :: spoiled_nodes, spoiled_elements
       integer(ip) :: greatest_node = 0, greatest_element = 0        !< ids
       integer(ip), allocatable :: node_place(:), element_place(:)   !< > 0: token; < 0: card
-      type(block_t), allocatable :: blocks(:)
+      integer(ip) :: n_blocks = 0
+      type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
+      integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
+      integer(ip) :: elements_to_come = 0              !< of blocks whose elements are not made yet
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
-      logical, allocatable :: card_done(:)             !< *NSET cards all of whose members are known
+      logical, allocatable :: card_done(:)             !< *NSET and *ELSET cards that are read already
       type(node_elements_t) :: around                  !< elements round each node
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
@@ -64,11 +70,12 @@ contains
       type(draft_t), intent(out) :: draft
       integer(ip) :: i
 
-      allocate (draft%blocks(0), draft%set_card(0))
+      allocate (draft%blocks(64), draft%set_card(0))
       allocate (draft%node_place(64), draft%element_place(64))
       allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
-      allocate (draft%slaves(0), draft%masters(0), draft%elastic_given(0), draft%elastic_spoiled(0))
+      allocate (draft%slaves(0), draft%masters(0))
       allocate (draft%card_done(deck%n_cards), source=.false.)
+      allocate (draft%block_of_card(deck%n_cards), source=0_ip)
       if (.not. has_errors()) return
       do i = 1, deck%n_cards
          call note_nameless(deck, deck%cards(i), draft)
@@ -77,6 +84,22 @@ contains
          if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck, deck%cards(i), draft)
       end do
    end subroutine prepare_draft
+
+   !> Keeps a block; where there is no room the list doubles.
+   pure subroutine add_draft_block(draft, block)
+      type(draft_t), intent(inout) :: draft
+      type(block_t), intent(in) :: block
+      type(block_t), allocatable :: longer(:)
+
+      if (draft%n_blocks == size(draft%blocks)) then
+         allocate (longer(2*draft%n_blocks))
+         longer(:draft%n_blocks) = draft%blocks
+         call move_alloc(longer, draft%blocks)
+      end if
+      draft%n_blocks = draft%n_blocks + 1
+      draft%blocks(draft%n_blocks) = block
+      if (draft%block_of_card(block%card) == 0) draft%block_of_card(block%card) = draft%n_blocks
+   end subroutine add_draft_block
 
    !> A definition without its name, or with one that cannot be read: any unknown name may be the one that was meant.
    subroutine note_nameless(deck, card, draft)
@@ -100,6 +123,7 @@ contains
          call note_unsure(draft, 'node set')
          call note_unsure(draft, 'earlier node set')
          call note_unsure(draft, 'element set')
+         call note_unsure(draft, 'earlier element set')
          call note_unsure(draft, 'surface')
       end select
    end subroutine note_nameless
@@ -224,7 +248,7 @@ contains
       if (outcome == NUMBER_OK .and. id > 0) call add_id(map, id, 1_ip, known)
    end subroutine spoil_id
 
-   !> True when a name, or that of the block whose side it is, is to be passed over in silence.
+   !> True when a name, or that of the block whose side or copy it is, is to be passed over in silence.
    logical function is_spoiled(draft, name)
       type(draft_t), intent(in) :: draft
       character(len=*), intent(in) :: name
@@ -232,13 +256,30 @@ contains
 
       is_spoiled = .false.
       if (.not. has_errors()) return
-      is_spoiled = has_name(draft%spoiled, name)
+      is_spoiled = is_spoiled_block(draft, name)
       do i = 1, size(BLOCK_SIDES)
          k = len(name) - len_trim(BLOCK_SIDES(i))
          if (is_spoiled .or. k < 0) cycle
-         if (same_name(name(k + 1:), BLOCK_SIDES(i))) is_spoiled = has_name(draft%spoiled, name(:k))
+         if (same_name(name(k + 1:), BLOCK_SIDES(i))) is_spoiled = is_spoiled_block(draft, name(:k))
       end do
    end function is_spoiled
+
+   !> The name itself, or without the -2-3 of a copy.
+   logical function is_spoiled_block(draft, name) result(is_spoiled)
+      type(draft_t), intent(in) :: draft
+      character(len=*), intent(in) :: name
+      integer :: i, k
+
+      is_spoiled = has_name(draft%spoiled, name)
+      k = len(name)
+      do i = 1, 2
+         if (is_spoiled) return
+         k = verify(name(:k), '0123456789', back=.true.) - 1
+         if (k < 1) return
+         if (name(k + 1:k + 1) /= '-') return
+      end do
+      is_spoiled = has_name(draft%spoiled, name(:k))
+   end function is_spoiled_block
 
    !> True when one of these should have been defined, under a name that is not known.
    logical function is_unsure(draft, noun)
@@ -300,13 +341,32 @@ contains
       places(i:j) = place
    end subroutine note_places
 
-   !> Appends the place of a material, section, surface, ...: there are few of them.
-   pure subroutine keep_token(list, token)
+   !> Keeps the place of the i-th material, section, surface, ..., i counting up.
+   pure subroutine keep_token(list, i, token)
       type(token_t), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(in) :: i
       type(token_t), intent(in) :: token
+      type(token_t), allocatable :: longer(:)
 
-      list = [list, token]
+      if (i > size(list)) then
+         allocate (longer(max(i, 2*size(list, kind=ip))))
+         longer(:size(list)) = list
+         call move_alloc(longer, list)
+      end if
+      list(i) = token
    end subroutine keep_token
+
+   !> How many cards of a keyword a deck has: as many things as they can make at most.
+   pure integer(ip) function count_cards(deck, keyword) result(n)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: keyword
+      integer(ip) :: i
+
+      n = 0
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) == keyword) n = n + 1
+      end do
+   end function count_cards
 
    !> '3, 4, 5 and 12 more'
    pure function ids_text(ids) result(text)

@@ -65,6 +65,7 @@ module atrito_model
       integer(ip) :: interaction = 0, slave = 0, master = 0   !< places in the model's lists
       integer(ip) :: quadrature = QUADRATURE_NODAL
       logical :: quadrature_given = .false.                   !< by the deck, not by default
+      integer(ip) :: outline = 0    !< of *CONTACT: the same for slaves that continue each other, which S_rho does not cut; 0: none
    end type pair_t
 
    !> Prescribed displacements, one dof each.
@@ -105,6 +106,7 @@ module atrito_model
 
    !> What is to be printed, and what goes into the field file.
    type, extends(requested_t) :: requests_t
+      logical :: bodies = .false., joints = .false.
       type(requested_t) :: fields
    end type requests_t
 

@@ -8,10 +8,12 @@ module atrito_references
    use atrito_items, only: get_integer, get_name
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element
+   use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_model, only: model_t
+   use atrito_name_list, only: name_list_t, names_of
    use atrito_refinement, only: fine_elements, is_refined
-   use atrito_sets, only: set_list_t, find_set, set_names
-   use atrito_strings, only: string_t, to_text
+   use atrito_sets, only: set_list_t, find_set
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, report_unknown
@@ -155,7 +157,7 @@ contains
       if (ok) then
          members = list%sets(i)%members
       else
-         call report_unknown(deck, draft, token, noun//' set', 'E-SET', set_names(list), keyword)
+         call report_unknown(deck, draft, token, noun//' set', 'E-SET', list%names, keyword)
       end if
    end subroutine find_members
 
@@ -166,15 +168,20 @@ contains
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: noun             !< what should have this name, e.g. 'element set'
       character(len=*), intent(in) :: id
-      type(string_t), intent(in) :: known(:)           !< names of these that there are
+      type(name_list_t), intent(in) :: known           !< names of these that there are
       character(len=*), intent(in) :: keyword
       character(len=:), allocatable :: expected
 
       if (is_spoiled(draft, token_text(deck, token)) .or. is_unsure(draft, noun)) return
       expected = 'name of '//article(noun)//noun//' of this deck'
-      if (size(known) == 0) expected = expected//'; there is none'
-      call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token), expected=expected, known=known, &
-                        keyword=keyword)
+      if (known%n == 0) expected = expected//'; there is none'
+      if (has_room(SEVERITY_ERROR)) then
+         call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token), expected=expected, &
+                           known=names_of(known), keyword=keyword)
+      else
+         ! it is only counted: no need to list the names that there are
+         call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token))
+      end if
    end subroutine report_unknown
 
    pure function article(noun) result(text)

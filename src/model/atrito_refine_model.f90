@@ -11,6 +11,7 @@ module atrito_refine_model
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
+   use atrito_sets, only: set_count
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -42,20 +43,16 @@ contains
       coarse = model%mesh
       call refine_mesh(coarse, draft%around, pieces, shape, model%mesh, draft%refinement)
       model%levels = levels
-      if (allocated(model%node_sets%sets)) then
-         do i = 1, size(model%node_sets%sets, kind=ip)
-            associate (set => model%node_sets%sets(i))
-               set%members = fine_nodes(coarse, draft%refinement, set%members)
-            end associate
-         end do
-      end if
-      if (allocated(model%element_sets%sets)) then
-         do i = 1, size(model%element_sets%sets, kind=ip)
-            associate (set => model%element_sets%sets(i))
-               set%members = fine_elements(draft%refinement, set%members)
-            end associate
-         end do
-      end if
+      do i = 1, set_count(model%node_sets)
+         associate (set => model%node_sets%sets(i))
+            set%members = fine_nodes(coarse, draft%refinement, set%members)
+         end associate
+      end do
+      do i = 1, set_count(model%element_sets)
+         associate (set => model%element_sets%sets(i))
+            set%members = fine_elements(draft%refinement, set%members)
+         end associate
+      end do
       draft%deck_elements = coarse%element_map
       call keep_places(coarse, model%mesh, draft)
       draft%around = list_node_elements(model%mesh)

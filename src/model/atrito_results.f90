@@ -5,6 +5,7 @@ module atrito_results
    implicit none (type, external)
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, chatter_t
+   public :: body_motion_t, joint_t
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -23,6 +24,8 @@ module atrito_results
       real(wp), allocatable :: slip(:)              !< u_T [L]
       integer(ip), allocatable :: status(:)         !< POINT_*
       real(wp), allocatable :: weight(:)            !< quadrature weight times thickness [L^2]
+      integer(ip), allocatable :: joint(:)          !< place of its joint in the results' joints
+      logical, allocatable :: follows(:)            !< a face of the joint lies between the point and the one before
       real(wp) :: s_end = 0.0_wp                    !< s of the last candidate point [L]
       logical :: has_friction = .false.
    end type contact_result_t
@@ -51,7 +54,9 @@ module atrito_results
       integer :: storage_kind = 0                   !< one of STORAGE_*; 0: not chosen yet
       character(len=:), allocatable :: storage      !< its name
       character(len=:), allocatable :: reason       !< why this storage
+      character(len=:), allocatable :: order        !< how the order of the sparse solver was found
       integer(lp) :: profile = 0, memory = 0        !< entries; bytes
+      integer(lp) :: most_memory = 0                !< bytes while it is factored
       integer(ip) :: half_bandwidth = 0
       real(wp) :: digits_lost = 0.0_wp
       integer(ip) :: worst_node = 0, worst_dof = 0  !< place of the worst pivot (user's node number)
@@ -75,7 +80,12 @@ module atrito_results
       integer(ip) :: n_normal = 0, n_tangential = 0 !< unknowns of the contact line
       integer(ip) :: n_rigid = 0                    !< rigid motions carried as unknowns
       logical :: outer_loop = .false.
-      integer(lp) :: memory = 0                     !< bytes, predicted
+      logical :: near_elements = .false.            !< some that are near, not equal, had one stiffness; refined
+      character(len=:), allocatable :: contact_form, contact_reason !< dense or sparse, and why
+      character(len=:), allocatable :: order        !< how the order of elimination of a sparse form was found
+      integer(lp) :: memory = 0                     !< bytes, predicted: the most that the process will hold
+      integer(lp) :: memory_before = 0, peak_before = 0 !< bytes held before anything is factored, and the most so far
+      integer(lp) :: solving = 0                    !< bytes that the sparse form will take to solve
       type(string_t), allocatable :: left_out(:)    !< sentences: what this scene does not need
    end type scene_t
 
@@ -85,6 +95,31 @@ module atrito_results
       real(wp) :: applied_moment = 0.0_wp, reaction_moment = 0.0_wp
       real(wp) :: rigid(2) = 0.0_wp                 !< force of the bodies' contact upon rigid surfaces
    end type balance_t
+
+   !> A row of bodies.tab: the rigid motion that comes nearest to the displacements of a body, and what acts upon it.
+   type :: body_motion_t
+      character(len=:), allocatable :: name
+      real(wp) :: centre(2) = 0.0_wp                !< of its volume [L]
+      real(wp) :: size = 0.0_wp                     !< largest distance of a node from the middle of the body [L]
+      real(wp) :: u(2) = 0.0_wp                     !< of the centre [L]
+      real(wp) :: rotation = 0.0_wp                 !< counter-clockwise [rad]
+      real(wp) :: loads(3) = 0.0_wp                 !< resultant along x and y [F], moment about the centre [F L]
+      real(wp) :: supports(3) = 0.0_wp, contact(3) = 0.0_wp
+      real(wp) :: terms(2) = 0.0_wp                 !< sizes of all that is summed in them [F], [F L]: what rounding is measured by
+   end type body_motion_t
+
+   !> A row of joints.tab: what one body of a pair does to the other. NaN stands for what is not defined.
+   type :: joint_t
+      integer(ip) :: pair = 0
+      integer(ip) :: bodies(2) = 0                  !< of the slave and of the master; 0: rigid surface
+      real(wp) :: n = 0.0_wp, t = 0.0_wp            !< resultant along the mean normal, compression positive, and the tangent [F]
+      real(wp) :: m = 0.0_wp                        !< moment about the middle of the joint [F L]
+      real(wp) :: place(2) = 0.0_wp                 !< where the resultant crosses the line of the joint [L]
+      real(wp) :: opening = 0.0_wp, sliding = 0.0_wp !< largest gap, mean slip [L]
+      real(wp) :: force = 0.0_wp                    !< the resultant's size [F]
+      real(wp) :: length = 0.0_wp                   !< largest distance of a point from the middle [L]
+      real(wp) :: u(2) = 0.0_wp                     !< displacement of the slave at the place [L]
+   end type joint_t
 
    type :: results_t
       integer(ip) :: step = 1
@@ -110,6 +145,8 @@ module atrito_results
       real(wp) :: equilibrium_residual = 0.0_wp
       real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
       type(balance_t) :: balance
+      type(body_motion_t), allocatable :: bodies(:) !< when asked for
+      type(joint_t), allocatable :: joints(:)       !< by pair, then along s
    end type results_t
 
 end module atrito_results

@@ -33,9 +33,9 @@ contains
       if (allocated(scene%pairs)) then
          if (size(scene%pairs) > 0) call add_heading(page, 'contact')
       end if
-      call describe_pairs(page, scene)
+      call describe_pairs(page, scene, some=.true.)
       call add_heading(page, 'solver')
-      call describe_bodies(page, scene, factored=.false.)
+      call describe_bodies(page, scene, factored=.false., some=.true.)
       call add_heading(page, 'needs')
       call describe_needs(page, scene)
       call add_blank(page)

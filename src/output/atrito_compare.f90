@@ -1,11 +1,13 @@
 !> `atrito compare`: are two tables, or two folders of them, the same?
 !>
-!> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column (of its row in summary.tab). Integers and words
-!> must be equal; nan equals nan. timing and iterations are left out; the equilibrium residual must be small in both.
+!> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column (of its row in summary.tab; of its contact pair
+!> for pressure, shear and slip; of a family of columns in bodies.tab and joints.tab). Integers and words must be equal; nan equals
+!> nan. timing and iterations are left out; the equilibrium residual must be small in both.
 module atrito_compare
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text, join
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
+   use atrito_column_scales, only: kind_of, columns_of_scale, largest_number, moment_scale, is_number
    use atrito_files, only: file_exists, is_folder
    use atrito_page, only: page_t, begin_page, add_line, plural
    use atrito_read_table, only: table_file_t, read_table, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_REAL, ITEM_NAN
@@ -138,17 +140,6 @@ contains
       end if
    end subroutine compare_files
 
-   !> Tables that are treated in their own way, known by their columns: a copy may bear any name.
-   pure function kind_of(table) result(kind)
-      type(table_file_t), intent(in) :: table
-      character(len=:), allocatable :: kind
-
-      kind = 'plain'
-      if (find_column(table, 'quantity') > 0 .and. find_column(table, 'value') > 0) kind = 'summary'
-      if (find_column(table, 'outer') > 0 .and. find_column(table, 'inner') > 0) kind = 'iterations'
-      if (find_column(table, 'phase') > 0 .and. find_column(table, 'wall') > 0) kind = 'timing'
-   end function kind_of
-
    !> Compares two tables item by item.
    subroutine compare_tables(a, b, comparison)
       type(table_file_t), intent(in) :: a, b
@@ -206,33 +197,63 @@ contains
       type(table_file_t), intent(in) :: a, b
       integer(ip), intent(in) :: i, j               !< the column in a and in b
       type(comparison_t), intent(inout) :: comparison
+      integer(ip), allocatable :: of_a(:), of_b(:)
       real(wp) :: scale
-      logical :: exact
-      integer(ip) :: row
+      logical :: exact, by_pair
+      integer(ip) :: row, first, last
 
-      scale = max(largest_number(a, i), largest_number(b, j))
+      of_a = columns_of_scale(a, i)
+      of_b = columns_of_scale(b, j)
       exact = is_integer_column(a, i) .or. is_integer_column(b, j)
-      do row = 1, a%n_rows
-         call compare_items(a, b, [i, row], [j, row], scale, exact, comparison)
+      by_pair = is_of_pair(a, i) .and. is_of_pair(b, j)
+      first = 1
+      do while (first <= a%n_rows)
+         last = a%n_rows
+         if (by_pair) last = last_row_of_pair(a, first)
+         scale = max(largest_number(a, of_a, first, last), largest_number(b, of_b, first, last), moment_scale(a, i), &
+                     moment_scale(b, j))
+         do row = first, last
+            call compare_items(a, b, [i, row], [j, row], scale, exact, comparison)
+         end do
+         first = last + 1
       end do
    end subroutine compare_columns
 
-   pure real(wp) function largest_number(table, column) result(largest)
+   !> Whether the scale of a column is that of each contact pair: stresses and slips of a weak pair have digits of their own.
+   pure logical function is_of_pair(table, column)
       type(table_file_t), intent(in) :: table
       integer(ip), intent(in) :: column
-      integer(ip) :: row
 
-      largest = 0.0_wp
-      do row = 1, table%n_rows
-         if (is_number(table%kind(column, row))) largest = max(largest, abs(table%value(column, row)))
+      select case (table%columns(column)%s)
+      case ('pressure', 'weighted_pressure', 'shear', 'slip')
+         is_of_pair = find_column(table, 'pair') > 0
+      case default
+         is_of_pair = .false.
+      end select
+   end function is_of_pair
+
+   !> The last of the rows with the step and the pair of row `first` that stand together.
+   pure integer(ip) function last_row_of_pair(table, first) result(last)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: first
+
+      last = first
+      do while (last < table%n_rows)
+         if (.not. (same_item(table, 'pair', first, last + 1) .and. same_item(table, 'step', first, last + 1))) exit
+         last = last + 1
       end do
-   end function largest_number
+   end function last_row_of_pair
 
-   elemental logical function is_number(kind)
-      integer, intent(in) :: kind                   !< ITEM_*
+   pure logical function same_item(table, name, row, other)
+      type(table_file_t), intent(in) :: table
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: row, other
+      integer(ip) :: column
 
-      is_number = kind == ITEM_INTEGER .or. kind == ITEM_REAL
-   end function is_number
+      column = find_column(table, name)
+      same_item = column == 0
+      if (.not. same_item) same_item = item_text(table, column, row) == item_text(table, column, other)
+   end function same_item
 
    !> All items are integers and not all are 0, which a column of reals may hold as well.
    pure logical function is_integer_column(table, column)
@@ -282,7 +303,7 @@ contains
       type(table_file_t), intent(in) :: table
       integer(ip), intent(in) :: row
       character(len=:), allocatable :: text
-      character(len=7), parameter :: KEYS(4) = ['pair   ', 'node   ', 'element', 'point  ']
+      character(len=7), parameter :: KEYS(7) = ['pair   ', 'body   ', 'body_1 ', 'body_2 ', 'node   ', 'element', 'point  ']
       integer(ip) :: column
       integer :: i
 

@@ -2,6 +2,8 @@
 module atrito_libraries
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use atrito_blas_info, only: blas_name, is_reference_blas, lapack_version
+   use atrito_clp, only: has_clp, clp_version, clp_trouble
+   use atrito_metis, only: has_metis, metis_version, metis_trouble
    use atrito_mumps_library, only: has_mumps, mumps_name, mumps_trouble
    use atrito_strings, only: string_t
    implicit none (type, external)
@@ -17,13 +19,14 @@ module atrito_libraries
 
 contains
 
-   !> Compiler, BLAS, LAPACK, MUMPS and METIS. A library that a run does not need is not loaded to ask for it.
-   subroutine list_libraries(mumps, list)
+   !> Compiler, BLAS, LAPACK, MUMPS, Clp and METIS. A library that a run does not need is not loaded to ask for it.
+   subroutine list_libraries(mumps, list, uses_metis)
       integer, intent(in) :: mumps                  !< USED or NOT_USED by a run; NOT_KNOWN: what this build could use
       type(library_t), allocatable, intent(out) :: list(:)
+      logical, intent(in), optional :: uses_metis   !< a run does; default: no
 
-      allocate (list(5))
-      list%name = [character(len=8) :: 'compiler', 'BLAS', 'LAPACK', 'MUMPS', 'METIS']
+      allocate (list(6))
+      list%name = [character(len=8) :: 'compiler', 'BLAS', 'LAPACK', 'MUMPS', 'Clp', 'METIS']
       list(1)%version = compiler_version()
       list(2)%version = trim(blas_name())
       if (is_reference_blas()) list(2)%version = list(2)%version//' (the reference one, slow)'
@@ -40,7 +43,19 @@ contains
             list(4)%version = 'not used: '//mumps_trouble()
          end if
       end select
-      list(5)%version = 'not used'
+      list(5)%version = 'not used, but where no solution is found'
+      if (mumps == NOT_KNOWN) then
+         list(5)%version = 'not used: '//clp_trouble()
+         if (has_clp()) list(5)%version = clp_version()//', loaded where it is used'
+      end if
+      list(6)%version = 'not used'
+      if (present(uses_metis)) then
+         if (uses_metis) list(6)%version = metis_version()
+      end if
+      if (mumps == NOT_KNOWN) then
+         list(6)%version = 'not used: '//metis_trouble()
+         if (has_metis()) list(6)%version = metis_version()//', loaded where it is used'
+      end if
    end subroutine list_libraries
 
    !> `5.5.1` of `MUMPS 5.5.1`.

@@ -14,7 +14,8 @@ module atrito_listing
                           left, right, number, bytes, plural
    use atrito_model_report, only: describe_model
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
-   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields
+   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields, &
+                             scales_of_pair
    use atrito_table, only: ZERO_SHARE
    implicit none (type, external)
    private
@@ -98,11 +99,23 @@ contains
       type(library_t), allocatable :: list(:)
       integer :: i
 
-      call list_libraries(merge(USED, NOT_USED, uses(scene, 'mumps')), list)
+      call list_libraries(merge(USED, NOT_USED, uses(scene, 'mumps')), list, is_by_metis(scene))
       do i = 1, size(list)
          call add_entry(page, trim(list(i)%name), list(i)%version)
       end do
    end subroutine add_libraries
+
+   !> Whether any order of elimination is METIS's.
+   pure logical function is_by_metis(scene)
+      type(scene_t), intent(in) :: scene
+      integer :: i
+
+      is_by_metis = .false.
+      if (allocated(scene%order)) is_by_metis = index(scene%order, 'METIS') > 0
+      do i = 1, size(scene%bodies)
+         if (allocated(scene%bodies(i)%order)) is_by_metis = is_by_metis .or. index(scene%bodies(i)%order, 'METIS') > 0
+      end do
+   end function is_by_metis
 
    !> Whether any body has a storage.
    pure logical function uses(scene, storage)
@@ -217,7 +230,7 @@ contains
       do i = 1, size(results%contact, kind=ip)
          if (i > 1) call add_blank(page)
          call add_line(page, '   pair '//to_text(i)//pair_name(results, i))
-         list = pair_quantities(summarise_pair(results%contact(i)), scales)
+         list = pair_quantities(summarise_pair(results%contact(i)), scales_of_pair(scales, results%contact(i)))
          do j = 1, size(list)
             call add_quantity(page, list(j))
          end do

@@ -20,7 +20,8 @@ module atrito_mesh_plot
                                COLOUR, N_COLOURS, TIMES, LOOP_END
    implicit none (type, external)
    private
-   public :: write_mesh_plot, displacement_scale, collect_lines, mesh_lines_t
+   public :: write_mesh_plot, displacement_scale, collect_lines, mesh_lines_t, outline_t, find_outline, put_place
+   public :: put_edge, put_rigid, is_drawn_rigid, reference_window, put_frame   ! of the mechanism, too
 
    integer, parameter :: DIGITS = 7                 !< of mesh.dat: a picture has a thousand pixels
    integer(ip), parameter :: MOST_NODES = 10000     !< of a mesh that is drawn with all its edges
@@ -44,7 +45,47 @@ module atrito_mesh_plot
       integer(ip), allocatable :: kind(:), body(:)      !< (n_runs)
    end type mesh_lines_t
 
+   !> Where mesh.dat has the outlines, and how the scene is drawn: for pictures of something else over them.
+   type :: outline_t
+      integer(ip) :: first = 0, last = 0                !< blocks of mesh.dat with the bodies' outlines, from 0
+      integer(ip) :: n_rigid = 0                        !< blocks of rigid surfaces behind them
+      type(range_t) :: window(2)                        !< what both shapes cover [L]
+      real(wp) :: scale = 1.0_wp                        !< of the displacements
+      real(wp) :: largest = 0.0_wp                      !< displacement [L]
+      character(len=:), allocatable :: height           !< pixels of the picture
+   end type outline_t
+
 contains
+
+   !> Finds the outlines in the mesh.dat that write_mesh_plot writes.
+   subroutine find_outline(model, results, outline)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(outline_t), intent(out) :: outline
+      type(mesh_lines_t) :: lines
+      integer(ip) :: i
+
+      call collect_lines(model%mesh, model%section_of, model%mesh%n_nodes > MOST_NODES, lines)
+      outline%first = count(lines%kind(:lines%n_runs) == LINE_INNER, kind=ip)
+      outline%last = lines%n_runs - 1
+      outline%n_rigid = count([(is_drawn_rigid(model, i), i=1, size(model%surfaces, kind=ip))], kind=ip)
+      call choose_window(model, results, outline%window, outline%largest, outline%scale)
+      outline%height = height_text(outline%window)
+   end subroutine find_outline
+
+   !> The scale of the displacements, and what both shapes cover then.
+   subroutine choose_window(model, results, window, largest, scale)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(range_t), intent(out) :: window(2)
+      real(wp), intent(out) :: largest, scale
+
+      window = reference_window(model%mesh)
+      largest = largest_displacement(results%u)
+      scale = displacement_scale(largest, hypot(span(window(1)), span(window(2))))
+      call cover(window(1), model%mesh%x(1, :) + scale*results%u(1, :))
+      call cover(window(2), model%mesh%x(2, :) + scale*results%u(2, :))
+   end subroutine choose_window
 
    !> Writes mesh.dat and mesh.gp into the set of the plots' folder.
    !>
@@ -60,11 +101,7 @@ contains
       real(wp) :: largest, scale
 
       call collect_lines(model%mesh, model%section_of, model%mesh%n_nodes > MOST_NODES, lines)
-      window = reference_window(model%mesh)
-      largest = largest_displacement(results%u)
-      scale = displacement_scale(largest, hypot(span(window(1)), span(window(2))))
-      call cover(window(1), model%mesh%x(1, :) + scale*results%u(1, :))
-      call cover(window(2), model%mesh%x(2, :) + scale*results%u(2, :))
+      call choose_window(model, results, window, largest, scale)
       call write_data(set, model, results, lines, status)
       if (is_ok(status)) call write_script(set, model, results, origin, lines, window, largest, scale, status)
    end subroutine write_mesh_plot
@@ -273,12 +310,17 @@ contains
       is_straight = all(off(1:2) <= STRAIGHT*sizes(1)) .and. all(off(3:4) <= STRAIGHT*sizes(2)/LARGEST_SHARE)
    end function is_straight
 
-   subroutine put_place(file, v)
+   !> A place and its displacement, and more columns.
+   subroutine put_place(file, v, more)
       type(text_file_t), intent(inout) :: file
       real(wp), intent(in) :: v(4)
+      character(len=*), intent(in), optional :: more
+      character(len=:), allocatable :: line
 
-      call put_line(file, trimmed_real(v(1), DIGITS)//' '//trimmed_real(v(2), DIGITS)//' '// &
-                    trimmed_real(v(3), DIGITS)//' '//trimmed_real(v(4), DIGITS))
+      line = trimmed_real(v(1), DIGITS)//' '//trimmed_real(v(2), DIGITS)//' '//trimmed_real(v(3), DIGITS)//' '// &
+             trimmed_real(v(4), DIGITS)
+      if (present(more)) line = line//' '//more
+      call put_line(file, line)
    end subroutine put_place
 
    !> A rigid surface that is the master of a pair.
@@ -351,19 +393,7 @@ contains
       call put_line(file, '# Columns of mesh.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body and kind of line')
       call put_line(file, 'scale = '//to_text(scale)//'   # of the displacements; change it here')
       call put_line(file, 'heading = '//quoted(picture_title(origin)))
-      call put_line(file, 'set xrange '//range_text(padded(window(1))))
-      call put_line(file, 'set yrange '//range_text(padded(window(2))))
-      call put_line(file, 'height = '//height_text(window))
-      call put_terminal(file, MESH_PLOT, '1000,height')
-      call put_line(file, 'set size ratio -1')
-      call put_line(file, 'set clip two')
-      call put_line(file, 'set border lt 1 lw 1 lc rgb "#A0A0A0"')
-      call put_line(file, 'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"')
-      call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7')
-      call put_line(file, 'set xlabel "x [L]"')
-      call put_line(file, 'set ylabel "y [L]"')
-      call put_line(file, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"')
-      call put_line(file, 'set style line 9 lt 1 lw 4 lc rgb "#404040"')
+      call put_frame(file, MESH_PLOT, window)
       do body = 1, N_COLOURS
          call put_line(file, 'set style line '//to_text(body)//' lt 1 lc rgb "'//COLOUR(body)//'"')
       end do
@@ -445,5 +475,26 @@ contains
       if (body > size(results%scene%bodies)) return
       if (allocated(results%scene%bodies(body)%name)) name = cleaned(results%scene%bodies(body)%name, LONGEST_NAME)
    end function body_name
+
+   !> Ranges, terminal, border and the lines of what is undisplaced (8) and rigid (9), of a picture of bodies in the plane.
+   subroutine put_frame(file, name, window)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: name           !< of the picture
+      type(range_t), intent(in) :: window(2)        !< [L]
+
+      call put_line(file, 'set xrange '//range_text(padded(window(1))))
+      call put_line(file, 'set yrange '//range_text(padded(window(2))))
+      call put_line(file, 'height = '//height_text(window))
+      call put_terminal(file, name, '1000,height')
+      call put_line(file, 'set size ratio -1')
+      call put_line(file, 'set clip two')
+      call put_line(file, 'set border lt 1 lw 1 lc rgb "#A0A0A0"')
+      call put_line(file, 'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"')
+      call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7')
+      call put_line(file, 'set xlabel "x [L]"')
+      call put_line(file, 'set ylabel "y [L]"')
+      call put_line(file, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"')
+      call put_line(file, 'set style line 9 lt 1 lw 4 lc rgb "#404040"')
+   end subroutine put_frame
 
 end module atrito_mesh_plot

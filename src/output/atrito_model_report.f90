@@ -3,7 +3,7 @@ module atrito_model_report
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    use atrito_mesh, only: face_end, Q1_NODES, PLANE_STRAIN
-   use atrito_sets, only: set_names
+   use atrito_sets, only: set_count
    use atrito_model, only: model_t, interaction_t, FORMULATION_NAME, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
                            FRICTION_NONLOCAL, LOAD_PRESSURE, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
@@ -45,8 +45,7 @@ contains
       if (model%levels > 0) call add_entry(page, 'refined', plural(model%levels, 'time', 'times')// &
                                            ': each element of the deck is '//to_text(4_ip**model%levels)//' now')
       call add_entry(page, 'node sets, element sets', &
-                     to_text(size(set_names(model%node_sets), kind=ip))//', '// &
-                     to_text(size(set_names(model%element_sets), kind=ip)))
+                     to_text(set_count(model%node_sets))//', '//to_text(set_count(model%element_sets)))
       call add_entry(page, 'surfaces', surface_counts(model))
       call add_entry(page, 'materials, sections', to_text(count_of(model, 'materials'))//', '// &
                      to_text(count_of(model, 'sections')))
@@ -125,8 +124,14 @@ contains
    subroutine describe_materials(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      integer(ip) :: i
+      integer(ip) :: elements(count_of(model, 'sections')), i
 
+      elements = 0
+      if (size(elements) > 0) then
+         do i = 1, size(model%section_of, kind=ip)
+            elements(model%section_of(i)) = elements(model%section_of(i)) + 1
+         end do
+      end if
       call add_blank(page)
       call add_line(page, '   '//left('material', 24)//right('E [F/L^2]', 16)//right('mu', 12)//right('density', 16))
       do i = 1, count_of(model, 'materials')
@@ -140,7 +145,7 @@ contains
                     left('material', 24)//'formulation')
       do i = 1, count_of(model, 'sections')
          associate (section => model%sections(i))
-            call add_line(page, '   '//left(section%elset, 24)//right(to_text(count(model%section_of == i, kind=ip)), 16)// &
+            call add_line(page, '   '//left(section%elset, 24)//right(to_text(elements(i)), 16)// &
                           right(number(section%thickness, DIGITS), 12)//'    '//left(model%materials(section%material)%name, 24)// &
                           trim(FORMULATION_NAME(section%formulation)))
          end associate

@@ -9,9 +9,11 @@ module atrito_plot_files
    use atrito_messages, only: add_warning
    implicit none (type, external)
    private
-   public :: plot_folder, remove_plots, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT
+   public :: plot_folder, remove_plots, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, &
+             LIMIT_PLOT, MECHANISM_PLOT, JOINT_PLOT
 
-   character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study'
+   character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study', &
+                                  LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints'
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
    character(len=3), parameter :: ENDINGS(4) = ['gp ', 'dat', 'png', 'svg']
@@ -36,6 +38,9 @@ contains
       call remove_picture(path//'/'//MESH_PLOT)
       call remove_picture(path//'/'//OVERLAY_SUMMARY)
       call remove_picture(path//'/'//STUDY_PLOT)
+      call remove_picture(path//'/'//LIMIT_PLOT)
+      call remove_picture(path//'/'//MECHANISM_PLOT)
+      call remove_picture(path//'/'//JOINT_PLOT)
       call remove_numbered(path//'/'//CONTACT_PLOT)
       call remove_numbered(path//'/'//OVERLAY_PLOT)
       call remove_file(path//'/'//LOG_NAME)

@@ -8,6 +8,9 @@ module atrito_scene_report
    private
    public :: describe_needs, describe_bodies, describe_pairs
 
+   !> With more bodies or pairs than this the screen shows the first ones only; the listing has all of them.
+   integer(ip), parameter :: MOST_ROWS = 20_ip
+
 contains
 
    !> Unknowns, loops and memory, and what was left out.
@@ -25,6 +28,10 @@ contains
          call add_entry(page, 'outer loop', 'on the friction bound')
       else
          call add_entry(page, 'outer loop', 'none')
+      end if
+      if (allocated(scene%contact_form)) then
+         call add_entry(page, 'contact system', scene%contact_form//', '//text_of(scene%contact_reason))
+         if (allocated(scene%order)) call add_entry(page, 'order of elimination', scene%order)
       end if
       call add_entry(page, 'memory, predicted', bytes(scene%memory))
       if (.not. allocated(scene%left_out)) return
@@ -44,22 +51,39 @@ contains
    end function body_count
 
    !> A row a body: its size, storage and why.
-   subroutine describe_bodies(page, scene, factored)
+   subroutine describe_bodies(page, scene, factored, some)
       type(page_t), intent(inout) :: page
       type(scene_t), intent(in) :: scene
       logical, intent(in) :: factored               !< lost digits and signs are known
-      integer(ip) :: i
+      logical, intent(in), optional :: some         !< of many the first ones only
+      integer(ip) :: i, n
 
       if (body_count(scene) == 0) return
+      n = rows_shown(body_count(scene), some)
       call add_line(page, '   '//left('body', 13)//right('elements', 9)//right('equations', 10)//right('contact', 8)// &
                     right('free', 5)//'  '//left('storage', 8)//right('entries', 10)//right('memory', 11))
-      do i = 1, body_count(scene)
+      do i = 1, n
          call add_body(page, scene%bodies(i))
       end do
-      do i = 1, body_count(scene)
+      do i = 1, n
          call add_solver_remarks(page, scene%bodies(i), factored)
       end do
+      if (factored .and. scene%near_elements) then
+         call add_paragraph(page, 'elements that differ in the last printed digits of their nodes alone were taken as equal where' &
+                            //' matrices were factored, and refinement has put the difference right', 3)
+      end if
+      if (n < body_count(scene)) call add_line(page, '   ... and '//to_text(body_count(scene) - n)//' more bodies')
    end subroutine describe_bodies
+
+   !> How many of n rows are shown.
+   pure integer(ip) function rows_shown(n, some) result(shown)
+      integer(ip), intent(in) :: n
+      logical, intent(in), optional :: some
+
+      shown = n
+      if (.not. present(some)) return
+      if (some) shown = min(n, MOST_ROWS)
+   end function rows_shown
 
    subroutine add_body(page, body)
       type(page_t), intent(inout) :: page
@@ -79,6 +103,7 @@ contains
       if (allocated(body%reason)) then
          call add_paragraph(page, text_of(body%name)//': '//text_of(body%storage)//', '//body%reason//bandwidth_text(body), 3)
       end if
+      if (allocated(body%order)) call add_paragraph(page, text_of(body%name)//': order of elimination '//body%order, 3)
       if (.not. factored) return
       if (body%n_fronts > 0) call add_paragraph(page, text_of(body%name)//': '//plural(body%n_fronts, 'front', 'fronts')//', '// &
                                                 to_text(body%n_different_fronts)//' of them different: these are factored', 3)
@@ -98,7 +123,7 @@ contains
       character(len=:), allocatable :: text
 
       text = ' (half bandwidth '//to_text(body%half_bandwidth)//')'
-      if (text_of(body%storage) == 'sparse' .or. text_of(body%storage) == 'mumps') text = ''
+      if (any(text_of(body%storage) == ['sparse', 'mumps ', 'scene '])) text = ''
    end function bandwidth_text
 
    pure function text_of(text) result(given)
@@ -110,25 +135,28 @@ contains
    end function text_of
 
    !> A row a contact pair before the solution.
-   subroutine describe_pairs(page, scene)
+   subroutine describe_pairs(page, scene, some)
       type(page_t), intent(inout) :: page
       type(scene_t), intent(in) :: scene
-      integer(ip) :: i
+      logical, intent(in), optional :: some         !< of many the first ones only
+      integer(ip) :: i, n
 
       if (.not. allocated(scene%pairs)) return
       if (size(scene%pairs) == 0) return
+      n = rows_shown(size(scene%pairs, kind=ip), some)
       call add_line(page, '   '//left('pair', 5)//left('slave / master', 37)//right('points', 7)// &
                     right('least gap', 13)//right('greatest gap', 13))
-      do i = 1, size(scene%pairs, kind=ip)
+      do i = 1, n
          associate (pair => scene%pairs(i))
             call add_line(page, '   '//left(to_text(i), 5)//left(pair%slave//' / '//pair%master, 37)// &
                           right(to_text(pair%n_points), 7)//right(number(pair%least_gap, 5), 13)// &
                           right(number(pair%greatest_gap, 5), 13))
          end associate
       end do
-      do i = 1, size(scene%pairs, kind=ip)
+      do i = 1, n
          call add_paragraph(page, 'pair '//to_text(i)//': '//pair_text(scene%pairs(i)), 3)
       end do
+      if (n < size(scene%pairs)) call add_line(page, '   ... and '//to_text(size(scene%pairs, kind=ip) - n)//' more pairs')
    end subroutine describe_pairs
 
    pure function pair_text(pair) result(text)

@@ -128,13 +128,22 @@ contains
       integer(ip) :: i
 
       text = ''
-      do i = 1, body_count(scene)
+      if (is_sparse_form(scene)) text = 'sparse'
+      do i = 1, merge(0_ip, body_count(scene), is_sparse_form(scene))
          if (.not. allocated(scene%bodies(i)%storage)) cycle
          if (index(text, scene%bodies(i)%storage) > 0) cycle
          if (len(text) > 0) text = text//' and '
          text = text//scene%bodies(i)%storage
       end do
    end function storages
+
+   !> Whether all bodies are in one sparse matrix.
+   pure logical function is_sparse_form(scene)
+      type(scene_t), intent(in) :: scene
+
+      is_sparse_form = .false.
+      if (allocated(scene%contact_form)) is_sparse_form = scene%contact_form == 'sparse'
+   end function is_sparse_form
 
    pure function iteration_text(model, results) result(text)
       type(model_t), intent(in) :: model
@@ -144,7 +153,9 @@ contains
       text = ', '//plural(int(results%linear_solves, ip), 'linear solve', 'linear solves')
       if (.not. allocated(model%pairs)) return
       if (size(model%pairs) == 0) return
-      if (results%scene%outer_loop) then
+      if (is_sparse_form(results%scene)) then
+         text = ', multipliers: '//plural(int(results%outer_iterations, ip), 'step', 'steps')//text
+      else if (results%scene%outer_loop) then
          text = ', '//trim(METHOD_NAME(model%controls%method))//': '// &
                 plural(int(results%outer_iterations, ip), 'outer iteration', 'outer iterations')//text
       else

@@ -9,7 +9,7 @@ module atrito_summary
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
-   public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields
+   public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields, scales_of_pair
 
    !> What the contact tractions of one pair come to.
    type :: pair_summary_t
@@ -42,6 +42,7 @@ module atrito_summary
    type :: scales_t
       real(wp) :: length = 0.0_wp                  !< coordinates [L]
       real(wp) :: displacement = 0.0_wp            !< [L]
+      real(wp) :: slip = 0.0_wp                    !< of a pair [L]
       real(wp) :: pressure = 0.0_wp                !< contact pressure, all pairs [F/L^2]
       real(wp) :: stress = 0.0_wp                  !< stresses and pressure [F/L^2]
       real(wp) :: force = 0.0_wp                   !< reactions and applied resultants [F]
@@ -117,7 +118,7 @@ contains
                  quantity('resultant_from_start', 'L', s%resultant_from_start, scales%length), &
                  quantity('resultant_from_end', 'L', s%resultant_from_end, scales%length), &
                  quantity('max_abs_shear', 'F/L^2', s%max_abs_shear, scales%pressure), &
-                 quantity('max_abs_slip', 'L', s%max_abs_slip, scales%displacement), &
+                 quantity('max_abs_slip', 'L', s%max_abs_slip, scales%slip), &
                  quantity('max_penetration', 'L', s%max_penetration, scales%displacement), &
                  counted('open_points', s%open_points), &
                  counted('stick_points', s%stick_points), &
@@ -197,6 +198,21 @@ contains
       scales%stress = scales%pressure
       if (allocated(results%stress)) scales%stress = max(scales%stress, largest(results%stress))
    end function measure_fields
+
+   !> The scales of one pair's fields: its own pressure and area, and the displacements that meet there.
+   pure function scales_of_pair(scales, contact) result(own)
+      type(scales_t), intent(in) :: scales           !< of all fields
+      type(contact_result_t), intent(in) :: contact
+      type(scales_t) :: own
+
+      own = scales
+      if (contact%n == 0) return
+      own%pressure = maxval(abs(contact%pressure(:contact%n)))
+      own%area = sum(contact%weight(:contact%n))
+      own%slip = maxval(abs(contact%slip(:contact%n)))
+      own%displacement = own%slip
+      if (allocated(contact%u)) own%displacement = max(own%displacement, maxval(abs(contact%u)))
+   end function scales_of_pair
 
    pure integer function number_of(list)
       type(contact_result_t), allocatable, intent(in) :: list(:)

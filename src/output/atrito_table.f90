@@ -1,6 +1,6 @@
 !> A table: named columns with dimensions, and how it becomes a text file that people, numpy and gnuplot read.
 module atrito_table
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, is_nan
    use atrito_strings, only: string_t, append_string
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, put_lines, close_text, &
@@ -11,7 +11,7 @@ module atrito_table
    implicit none (type, external)
    private
    public :: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
-             write_table
+             write_table, clear_small, abs_is_below, one_word
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE
 
    character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
@@ -424,5 +424,36 @@ contains
       field = word
       if (.not. on_the_left) field = adjustr(field)
    end subroutine put_word
+
+   !> What is rounding in the values of a field becomes 0.
+   pure subroutine clear_small(scale, values)
+      real(wp), intent(in) :: scale                 !< largest value of the field; 0: nothing is rounding
+      real(wp), intent(inout) :: values(:)
+      integer(ip) :: i
+
+      do i = 1, size(values, kind=ip)
+         if (abs_is_below(values(i), ZERO_SHARE*scale)) values(i) = 0.0_wp
+      end do
+   end subroutine clear_small
+
+   !> |x| < limit, false for NaN, which must not meet an ordered comparison while invalid operations are trapped.
+   pure logical function abs_is_below(x, limit)
+      real(wp), intent(in) :: x, limit
+
+      abs_is_below = .false.
+      if (.not. is_nan(x)) abs_is_below = abs(x) < limit
+   end function abs_is_below
+
+   !> Underscores for blanks, and for #, which numpy takes for the beginning of a comment.
+   pure function one_word(text) result(word)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: word
+      integer :: i
+
+      word = text
+      do i = 1, len(text)
+         if (text(i:i) == ' ' .or. text(i:i) == '#') word(i:i) = '_'
+      end do
+   end function one_word
 
 end module atrito_table

@@ -277,25 +277,31 @@ contains
       type(hdf5_file_t), intent(inout) :: file
       type(results_t), intent(in) :: results
       type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
-      type(xdmf_grid_t) :: grid
+      type(xdmf_grid_t), allocatable :: lines(:), all_grids(:)
       character(len=:), allocatable :: group
-      integer(ip) :: i
+      integer(ip) :: i, n
 
       if (.not. allocated(results%contact)) return
+      allocate (lines(size(results%contact)))
+      n = 0
       do i = 1, size(results%contact, kind=ip)
          if (results%contact(i)%n == 0) cycle
+         n = n + 1
          group = step_group(results)//'/pair_'//to_text(i)
-         call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), grid)
-         call put_contact(file, group//'/', results%contact(i), grid)
+         call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), lines(n))
+         call put_contact(file, group//'/', results%contact(i), lines(n))
          call put_vectors(file, group//'/U', 'displacement of the slave', 'L', results%contact(i)%u(:, :results%contact(i)%n))
-         call add_field(grid, group//'/U', 3_ip, .true., CENTRE_NODE)
-         call put_tractions(file, group//'/traction', results%contact(i), grid)
+         call add_field(lines(n), group//'/U', 3_ip, .true., CENTRE_NODE)
+         call put_tractions(file, group//'/traction', results%contact(i), lines(n))
          if (allocated(results%scene%pairs)) then
             call put_attribute(file, group, 'slave', results%scene%pairs(i)%slave)
             call put_attribute(file, group, 'master', results%scene%pairs(i)%master)
          end if
-         grids = [grids, grid]
       end do
+      allocate (all_grids(size(grids) + n))
+      all_grids(:size(grids)) = grids
+      all_grids(size(grids) + 1:) = lines(:n)
+      call move_alloc(all_grids, grids)
    end subroutine put_pairs
 
    !> The points in the order of s, joined by straight pieces.

@@ -12,13 +12,17 @@ module atrito_write_plots
    use atrito_results, only: results_t
    use atrito_table, only: origin_t
    use atrito_write_tables, only: origin_of
-   use atrito_plot_files, only: plot_folder, MESH_PLOT
+   use atrito_plot_files, only: plot_folder, MESH_PLOT, JOINT_PLOT
    use atrito_mesh_plot, only: write_mesh_plot
    use atrito_contact_plot, only: write_contact_plot, contact_plot_name
+   use atrito_joint_plot, only: write_joint_plot, has_joint_plot
    use atrito_gnuplot, only: draw_pictures
    implicit none (type, external)
    private
    public :: write_plots, write_plot_scripts, plot_names
+
+   !> Of more pairs than these there are no pictures of their own beside that of the joints.
+   integer(ip), parameter :: MANY_PAIRS = 20
 
 contains
 
@@ -33,7 +37,7 @@ contains
       call start_phase('plot')
       call write_plot_scripts(model, results, plot_folder(folder), status)
       if (is_ok(status)) then
-         call draw_pictures(plot_folder(folder), plot_names(results), drawn)
+         call draw_pictures(plot_folder(folder), plot_names(model, results), drawn)
       else
          allocate (drawn(0))
          call add_warning('W-PLOT', 'no plots are written: '//status%text)
@@ -41,18 +45,29 @@ contains
       call stop_phase('plot')
    end subroutine write_plots
 
-   !> Pictures of a run: the mesh, and each pair that has points.
-   pure function plot_names(results) result(names)
+   !> Pictures of a run: the mesh, the joints where they are asked for, and each pair that has points.
+   pure function plot_names(model, results) result(names)
+      type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(string_t), allocatable :: names(:)
       integer(ip) :: i
 
       call append_string(names, MESH_PLOT)
-      if (.not. allocated(results%contact)) return
-      do i = 1, size(results%contact, kind=ip)
+      if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
+      do i = 1, plotted_pairs(model, results)
          if (results%contact(i)%n > 0) call append_string(names, contact_plot_name(i))
       end do
    end function plot_names
+
+   !> How many pairs have pictures of their own, those without points among them: all or none.
+   pure integer(ip) function plotted_pairs(model, results) result(n)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+
+      n = 0
+      if (allocated(results%contact)) n = size(results%contact, kind=ip)
+      if (n > MANY_PAIRS .and. has_joint_plot(model, results)) n = 0
+   end function plotted_pairs
 
    !> Writes scripts and data, which appear together or not at all.
    !>
@@ -70,11 +85,10 @@ contains
       if (.not. is_ok(status)) return
       origin = origin_of(model, results)
       call write_mesh_plot(set, model, results, origin, status)
-      if (allocated(results%contact)) then
-         do i = 1, size(results%contact, kind=ip)
-            if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, origin, i, status)
-         end do
-      end if
+      if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, origin, status)
+      do i = 1, plotted_pairs(model, results)
+         if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, origin, i, status)
+      end do
       call end_files(set, status)
    end subroutine write_plot_scripts
 

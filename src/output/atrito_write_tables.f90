@@ -1,6 +1,6 @@
 !> The tables of a run, docs/user/tables.md: what is in them and when each is written.
 module atrito_write_tables
-   use atrito_kinds, only: ip, wp, is_nan
+   use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
@@ -8,16 +8,18 @@ module atrito_write_tables
    use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_number_text, only: trimmed_real
-   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields
+   use atrito_resultant_tables, only: build_bodies, build_joints
+   use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, &
+                             measure_fields, scales_of_pair
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
-                           write_table, ZERO_SHARE
+                           write_table, clear_small, abs_is_below, one_word, ZERO_SHARE
    implicit none (type, external)
    private
    public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES, STRESS_NAMES
 
    !> Every table that atrito can write.
-   character(len=10), parameter :: TABLE_NAMES(7) = &
-                                 [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', 'iterations', 'timing']
+   character(len=10), parameter :: TABLE_NAMES(9) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
+                                                                                         'bodies', 'joints', 'iterations', 'timing']
 
    !> The rows of results%stress.
    character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
@@ -76,6 +78,10 @@ contains
             call build_reactions(model, results, scales, table)
          case ('stress')
             call build_stress(model, results, scales, table)
+         case ('bodies')
+            call build_bodies(results, scales, table)
+         case ('joints')
+            call build_joints(results, scales, table)
          case ('iterations')
             call build_iterations(results, table)
          end select
@@ -101,6 +107,10 @@ contains
          is_wanted = model%requests%reactions .and. allocated(results%reaction)
       case ('stress')
          is_wanted = model%requests%stress .and. allocated(results%stress)
+      case ('bodies')
+         is_wanted = model%requests%bodies .and. allocated(results%bodies)
+      case ('joints')
+         is_wanted = model%requests%joints .and. allocated(results%joints)
       case default
          is_wanted = .false.
       end select
@@ -132,6 +142,7 @@ contains
          point(first:last) = [(j, j=1, results%contact(i)%n)]
          point_status(first:last) = results%contact(i)%status(:results%contact(i)%n)
          call copy_fields(field(first:last, :), results, i)
+         call clear_rounding(field(first:last, :), scales_of_pair(scales, results%contact(i)))
       end do
       call begin_table(table, 'contact', 'a row a quadrature point of the slave surface', n)
       call add_integers(table, 'step', spread(results%step, 1, n))
@@ -140,14 +151,26 @@ contains
       call add_reals(table, 's', 'L', field(:, 1), scales%length)
       call add_reals(table, 'x', 'L', field(:, 2), scales%length)
       call add_reals(table, 'y', 'L', field(:, 3), scales%length)
-      call add_reals(table, 'gap', 'L', field(:, 4), scales%displacement)
-      call add_reals(table, 'pressure', 'F/L^2', field(:, 5), scales%pressure)
-      call add_reals(table, 'weighted_pressure', 'F/L^2', field(:, 6), scales%pressure)
-      call add_reals(table, 'shear', 'F/L^2', field(:, 7), scales%pressure)
-      call add_reals(table, 'slip', 'L', field(:, 8), scales%displacement)
+      call add_reals(table, 'gap', 'L', field(:, 4), 0.0_wp)
+      call add_reals(table, 'pressure', 'F/L^2', field(:, 5), 0.0_wp)
+      call add_reals(table, 'weighted_pressure', 'F/L^2', field(:, 6), 0.0_wp)
+      call add_reals(table, 'shear', 'F/L^2', field(:, 7), 0.0_wp)
+      call add_reals(table, 'slip', 'L', field(:, 8), 0.0_wp)
       call add_integers(table, 'status', point_status)
       call add_reals(table, 'weight', 'L^2', field(:, 9), 0.0_wp)
    end subroutine build_contact
+
+   !> What is rounding in the fields of a pair becomes 0.
+   pure subroutine clear_rounding(field, scales)
+      real(wp), intent(inout) :: field(:, :)
+      type(scales_t), intent(in) :: scales           !< of the pair
+
+      call clear_small(scales%displacement, field(:, 4))
+      call clear_small(scales%pressure, field(:, 5))
+      call clear_small(scales%pressure, field(:, 6))
+      call clear_small(scales%pressure, field(:, 7))
+      call clear_small(scales%slip, field(:, 8))
+   end subroutine clear_rounding
 
    pure subroutine copy_fields(field, results, i)
       real(wp), intent(out) :: field(:, :)
@@ -173,20 +196,22 @@ contains
       type(scales_t), intent(in) :: scales
       integer, intent(in) :: digits
       type(table_t), intent(out) :: table
-      type(quantity_t), allocatable :: list(:), more(:)
+      type(quantity_t), allocatable :: list(:), of_step(:)
       integer(ip), allocatable :: pair(:)
       type(string_t), allocatable :: names(:), values(:)
-      integer(ip) :: i, n
+      integer(ip) :: i, n, n_each
 
-      allocate (list(0), pair(0))
+      n_each = size(pair_quantities(pair_summary_t(), scales), kind=ip)
+      of_step = step_quantities(results)
+      n = n_each*pair_count(results)
+      allocate (list(n + size(of_step)), pair(n + size(of_step)))
       do i = 1, pair_count(results)
-         more = pair_quantities(summarise_pair(results%contact(i)), scales)
-         list = [list, more]
-         pair = [pair, spread(i, 1, size(more))]
+         list(n_each*(i - 1) + 1:n_each*i) = pair_quantities(summarise_pair(results%contact(i)), &
+                                                             scales_of_pair(scales, results%contact(i)))
+         pair(n_each*(i - 1) + 1:n_each*i) = i
       end do
-      more = step_quantities(results)
-      list = [list, more]
-      pair = [pair, spread(0_ip, 1, size(more))]
+      list(n + 1:) = of_step
+      pair(n + 1:) = 0
       n = size(list, kind=ip)
       allocate (names(n), values(n))
       do i = 1, n
@@ -214,14 +239,6 @@ contains
          text = trimmed_real(quantity%value, digits)
       end if
    end function quantity_text
-
-   !> |x| < limit, false for NaN, which must not meet an ordered comparison while invalid operations are trapped.
-   pure logical function abs_is_below(x, limit)
-      real(wp), intent(in) :: x, limit
-
-      abs_is_below = .false.
-      if (.not. is_nan(x)) abs_is_below = abs(x) < limit
-   end function abs_is_below
 
    !> The dimensions of the column `value`, one comment line a dimension.
    pure subroutine describe_dimensions(table, list)
@@ -391,17 +408,5 @@ contains
       call add_reals(table, 'cpu', 's', [phases%cpu, sum(phases%cpu)], 0.0_wp)
       call write_table(set, table, origin_of(model, results), digits, status)
    end subroutine write_timing
-
-   !> Underscores for blanks.
-   pure function one_word(text) result(word)
-      character(len=*), intent(in) :: text
-      character(len=len(text)) :: word
-      integer :: i
-
-      word = text
-      do i = 1, len(text)
-         if (text(i:i) == ' ') word(i:i) = '_'
-      end do
-   end function one_word
 
 end module atrito_write_tables

@@ -17,7 +17,7 @@ module atrito_body_store
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_store_t, provide_bodies, take_numbering, release_bodies
+   public :: body_store_t, provide_bodies, take_numbering, release_bodies, forget_bodies
 
    type :: body_store_t
       logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
@@ -31,6 +31,7 @@ module atrito_body_store
       logical, allocatable, private :: held(:, :)      !< (2, n_nodes)
       type(contact_points_t), allocatable, private :: points(:)
       integer, private :: asked = 0                    !< storage asked for
+      real(wp), private :: grain = 0.0_wp              !< [L] of the elements that were taken as equal
       real(wp), allocatable, private :: load(:, :)     !< (2, n_nodes) [F] the reduced load
       type(body_result_t), allocatable, private :: results(:)
    end type body_store_t
@@ -56,7 +57,8 @@ contains
 
       store%factorisations = 0
       same_bodies = .false.
-      if (store%holds) same_bodies = store%asked == asked .and. has_same_numbering(store, held, points, fem)
+      if (store%holds) same_bodies = store%asked == asked .and. store%grain == fem%grain &
+                                     .and. has_same_numbering(store, held, points, fem)
       store%holds = .false.
       allocate (bodies(fem%bodies%n))
       do b = 1, fem%bodies%n
@@ -94,6 +96,7 @@ contains
 
       store%holds = .true.
       store%asked = asked
+      store%grain = fem%grain
       store%load = load
       store%results = results
       store%sections = fem%sections
@@ -111,6 +114,14 @@ contains
 
       if (allocated(store%bodies) .and. .not. store%keeps) deallocate (store%bodies)
    end subroutine release_bodies
+
+   !> Gives them back in any case.
+   subroutine forget_bodies(store)
+      type(body_store_t), intent(inout) :: store
+
+      store%holds = .false.
+      if (allocated(store%bodies)) deallocate (store%bodies)
+   end subroutine forget_bodies
 
    !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same: how they
    !> are numbered depends on the storage.
@@ -203,6 +214,7 @@ contains
       call move_alloc(store%bodies(b)%storage, body%storage)
       call move_alloc(store%bodies(b)%factor, body%factor)
       call move_alloc(store%bodies(b)%load, body%load)
+      body%is_near = store%bodies(b)%is_near
       result = store%results(b)
    end subroutine take_back
 

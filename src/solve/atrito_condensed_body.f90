@@ -13,7 +13,7 @@ module atrito_condensed_body
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: new_storage, needs_profile, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, &
-                                   STORAGE_SPARSE, STORAGE_MUMPS, LEAST_SPARSE
+                                   STORAGE_SPARSE, STORAGE_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_storage, only: storage_t, smallest_ratio
    use atrito_strings, only: to_text
@@ -21,13 +21,14 @@ module atrito_condensed_body
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: condensed_body_t, condense_body, choose_storage, set_load, contact_response, add_flexibilities, expand_body, &
-             motion_text
+   public :: condensed_body_t, condense_body, check_held, choose_storage, set_load, contact_response, add_flexibilities, &
+             expand_body, motion_text, body_text, how_it_moves
 
    type :: condensed_body_t
       class(storage_t), allocatable :: storage
       real(wp), allocatable :: factor(:, :)        !< (n_kept, n_kept) Cholesky factor of S or S + alpha Q Q'
       real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
+      logical :: is_near = .false.                 !< some elements have the stiffness of one that they are near to, and not equal
    end type condensed_body_t
 
    ! Costs in operations of the skyline, fitted to blocks and strips of 200 to 900,000 equations with OpenBLAS
@@ -39,8 +40,6 @@ module atrito_condensed_body
    !> What assembly and solves take in the time of so many of them: for an equation, and for the sparse solver to begin with.
    real(wp), parameter :: SKYLINE_OVERHEAD = 1600.0_wp, BAND_OVERHEAD = 2500.0_wp, SPARSE_OVERHEAD = 1000.0_wp, &
                           SPARSE_START = 2.0e6_wp
-   !> Operations, some tenths of a second, from which on it is told that the sparse solver would save them.
-   real(wp), parameter :: WORTH_TELLING = 5.0e8_wp
 
 contains
 
@@ -59,13 +58,9 @@ contains
          result%reason = 'asked for'
       else
          kind = STORAGE_SPARSE
-         if (needs_profile(asked, profile%n)) kind = minloc(cost(:STORAGE_BANDED), dim=1)
-         second = minloc(cost(:STORAGE_BANDED), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED] /= kind)
+         if (needs_profile(asked, profile%n)) kind = minloc(cost(:STORAGE_SPARSE), dim=1)
+         second = minloc(cost(:STORAGE_SPARSE), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE] /= kind)
          result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
-         if (cost(STORAGE_SPARSE) + WORTH_TELLING < cost(kind)) then
-            result%reason = result%reason//'; '//ratio_text(cost(kind), cost(STORAGE_SPARSE))//' of it with --solver sparse, '// &
-                            'unasked from '//to_text(LEAST_SPARSE)//' equations on'
-         end if
       end if
       result%storage = storage_name(kind)
       result%storage_kind = kind
@@ -73,6 +68,7 @@ contains
       result%profile = profile_length(profile)
       if (kind >= STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
       result%memory = predict_memory(profile, kind) + kept_bytes(profile%n_kept)
+      result%most_memory = result%memory
    end subroutine choose_storage
 
    !> The matrix of the kept equations.
@@ -127,11 +123,8 @@ contains
       type(profile_t) :: profile
       integer :: kind
 
-      if (fem%bodies%list(i_body)%n_kept == 0 .and. size(fem%bodies%list(i_body)%modes, 2) > 0) then
-         call set_status(status, STATUS_SINGULAR, motion_text(fem, i_body, fem%bodies%list(i_body)%modes(:, 1)) &
-                         //'; no support and no contact pair holds it')
-         return
-      end if
+      call check_held(fem, i_body, status)
+      if (.not. is_ok(status)) return
       call start_phase('order')
       if (result%storage_kind < STORAGE_SPARSE) then
          call body_profile(fem, i_body, profile)
@@ -140,18 +133,38 @@ contains
       if (result%storage_kind >= STORAGE_SPARSE) then
          call begin_profile(profile, fem%bodies%list(i_body)%n, fem%bodies%list(i_body)%n_kept)
          call order_by_dissection(fem%mesh, fem%bodies, i_body, profile%elimination)
+         result%order = profile%elimination%text
       end if
       call stop_phase('order')
       call new_storage(result%storage_kind, body%storage)
       call start_phase('assemble')
       call body%storage%create(profile, status)
-      if (is_ok(status)) call assemble_body(fem, i_body, body%storage)
+      if (is_ok(status)) call assemble_body(fem, i_body, body%storage, grain_for(fem, result%storage_kind), body%is_near)
       call stop_phase('assemble')
       if (.not. is_ok(status)) return
       call start_phase('factor')
       call factor_body(fem, i_body, body, result, status)
       call stop_phase('factor')
    end subroutine condense_body
+
+   !> Fronts alone are the fewer for elements that are taken as equal.
+   pure real(wp) function grain_for(fem, storage_kind) result(grain)
+      type(fem_t), intent(in) :: fem
+      integer, intent(in) :: storage_kind
+
+      grain = merge(fem%grain, 0.0_wp, storage_kind == STORAGE_SPARSE)
+   end function grain_for
+
+   !> status: STATUS_SINGULAR when a body can move and no contact point touches it.
+   subroutine check_held(fem, i_body, status)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(status_t), intent(inout) :: status
+
+      if (fem%bodies%list(i_body)%n_kept > 0 .or. size(fem%bodies%list(i_body)%modes, 2) == 0) return
+      call set_status(status, STATUS_SINGULAR, motion_text(fem, i_body, fem%bodies%list(i_body)%modes(:, 1)) &
+                      //'; no support and no contact pair holds it')
+   end subroutine check_held
 
    subroutine factor_body(fem, i_body, body, result, status)
       type(fem_t), intent(in) :: fem
@@ -196,6 +209,7 @@ contains
       if (storage%report%n_fronts == 0) return
       result%profile = storage%report%entries
       result%memory = storage%memory_bytes() + kept_bytes(storage%n_kept)
+      result%most_memory = max(result%memory, storage%report%most_bytes)
    end subroutine report_fronts
 
    subroutine name_equation(fem, i_body, equation, result)
@@ -356,8 +370,29 @@ contains
       end associate
    end subroutine expand_body
 
-   !> A rigid motion of a body in words: 'body BLOCK (node 7 ...) is free to move along x1'.
+   !> A rigid motion of a body in words: 'body BLOCK (node 7 and all others) is free to move along x1'.
    function motion_text(fem, i_body, mode) result(text)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
+      character(len=:), allocatable :: text
+
+      text = body_text(fem, i_body)//' is free to '//how_it_moves(fem, i_body, mode)
+   end function motion_text
+
+   !> 'body BLOCK (node 7 and all others)'
+   function body_text(fem, i_body) result(text)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      character(len=:), allocatable :: text
+
+      associate (body => fem%bodies%list(i_body))
+         text = 'body '//body%name//' (node '//to_text(fem%mesh%node_id(body%nodes(1)))//' and all others)'
+      end associate
+   end function body_text
+
+   !> 'rotate about (1, 0)', 'move along x1'
+   function how_it_moves(fem, i_body, mode) result(text)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
@@ -367,19 +402,18 @@ contains
 
       size_of_mode = maxval(abs(mode))
       associate (body => fem%bodies%list(i_body))
-         text = 'body '//body%name//' (node '//to_text(fem%mesh%node_id(body%nodes(1)))//' and all others) is free to '
          if (abs(mode(3)) > SMALL*size_of_mode) then
             centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
             where (abs(centre) < 1.0e-12_wp*body%size) centre = 0.0_wp
-            text = text//'rotate about ('//to_text(centre(1))//', '//to_text(centre(2))//')'
+            text = 'rotate about ('//to_text(centre(1))//', '//to_text(centre(2))//')'
          else if (abs(mode(2)) <= SMALL*size_of_mode) then
-            text = text//'move along x1'
+            text = 'move along x1'
          else if (abs(mode(1)) <= SMALL*size_of_mode) then
-            text = text//'move along x2'
+            text = 'move along x2'
          else
-            text = text//'move along ('//to_text(mode(1)/norm2(mode(:2)))//', '//to_text(mode(2)/norm2(mode(:2)))//')'
+            text = 'move along ('//to_text(mode(1)/norm2(mode(:2)))//', '//to_text(mode(2)/norm2(mode(:2)))//')'
          end if
       end associate
-   end function motion_text
+   end function how_it_moves
 
 end module atrito_condensed_body

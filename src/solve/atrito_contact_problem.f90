@@ -1,8 +1,7 @@
 !> The contact line of a scene and its box problem: C = B F B', G = B Z, g0 and h, summed over the bodies.
 module atrito_contact_problem
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t
-   use atrito_average, only: average_t, build_average, append_average
    use atrito_bodies, only: mode_at
    use atrito_box_problem, only: box_problem_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
@@ -11,9 +10,10 @@ module atrito_contact_problem
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
    use atrito_model, only: model_t, interaction_t
    use atrito_points, only: contact_points_t
+   use atrito_surface_average, only: average_rule_t, average_surfaces, count_surface_entries
    implicit none (type, external)
    private
-   public :: build_line, build_problem, motion_body, first_motion
+   public :: average_entries, build_line, build_problem, add_displacements, motion_body
 
 contains
 
@@ -26,7 +26,6 @@ contains
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       type(contact_line_t), intent(out) :: line
       logical :: normal_row(rows%n), tangential_row(rows%n)
-      type(average_t) :: average
       integer(ip) :: i, j, first
 
       line%n = rows%n
@@ -39,11 +38,10 @@ contains
             line%weight(first + 1:last) = points(i)%weight
             line%delta(first + 1:last) = interaction%delta
             line%law(first + 1:last) = law_of(interaction)
-            average = build_average(points(i)%x, points(i)%length, interaction%rho, interaction%kernel)
-            call append_average(line%average, average)
             first = last
          end associate
       end do
+      call average_surfaces(points, average_rules(model), line%average)
       do j = 1, line%n
          normal_row(j) = has_unknown(fem, rows, j, rows%normal(:, j))
          tangential_row(j) = has_unknown(fem, rows, j, rows%tangent(:, j))
@@ -52,6 +50,29 @@ contains
       end do
       call number_unknowns(line, normal_row, tangential_row)
    end subroutine build_line
+
+   !> The entries of the average over the points of all pairs; an estimate where there are more than `most`.
+   pure integer(lp) function average_entries(model, points, most) result(entries)
+      type(model_t), intent(in) :: model
+      type(contact_points_t), intent(in) :: points(:)
+      integer(lp), intent(in) :: most
+
+      entries = count_surface_entries(points, average_rules(model), most)
+   end function average_entries
+
+   !> How the pressure of each pair is averaged.
+   pure function average_rules(model) result(rules)
+      type(model_t), intent(in) :: model
+      type(average_rule_t) :: rules(size(model%pairs))
+      integer(ip) :: i
+
+      do i = 1, size(model%pairs, kind=ip)
+         associate (pair => model%pairs(i), interaction => model%interactions(model%pairs(i)%interaction))
+            rules(i) = average_rule_t(interaction%rho, interaction%kernel, pair%slave)
+            if (pair%outline > 0) rules(i)%surface = size(model%surfaces, kind=ip) + pair%outline
+         end associate
+      end do
+   end function average_rules
 
    !> The law of an interaction; without a coefficient there is none, and nothing tangential is built.
    pure type(friction_law_t) function law_of(interaction) result(law)
@@ -99,16 +120,18 @@ contains
          problem%k = problem%k + size(fem%bodies%list(b)%modes, 2, kind=ip)
       end do
       m = problem%m
-      allocate (problem%c(m, m), problem%g(m, problem%k), problem%g0(m), problem%h(problem%k), source=0.0_wp)
+      allocate (problem%c(m, m), problem%g(m, problem%k), problem%g0(m), problem%h(problem%k), problem%h_size(problem%k), &
+                source=0.0_wp)
       problem%weight = line%weight(line%point)
       do i = 1, m
          problem%g0(i) = row_value(rows, line%point(i), direction_of(problem, rows, line, i), value)
          if (i <= problem%n_normal) problem%g0(i) = problem%g0(i) - rows%gap(line%point(i))
       end do
       do b = 1, fem%bodies%n
+         call add_displacements(fem, b, condensed(b), rows, line, problem)
          call add_flexibility(fem, b, condensed(b), rows, line, problem)
-         call add_motions(fem, b, rows, line, f, problem)
       end do
+      call add_motions(fem, rows, line, f, problem)
    end subroutine build_problem
 
    pure function direction_of(problem, rows, line, i) result(d)
@@ -125,7 +148,29 @@ contains
       end if
    end function direction_of
 
-   !> Adds B F B' of one body to C, and B F f_c to g0.
+   !> Adds B F f_c of one body to g0: what its load moves the points by.
+   subroutine add_displacements(fem, i_body, condensed, rows, line, problem)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(in) :: condensed
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(box_problem_t), intent(inout) :: problem
+      real(wp), allocatable :: moved(:, :)
+      integer(ip) :: dofs(2*(size(rows%node, 1))), j, n
+      real(wp) :: coefficients(size(dofs))
+
+      n = fem%bodies%list(i_body)%n_kept
+      if (n == 0) return
+      moved = condensed%load(size(condensed%load, 1) - n + 1:, :)
+      call contact_response(condensed, moved)
+      do j = 1, problem%m
+         call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
+         problem%g0(j) = problem%g0(j) + sum(coefficients*moved(max(dofs, 1_ip), 1))
+      end do
+   end subroutine add_displacements
+
+   !> Adds B F B' of one body to C.
    subroutine add_flexibility(fem, i_body, condensed, rows, line, problem)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -133,7 +178,7 @@ contains
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(box_problem_t), intent(inout) :: problem
-      real(wp), allocatable :: forces(:, :), moved(:, :)
+      real(wp), allocatable :: forces(:, :)
       integer(ip), allocatable :: first(:), order(:)
       integer(ip) :: i, j, n
       integer(ip) :: dofs(2*(size(rows%node, 1)))
@@ -141,13 +186,10 @@ contains
 
       n = fem%bodies%list(i_body)%n_kept
       if (n == 0) return
-      moved = condensed%load(size(condensed%load, 1) - n + 1:, :)
-      call contact_response(condensed, moved)
       allocate (first(problem%m))
       do j = 1, problem%m
          call row_entries(fem, i_body, rows, line%point(j), direction_of(problem, rows, line, j), dofs, coefficients)
          first(j) = minval(dofs, mask=dofs > 0)      ! huge where there is none
-         problem%g0(j) = problem%g0(j) + sum(coefficients*moved(max(dofs, 1_ip), 1))
       end do
       order = places_in_order(first, n)
       allocate (forces(n, size(order)), source=0.0_wp)
@@ -217,37 +259,62 @@ contains
       end do
    end subroutine scatter
 
-   !> Adds the rigid motions of one body: G = B Z, h = Z' f.
-   subroutine add_motions(fem, i_body, rows, line, f, problem)
+   !> Adds the rigid motions of all bodies: G = B Z, h = Z' f.
+   subroutine add_motions(fem, rows, line, f, problem)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: f(:, :)
       type(box_problem_t), intent(inout) :: problem
-      real(wp) :: direction(2), z
-      integer(ip) :: i, j, k, column, dof, node
+      integer(ip) :: column(fem%bodies%n + 1)        ! of the first motion of each body
+      integer(ip) :: b, i, j, k
 
-      associate (body => fem%bodies%list(i_body))
-         do j = 1, size(body%modes, 2, kind=ip)
-            column = first_motion(fem, i_body) + j - 1
-            do i = 1, problem%m
-               direction = direction_of(problem, rows, line, i)
-               do k = 1, rows%entries(line%point(i))
-                  node = rows%node(k, line%point(i))
-                  if (fem%bodies%of_node(node) /= i_body) cycle
-                  do dof = 1, 2
-                     if (fem%bodies%equation(dof, node) == 0) cycle
-                     z = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
-                     problem%g(i, column) = problem%g(i, column) + rows%coefficient(k, line%point(i))*direction(dof)*z
-                  end do
-               end do
-            end do
-            problem%h(column) = work_of_load(fem, i_body, body%modes(:, j), f)
+      column(1) = 1
+      do b = 1, fem%bodies%n
+         column(b + 1) = column(b) + size(fem%bodies%list(b)%modes, 2, kind=ip)
+         do j = column(b), column(b + 1) - 1
+            call work_of_load(fem, b, fem%bodies%list(b)%modes(:, j - column(b) + 1), f, problem%h(j), problem%h_size(j))
          end do
-      end associate
+         call clear_balanced_load(problem%h_size(column(b):column(b + 1) - 1), problem%h(column(b):column(b + 1) - 1))
+      end do
+      do i = 1, problem%m
+         do k = 1, rows%entries(line%point(i))
+            b = fem%bodies%of_node(rows%node(k, line%point(i)))
+            call add_motion_row(fem, b, rows%node(k, line%point(i)), rows%coefficient(k, line%point(i)), &
+                                direction_of(problem, rows, line, i), problem%g(i, column(b):column(b + 1) - 1))
+         end do
+      end do
       call clear_round_off(problem%g)
    end subroutine add_motions
+
+   !> What one entry of a row adds to the row of G: the motions of the body that has the node.
+   pure subroutine add_motion_row(fem, b, node, coefficient, direction, g)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b, node
+      real(wp), intent(in) :: coefficient, direction(2)
+      real(wp), intent(inout) :: g(:)                !< (motions of the body)
+      integer(ip) :: j, dof
+      real(wp) :: z
+
+      associate (body => fem%bodies%list(b))
+         do j = 1, size(g, kind=ip)
+            do dof = 1, 2
+               if (fem%bodies%equation(dof, node) == 0) cycle
+               z = mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof)
+               g(j) = g(j) + coefficient*direction(dof)*z
+            end do
+         end do
+      end associate
+   end subroutine add_motion_row
+
+   !> A body whose forces balance but for round-off rests: it has no load.
+   pure subroutine clear_balanced_load(size_of_load, load)
+      real(wp), intent(in) :: size_of_load(:)
+      real(wp), intent(inout) :: load(:)
+      real(wp), parameter :: ROUND_OFF = 1.0e-14_wp
+
+      if (all(abs(load) <= ROUND_OFF*size_of_load)) load = 0.0_wp
+   end subroutine clear_balanced_load
 
    !> Motions are of size one: what is below rounding of that is no motion.
    pure subroutine clear_round_off(g)
@@ -257,34 +324,29 @@ contains
       where (abs(g) < ROUND_OFF) g = 0.0_wp
    end subroutine clear_round_off
 
-   pure real(wp) function work_of_load(fem, i_body, mode, f) result(work)
+   !> The work of the forces on a motion, and of their sizes.
+   pure subroutine work_of_load(fem, i_body, mode, f, work, size_of_work)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       real(wp), intent(in) :: mode(3), f(:, :)
+      real(wp), intent(out) :: work, size_of_work    !< [F]
       integer(ip) :: i, dof, node
+      real(wp) :: z
 
       work = 0.0_wp
+      size_of_work = 0.0_wp
       associate (body => fem%bodies%list(i_body))
          do i = 1, size(body%nodes, kind=ip)
             node = body%nodes(i)
             do dof = 1, 2
-               if (fem%bodies%equation(dof, node) > 0) work = work + f(dof, node)*mode_at(body, mode, fem%mesh%x(:, node), dof)
+               if (fem%bodies%equation(dof, node) == 0) cycle
+               z = mode_at(body, mode, fem%mesh%x(:, node), dof)
+               work = work + f(dof, node)*z
+               size_of_work = size_of_work + abs(f(dof, node)*z)
             end do
          end do
       end associate
-   end function work_of_load
-
-   !> Column of the first rigid motion of a body.
-   pure integer(ip) function first_motion(fem, i_body) result(column)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      integer(ip) :: b
-
-      column = 1
-      do b = 1, i_body - 1
-         column = column + size(fem%bodies%list(b)%modes, 2, kind=ip)
-      end do
-   end function first_motion
+   end subroutine work_of_load
 
    !> The body that moves most in a motion of amplitudes a, and its motion as translations and rotation.
    pure subroutine motion_body(fem, a, i_body, mode)
@@ -298,8 +360,10 @@ contains
       i_body = 1
       mode = 0.0_wp
       most = -1.0_wp
+      n = 0
+      first = 1
       do b = 1, fem%bodies%n
-         first = first_motion(fem, b)
+         first = first + n
          n = size(fem%bodies%list(b)%modes, 2, kind=ip)
          own = matmul(fem%bodies%list(b)%modes, a(first:first + n - 1))
          if (norm2(own) <= most) cycle

@@ -1,11 +1,14 @@
 !> What the outer loop works on and what it finds: the contact line's state, its stresses, and the verdict.
 module atrito_contact_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use atrito_active_set, only: box_outcome_t, solve_box
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, set_friction_bounds
+   use atrito_active_set, only: box_outcome_t, solve_box, is_settled
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, clear_vanishing, &
+                                 force_round_off, FREE, AT_LOWER
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, friction_bound, set_friction_bounds
    use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
    use atrito_line_factor, only: line_factor_t, condition_of
+   use atrito_proximal, only: solve_box_proximal
    use atrito_solve_history, only: solve_history_t
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
@@ -14,12 +17,17 @@ module atrito_contact_solution
              relative_residual
 
    real(wp), parameter :: MOST_ROUND_OFF = 1.0e-7_wp
+   real(wp), parameter :: ROUND_OFFS = 10.0_wp        !< of a force: nothing else
+   integer, parameter :: MOST_ROUNDS = 5
+   real(wp), parameter :: NOISE = 1.0e-12_wp          !< of the largest friction bound or force: may be round-off elsewhere
 
    type :: outer_controls_t
       integer(ip) :: method = 1                       !< METHOD_* of the model
       real(wp) :: tolerance = 1.0e-10_wp
       integer(ip) :: max_iterations = 100
       real(wp) :: relaxation = 1.0_wp
+      logical :: is_coarse = .false.                  !< box_problem_t%is_coarse: states that round-off turns to and fro
+      real(wp) :: most_entries = huge(1.0_wp)         !< of C to go through, over all linear solves, before it is given up
    end type outer_controls_t
 
    type :: contact_solution_t
@@ -28,6 +36,8 @@ module atrito_contact_solution
       type(solve_history_t) :: history
       type(box_outcome_t) :: inner                    !< of the last inner problem; its condition after judge_condition
       type(line_factor_t) :: factor                   !< of the last solve, or of one near it
+      type(constraint_rows_t), allocatable :: rows    !< of the unknowns, where they may depend on each other
+      logical, allocatable :: is_shared(:)            !< (unknowns) with rows: the force is not unique, the least is given
       real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
       logical :: converged = .false.
       character(len=:), allocatable :: verdict        !< why not
@@ -48,13 +58,121 @@ contains
 
       solution%tau = tau
       call set_friction_bounds(line, problem, tau, solution%bounds, solution%state)
-      call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
-                     solution%factor)
+      if (allocated(solution%rows)) then
+         call solve_box_proximal(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
+                                 solution%factor, solution%rows, solution%is_shared)
+      else
+         call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
+                        solution%factor)
+         if (is_ok(status) .and. .not. (solution%inner%solved .or. solution%inner%moves)) then
+            ! better conditioned, and from another start
+            call solve_box_proximal(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
+                                    solution%factor)
+         end if
+      end if
       if (.not. is_ok(status)) return
+      call clear_vanishing(problem, solution%bounds%d, solution%state)
+      if (solution%inner%solved) call open_tensions(problem, solution)
+      if (solution%inner%solved) call clear_noise(problem, line, solution)
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, tau)
       image = friction_bound(line, solution%p)
    end subroutine solve_with_bound
+
+   !> A closed point may have a tension that is round-off, of the forces on the bodies there: another body may feel it. Such points
+   !> open, where the others bear it without changing.
+   subroutine open_tensions(problem, solution)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(inout) :: solution
+      type(box_state_t) :: state
+      type(equality_solution_t) :: found
+      type(status_t) :: status
+      integer :: round
+
+      if (allocated(solution%rows)) return              ! their factor is not that of the free set
+      associate (n => problem%n_normal)
+         state = solution%state
+         do round = 1, MOST_ROUNDS
+            if (.not. any(state%state(:n) == FREE .and. state%q(:n) < 0.0_wp)) exit
+            where (state%state(:n) == FREE .and. state%q(:n) < 0.0_wp)
+               state%state(:n) = AT_LOWER
+               state%q(:n) = 0.0_wp
+            end where
+            call solve_free_set(problem, solution%bounds%d, state, found, status, solution%factor)
+            if (.not. is_ok(status) .or. found%moves) return
+         end do
+         if (round == 1 .or. round > MOST_ROUNDS) return
+         if (is_settled(problem, solution%bounds, state)) solution%state = state
+      end associate
+   end subroutine open_tensions
+
+   !> Forces of a pair that are round-off become none: at all its points what round-off of the displacements there may do, and far
+   !> below the loads of the bodies that they hold. (A body without load between loaded ones has such forces.)
+   subroutine clear_noise(problem, line, solution)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(inout) :: solution
+      logical :: beside_loads(problem%m)
+      integer(ip) :: first, last
+
+      if (line%n == 0 .or. .not. allocated(line%pair) .or. .not. allocated(problem%h_size)) return
+      if (size(line%pair) < line%n) return
+      if (line%pair(1) == line%pair(line%n)) return
+      beside_loads = noise_beside_loads(problem, solution%state%q)
+      first = 1
+      do while (first <= line%n)
+         last = last_of_pair(line, first)
+         if (is_noise(line%normal(first:last)) .and. is_noise(line%tangential(first:last))) then
+            call clear(line%normal(first:last))
+            call clear(line%tangential(first:last))
+         end if
+         first = last + 1
+      end do
+
+   contains
+
+      !> The compliance of friction goes with its bound, which may be noise as well.
+      logical function is_noise(unknowns)
+         integer(ip), intent(in) :: unknowns(:)      !< 0: none
+         real(wp) :: d(problem%m)
+         integer(ip) :: k
+
+         d = 0.0_wp
+         d(:problem%n_normal) = solution%bounds%d(:problem%n_normal)
+         is_noise = .true.
+         do k = 1, size(unknowns, kind=ip)
+            if (unknowns(k) == 0) cycle
+            associate (q => solution%state%q(unknowns(k)))
+               if (abs(q) <= 0.0_wp) cycle
+               is_noise = beside_loads(unknowns(k))
+               if (is_noise) is_noise = abs(q) <= ROUND_OFFS*force_round_off(problem, d, solution%state, unknowns(k))
+            end associate
+            if (.not. is_noise) return
+         end do
+      end function is_noise
+
+      subroutine clear(unknowns)
+         integer(ip), intent(in) :: unknowns(:)
+         integer(ip) :: k
+
+         do k = 1, size(unknowns, kind=ip)
+            if (unknowns(k) > 0) solution%state%q(unknowns(k)) = 0.0_wp
+         end do
+      end subroutine clear
+
+   end subroutine clear_noise
+
+   pure function noise_beside_loads(problem, q) result(is_noise)
+      type(box_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: q(:)
+      logical :: is_noise(problem%m)
+      integer(ip) :: j
+
+      is_noise = .true.
+      do j = 1, problem%k
+         if (problem%h_size(j) > 0.0_wp) is_noise = is_noise .and. abs(problem%g(:, j)*q) <= NOISE*problem%h_size(j)
+      end do
+   end function noise_beside_loads
 
    !> Estimates the condition of the last solve, which takes as long as some solutions with its factor.
    subroutine judge_condition(solution)
@@ -63,17 +181,42 @@ contains
       solution%inner%condition = condition_of(solution%factor)
    end subroutine judge_condition
 
-   !> |image - tau| / |tau|, in the largest norm; 0 when both vanish.
-   pure real(wp) function relative_residual(tau, image) result(residual)
+   !> |image - tau| / |tau|, in the largest norm, of each pair by its own bound; the largest. 0 when both vanish.
+   pure real(wp) function relative_residual(line, tau, image, beside_noise) result(residual)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tau(:), image(:)        !< (n) [F/L^2]
+      logical, intent(in), optional :: beside_noise   !< pairs whose bound is round-off of the strongest do not count
+      real(wp) :: none
+      integer(ip) :: first, last
+
+      residual = 0.0_wp
+      none = 0.0_wp
+      if (present(beside_noise)) none = merge(NOISE*largest_of(tau, image), 0.0_wp, beside_noise)
+      first = 1
+      do while (first <= line%n)
+         last = last_of_pair(line, first)
+         residual = max(residual, residual_of_pair(tau(first:last), image(first:last), none))
+         first = last + 1
+      end do
+      if (.not. all(ieee_is_finite(image))) residual = HUGE_REAL   ! maxval passes over what is not a number
+   end function relative_residual
+
+   pure real(wp) function residual_of_pair(tau, image, none) result(residual)
       real(wp), intent(in) :: tau(:), image(:)
+      real(wp), intent(in) :: none                    !< a bound that is none
       real(wp) :: scale
 
       residual = 0.0_wp
-      if (size(tau) == 0) return
-      scale = max(maxval(abs(tau)), maxval(abs(image)))
-      if (scale > 0.0_wp) residual = maxval(abs(image/scale - tau/scale))
-      if (.not. all(ieee_is_finite(image))) residual = HUGE_REAL   ! maxval passes over what is not a number
-   end function relative_residual
+      scale = largest_of(tau, image)
+      if (scale > none) residual = maxval(abs(image/scale - tau/scale))
+   end function residual_of_pair
+
+   pure real(wp) function largest_of(tau, image)
+      real(wp), intent(in) :: tau(:), image(:)
+
+      largest_of = 0.0_wp
+      if (size(tau) > 0) largest_of = max(maxval(abs(tau)), maxval(abs(image)))
+   end function largest_of
 
    !> Whether the outer loop stops at this residual: below the tolerance; or below what round-off of the matrix can do to it, and no
    !> longer halved by an iteration. (Round-off mostly does far less than its bound, so the bound alone stops too early.) Above

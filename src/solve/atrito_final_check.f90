@@ -5,14 +5,16 @@ module atrito_final_check
    use atrito_assembly, only: fem_t
    use atrito_average, only: apply_average
    use atrito_bodies, only: body_t, mode_at
-   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_line, only: contact_line_t, last_of_pair
    use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_contact_scales, only: contact_scales_t, measure_places, printed_as_none, usual_growth
    use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
    use atrito_internal_forces, only: internal_forces, internal_force_sizes
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_results, only: results_t
    use atrito_strings, only: to_text
    use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_weak_forces, only: contact_sizes_t, weak_parts_hold
    implicit none (type, external)
    private
    public :: check_equilibrium, check_balance, check_law, equilibrium_t
@@ -34,13 +36,12 @@ module atrito_final_check
    real(wp), parameter :: FORCE_TOLERANCE = 1.0e-7_wp    !< of the largest nodal force
    real(wp), parameter :: ROUND_OFFS = 100.0_wp          !< times eps |K||u_e|
    real(wp), parameter :: BALANCE_TOLERANCE = 1.0e-8_wp  !< of the sum of the forces on a body
-   real(wp), parameter :: PLACE_TOLERANCE = 1.0e-7_wp    !< of the largest displacement: gaps and slips against the field
-   real(wp), parameter :: SIGN_TOLERANCE = 1.0e-9_wp     !< of the largest pressure or displacement
+   real(wp), parameter :: ROUND_OFF_BESIDE = 1.0e-14_wp  !< of the forces on a body that touches one without load
 
 contains
 
    !> K u_e - f + B'q of all elements, assembled again: reactions at the prescribed dofs, residual at the free ones.
-   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium)
+   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, rows, sizes)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)           !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :)           !< applied forces (2, n_nodes) [F]
@@ -48,6 +49,8 @@ contains
       logical, intent(in) :: held(:, :)
       real(wp), intent(out) :: reaction(:, :)   !< (2, n_nodes) [F]; 0 at free dofs
       type(equilibrium_t), intent(out) :: equilibrium
+      type(contact_rows_t), intent(in), optional :: rows      !< with sizes: each body and each pair is judged by its own forces
+      type(contact_sizes_t), intent(in), optional :: sizes
       type(extremes_t) :: found(run_count(fem%mesh%n_nodes))
       real(wp) :: allowed
       integer(ip) :: run, first, last, node
@@ -71,13 +74,21 @@ contains
       ! the round-off is asked for where it matters
       if (equilibrium%residual > allowed) allowed = allowed + ROUND_OFFS*EPS_MACH*largest_size(fem, u)
       equilibrium%holds = equilibrium%residual <= allowed .and. all(found%finite)
+      if (equilibrium%holds .and. present(rows) .and. present(sizes)) then
+         equilibrium%holds = weak_parts_hold(fem, u, f, contact, held, reaction, rows, sizes)
+      end if
+      !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
+      do node = 1, fem%mesh%n_nodes
+         where (.not. held(:, node)) reaction(:, node) = 0.0_wp
+      end do
+      !$omp end parallel do
    end subroutine check_equilibrium
 
    !> From the internal forces of some nodes to reactions where they are held and residuals where they are free.
    pure subroutine split_forces(u, f, contact, held, reaction, found)
       real(wp), intent(in) :: u(:, :), f(:, :), contact(:, :)
       logical, intent(in) :: held(:, :)
-      real(wp), intent(inout) :: reaction(:, :) !< internal forces in [F]
+      real(wp), intent(inout) :: reaction(:, :) !< internal forces in [F]; at free dofs the residual out
       type(extremes_t), intent(out) :: found
       real(wp) :: force
       integer(ip) :: i, dof
@@ -85,9 +96,8 @@ contains
       do i = 1, size(u, 2, kind=ip)
          do dof = 1, 2
             force = reaction(dof, i) - f(dof, i) + contact(dof, i)
-            reaction(dof, i) = 0.0_wp
+            reaction(dof, i) = force
             if (held(dof, i)) then
-               reaction(dof, i) = force
                found%largest_force = max(found%largest_force, abs(force))
             else
                found%residual = max(found%residual, abs(force))
@@ -110,30 +120,82 @@ contains
       largest_size = maxval(size_of_force)
    end function largest_size
 
-   !> Z'(f - B'q) of every rigid motion, relative to the forces; the worst.
-   real(wp) function check_balance(fem, f, contact) result(worst)
+   !> Z'(f - B'q) of every rigid motion, relative to the forces on the body; the worst. A body without load rests: what is round-off
+   !> of the forces on those that touch it, directly or by others without load, counts as none.
+   real(wp) function check_balance(fem, f, contact, rows) result(worst)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :), contact(:, :) !< (2, n_nodes) [F]
-      real(wp), allocatable :: sums(:, :)            !< work and size of the forces, of each run of nodes
-      real(wp) :: total(2)
-      integer(ip) :: b, j, run, n
+      type(contact_rows_t), intent(in), optional :: rows !< what touches; without it nothing does
+      real(wp) :: work(3, fem%bodies%n), size_of_work(fem%bodies%n), around(fem%bodies%n)
+      logical :: is_loaded(fem%bodies%n)
+      integer(ip) :: b, j
 
       worst = 0.0_wp
       do b = 1, fem%bodies%n
-         n = size(fem%bodies%list(b)%nodes, kind=ip)
-         allocate (sums(2, run_count(n)))
+         call add_up_body(fem, fem%bodies%list(b), f, contact, work(:, b), size_of_work(b))
+      end do
+      around = size_of_work
+      do b = 1, fem%bodies%n
+         is_loaded(b) = any(abs(f(:, fem%bodies%list(b)%nodes)) > 0.0_wp)
+      end do
+      if (present(rows)) call spread_to_touching(fem, rows, is_loaded, around)
+      do b = 1, fem%bodies%n
          do j = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
-            !$omp parallel do schedule(static) if (is_shared(n))
-            do run = 1, run_count(n)
-               call add_work(fem, fem%bodies%list(b), j, run, f, contact, sums(:, run))
-            end do
-            !$omp end parallel do
-            total = sum(sums, dim=2)
-            if (total(2) > 0.0_wp) worst = max(worst, abs(total(1))/total(2))
+            if (abs(work(j, b)) <= merge(0.0_wp, ROUND_OFF_BESIDE*around(b), is_loaded(b))) cycle
+            worst = max(worst, abs(work(j, b))/size_of_work(b))
          end do
-         deallocate (sums)
       end do
    end function check_balance
+
+   !> The work of all forces on a body in each of its motions, and the sum of their sizes.
+   subroutine add_up_body(fem, body, f, contact, work, size_of_work)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: f(:, :), contact(:, :)
+      real(wp), intent(out) :: work(:), size_of_work
+      real(wp) :: sums(2, run_count(size(body%nodes, kind=ip))), total(2)
+      integer(ip) :: j, run
+
+      work = 0.0_wp
+      size_of_work = 0.0_wp
+      if (size(body%modes, 2) == 0) size_of_work = sum(abs(f(:, body%nodes))) + sum(abs(contact(:, body%nodes)))
+      do j = 1, size(body%modes, 2, kind=ip)
+         !$omp parallel do schedule(static) if (is_shared(size(body%nodes, kind=ip)))
+         do run = 1, size(sums, 2, kind=ip)
+            call add_work(fem, body, j, run, f, contact, sums(:, run))
+         end do
+         !$omp end parallel do
+         total = sum(sums, dim=2)
+         work(j) = total(1)
+         size_of_work = total(2)
+      end do
+   end subroutine add_up_body
+
+   !> The largest value of all bodies that touch, directly or by others without load, for each without load.
+   subroutine spread_to_touching(fem, rows, is_loaded, values)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      logical, intent(in) :: is_loaded(:)            !< (bodies)
+      real(wp), intent(inout) :: values(:)           !< (bodies)
+      real(wp) :: largest
+      integer(ip) :: round, j, k
+      logical :: changed
+
+      do round = 1, size(values, kind=ip)
+         changed = .false.
+         do j = 1, rows%n
+            associate (bodies => fem%bodies%of_node(rows%node(:rows%entries(j), j)))
+               largest = maxval(values(bodies))
+               do k = 1, size(bodies, kind=ip)
+                  if (is_loaded(bodies(k)) .or. values(bodies(k)) >= largest) cycle
+                  changed = .true.
+                  values(bodies(k)) = largest
+               end do
+            end associate
+         end do
+         if (.not. changed) return
+      end do
+   end subroutine spread_to_touching
 
    !> The work of the forces on one run of a body's nodes in a rigid motion, and their size.
    pure subroutine add_work(fem, body, j, run, f, contact, sums)
@@ -159,14 +221,17 @@ contains
 
    !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
    !> and, where a converged solution breaks it, the verdict.
-   subroutine check_law(rows, line, tolerance, results)
+   subroutine check_law(rows, line, tolerance, results, of_node, growth)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tolerance          !< that the outer loop stopped at
       type(results_t), intent(inout) :: results
+      integer(ip), intent(in), optional :: of_node(:) !< (n_nodes) body of each; without it there is one
+      real(wp), intent(in), optional :: growth(:) !< (bodies) of round-off in the displacements; without it that of small bodies
+      real(wp), allocatable :: uncertain(:)
       real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n)
-      real(wp) :: pressure_scale, place_scale
-      integer(ip) :: j
+      type(contact_scales_t) :: scales
+      integer(ip) :: j, last
       character(len=:), allocatable :: wrong
 
       if (line%n == 0) return
@@ -177,13 +242,17 @@ contains
          return
       end if
       tau = line%law%nu*apply_average(line%average, p)
-      pressure_scale = maxval(p)
-      place_scale = max(maxval(abs(results%u)), maxval(abs(rows%gap)), maxval(abs(gap)))
+      uncertain = uncertain_displacements(results%u, of_node, growth)
+      last = 0
       do j = 1, line%n
+         if (j > last) then
+            last = last_of_pair(line, j)
+            call measure_pair(rows, line, results, uncertain, j, last, p, tau, scales)
+         end if
          wrong = ''
-         call judge_place(rows, results, j, gap(j), slip(j), place_scale, line%tangential(j) > 0, wrong)
-         call judge_normal(p(j), gap(j), line%delta(j), pressure_scale, place_scale, wrong)
-         call judge_friction(line, j, t(j), tau(j), slip(j), maxval(tau), place_scale, tolerance, wrong)
+         call judge_place(rows, results, j, gap(j), slip(j), scales, line%tangential(j) > 0, wrong)
+         call judge_normal(p(j), gap(j), line%delta(j), scales%gap, wrong)
+         call judge_friction(line, j, t(j), tau(j), slip(j), scales%friction, scales%slip, tolerance, wrong)
          if (len(wrong) == 0) cycle
          results%law_holds = .false.
          if (.not. results%converged) return
@@ -192,6 +261,51 @@ contains
          return
       end do
    end subroutine check_law
+
+   !> What round-off may do to the displacements of the body of each node [L].
+   pure function uncertain_displacements(u, of_node, growth) result(uncertain)
+      real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
+      integer(ip), intent(in), optional :: of_node(:)
+      real(wp), intent(in), optional :: growth(:)
+      real(wp) :: uncertain(size(u, 2))
+      real(wp), allocatable :: largest(:)
+      real(wp) :: of_all
+      integer(ip) :: i
+
+      uncertain = usual_growth(0_ip, 0.0_wp)*EPS_MACH*maxval(abs(u))
+      if (.not. present(of_node)) return
+      allocate (largest(0:maxval(of_node)), source=0.0_wp)
+      do i = 1, size(u, 2, kind=ip)
+         largest(of_node(i)) = max(largest(of_node(i)), maxval(abs(u(:, i))))
+      end do
+      of_all = maxval(largest)
+      if (present(growth)) then
+         largest(1:) = largest(1:)*growth*EPS_MACH + printed_as_none(largest(1:), of_all)
+      else
+         largest = usual_growth(0_ip, 0.0_wp)*EPS_MACH*largest + printed_as_none(largest, of_all)
+      end if
+      uncertain = largest(of_node)
+   end function uncertain_displacements
+
+   !> The scales of one pair: its own pressure and friction, and what is certain of its gaps and slips.
+   pure subroutine measure_pair(rows, line, results, uncertain, first, last, p, tau, scales)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(results_t), intent(in) :: results
+      real(wp), intent(in) :: uncertain(:)       !< (n_nodes) [L]
+      integer(ip), intent(in) :: first, last     !< points of the pair
+      real(wp), intent(in) :: p(:), tau(:)
+      type(contact_scales_t), intent(out) :: scales
+      real(wp) :: far
+      integer(ip) :: j
+
+      scales%friction = maxval(tau(first:last))
+      far = 0.0_wp
+      do j = first, last
+         far = max(far, abs(point_x(results, j, 1_ip)), abs(point_x(results, j, 2_ip)))
+      end do
+      call measure_places(rows, results%u, uncertain, first, last, maxval(line%delta(first:last)*p(first:last)), far, scales)
+   end subroutine measure_pair
 
    pure subroutine gather_fields(results, p, gap, slip, t)
       type(results_t), intent(in) :: results
@@ -227,39 +341,41 @@ contains
    end function point_x
 
    !> Gap and slip must be those of the displacement field.
-   pure subroutine judge_place(rows, results, j, gap, slip, scale, has_tangential, wrong)
+   pure subroutine judge_place(rows, results, j, gap, slip, scales, has_tangential, wrong)
       type(contact_rows_t), intent(in) :: rows
       type(results_t), intent(in) :: results
       integer(ip), intent(in) :: j
-      real(wp), intent(in) :: gap, slip, scale
+      real(wp), intent(in) :: gap, slip
+      type(contact_scales_t), intent(in) :: scales
       logical, intent(in) :: has_tangential
       character(len=:), allocatable, intent(inout) :: wrong
+      real(wp) :: off
 
-      if (abs(rows%gap(j) - row_value(rows, j, rows%normal(:, j), results%u) - gap) > PLACE_TOLERANCE*scale) then
-         wrong = 'the gap is not that of the displacements'
-      end if
+      off = abs(rows%gap(j) - row_value(rows, j, rows%normal(:, j), results%u) - gap)
+      if (off > scales%gap) wrong = 'the gap is not that of the displacements, off by '//to_text(off, 3)//', ' &
+                                    //to_text(scales%gap, 3)//' allowed'
       if (.not. has_tangential) return
-      if (abs(row_value(rows, j, rows%tangent(:, j), results%u) - slip) > PLACE_TOLERANCE*scale) then
-         wrong = 'the slip is not that of the displacements'
-      end if
+      off = abs(row_value(rows, j, rows%tangent(:, j), results%u) - slip)
+      if (off > scales%slip) wrong = 'the slip is not that of the displacements, off by '//to_text(off, 3)//', ' &
+                                     //to_text(scales%slip, 3)//' allowed'
    end subroutine judge_place
 
-   pure subroutine judge_normal(p, gap, delta, pressure_scale, place_scale, wrong)
-      real(wp), intent(in) :: p, gap, delta, pressure_scale, place_scale
+   pure subroutine judge_normal(p, gap, delta, place, wrong)
+      real(wp), intent(in) :: p, gap, delta
+      real(wp), intent(in) :: place              !< what is none [L]
       character(len=:), allocatable, intent(inout) :: wrong
 
       if (len(wrong) > 0) return
       if (p < 0.0_wp) wrong = 'tension '//to_text(p)
-      if (p > 0.0_wp .and. abs(gap + delta*p) > SIGN_TOLERANCE*max(place_scale, delta*pressure_scale)) then
-         wrong = 'pressure '//to_text(p)//' at gap '//to_text(gap)
-      end if
-      if (p == 0.0_wp .and. gap < -SIGN_TOLERANCE*place_scale) wrong = 'penetration '//to_text(-gap)//' without pressure'
+      if (p > 0.0_wp .and. abs(gap + delta*p) > place) wrong = 'pressure '//to_text(p)//' at gap '//to_text(gap)
+      if (p == 0.0_wp .and. gap < -place) wrong = 'penetration '//to_text(-gap)//' without pressure'
    end subroutine judge_normal
 
-   pure subroutine judge_friction(line, j, t, tau, slip, tau_scale, place_scale, tolerance, wrong)
+   pure subroutine judge_friction(line, j, t, tau, slip, tau_scale, place, tolerance, wrong)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: j
-      real(wp), intent(in) :: t, tau, slip, tau_scale, place_scale, tolerance
+      real(wp), intent(in) :: t, tau, slip, tau_scale, tolerance
+      real(wp), intent(in) :: place              !< a slip that is none [L]
       character(len=:), allocatable, intent(inout) :: wrong
       real(wp) :: allowed, limit
 
@@ -271,11 +387,11 @@ contains
       allowed = 10*tolerance*tau_scale
       limit = sticking_slip(line%law(j), tau)
       if (abs(t) > tau + allowed) wrong = 'shear '//to_text(abs(t))//' beyond the friction bound '//to_text(tau)
-      if (abs(slip) > limit*(1 + 10*tolerance) + SIGN_TOLERANCE*place_scale) then
+      if (abs(slip) > limit*(1 + 10*tolerance) + place) then
          if (abs(t - sign(tau, slip)) > allowed) wrong = 'slip without full friction against it'
-      else if (limit > SIGN_TOLERANCE*place_scale) then
+      else if (limit > place) then
          ! the law is steep here: compare the stress within what the slip leaves open
-         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(SIGN_TOLERANCE*place_scale/limit)) then
+         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(place/limit)) then
             wrong = 'shear off the friction law'
          end if
       end if

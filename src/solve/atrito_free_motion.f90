@@ -1,137 +1,218 @@
-!> Why a scene has no solution, in words and numbers: which body moves how, what drives it, and what friction could hold.
+!> Why a scene has no equilibrium, in words and numbers: which bodies move how, over which joint, what drives them, and what
+!> friction could hold.
 module atrito_free_motion
    use atrito_assembly, only: fem_t
-   use atrito_bodies, only: body_t
-   use atrito_box_problem, only: box_problem_t, FREE
-   use atrito_condensed_body, only: motion_text
-   use atrito_contact_line, only: contact_line_t, pressure_of, friction_bound
-   use atrito_contact_problem, only: motion_body
-   use atrito_contact_rows, only: contact_rows_t, row_value
-   use atrito_contact_solution, only: contact_solution_t
+   use atrito_condensed_body, only: motion_text, how_it_moves
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
-   use atrito_recovery, only: add_rigid_motions
+   use atrito_mechanism, only: mechanism_t
+   use atrito_results, only: pair_scene_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: free_motion_text, motion_forces_t, measure_motion
+   public :: free_motion_text
 
-   !> Forces on a motion whose fastest part is of size one: [F] along a translation, [F L] about a point.
-   type :: motion_forces_t
-      logical :: turns = .false.
-      logical :: slides = .false.              !< no point that was closed opens
-      logical :: together = .false.            !< a translation with what it touches: no point opens or slides
-      real(wp) :: load = 0.0_wp                !< H
-      real(wp) :: normal = 0.0_wp              !< N of the points that slide
-      real(wp) :: friction = 0.0_wp            !< nu N, what friction can hold at most
-      integer(ip) :: n_closed = 0
-   end type motion_forces_t
-
-   real(wp), parameter :: SMALL = 1.0e-6_wp    !< part of a motion that is none
+   real(wp), parameter :: SMALL = 1.0e-6_wp    !< part of a size that is none
    integer, parameter :: DIGITS = 5
+   integer(ip), parameter :: MOST_NAMES = 3_ip !< bodies or pairs that are named
 
 contains
 
    !> The whole sentence.
-   function free_motion_text(fem, held, rows, line, problem, solution) result(text)
+   function free_motion_text(fem, held, rows, line, pairs, mechanism) result(text)
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)        !< (2, n_nodes)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
+      type(pair_scene_t), intent(in) :: pairs(:)
+      type(mechanism_t), intent(in) :: mechanism
       character(len=:), allocatable :: text
-      type(motion_forces_t) :: forces
-      real(wp) :: mode(3)
-      integer(ip) :: b
 
-      call motion_body(fem, solution%inner%motion, b, mode)
-      forces = measure_motion(fem%bodies%list(b), mode, line, problem, solution)
-      if (forces%n_closed > 0 .and. .not. forces%turns) then
-         forces%together = moves_together(fem, rows, line, problem, solution)
-      end if
-      text = motion_text(fem, b, mode)
-      if (forces%turns) text = text//pivot_text(fem, b, mode, rows)
-      text = text//' under its load: '//cause_text(forces, line)//'; '//support_text(fem, b, held)
+      associate (bodies => mechanism%bodies)
+         if (size(bodies) == 1) then
+            text = motion_text(fem, bodies(1), mechanism%mode(:, 1))//pivot_text(fem, mechanism, rows) &
+                   //' under its load: '//cause_text(line, pairs, mechanism, 'it')
+         else if (mechanism%together) then
+            text = body_names(fem, bodies)//' are free to '//how_it_moves(fem, bodies(1), mechanism%mode(:, 1)) &
+                   //pivot_text(fem, mechanism, rows)//' together under their loads: '//cause_text(line, pairs, mechanism, 'they')
+         else
+            text = body_names(fem, bodies)//' are free to move under their loads: '//each_motion(fem, mechanism)//'; ' &
+                   //work_text(mechanism)//joint_text(pairs, mechanism)
+         end if
+         text = text//'; '//support_text(fem, bodies, held)
+      end associate
    end function free_motion_text
 
-   !> What drives a motion and what could hold it, from the forces of the last inner problem.
-   function measure_motion(body, mode, line, problem, solution) result(forces)
-      type(body_t), intent(in) :: body
-      real(wp), intent(in) :: mode(3)          !< of the body that moves most
-      type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
-      type(motion_forces_t) :: forces
-      real(wp) :: moved(problem%m), p(line%n), tau(line%n), scale, opening
-      integer(ip) :: i, j, t
-
-      associate (a => solution%inner%motion)
-         forces%turns = abs(mode(3)) > SMALL*maxval(abs(mode))
-         scale = norm2(mode(:2))
-         if (forces%turns) scale = abs(mode(3))/body%size
-         moved = matmul(problem%g, a)/scale
-         forces%load = dot_product(problem%h, a)/scale
-      end associate
-      p = pressure_of(line, solution%state%q)        ! tensions too: N is what equilibrium asks for
-      tau = friction_bound(line, p)
-      opening = 0.0_wp
-      do i = 1, problem%n_normal
-         j = line%point(i)
-         if (solution%state%state(i) /= FREE) cycle
-         forces%n_closed = forces%n_closed + 1
-         opening = max(opening, abs(moved(i)))
-         t = line%tangential(j)
-         if (t == 0) cycle
-         forces%normal = forces%normal + p(j)*line%weight(j)*abs(moved(t))
-         forces%friction = forces%friction + tau(j)*line%weight(j)*abs(moved(t))
-      end do
-      forces%slides = forces%n_closed > 0 .and. opening <= SMALL*maxval(abs([moved, 0.0_wp]))
-   end function measure_motion
-
-   !> Whether no closed point opens or slides: the motion takes along what the body touches.
-   function moves_together(fem, rows, line, problem, solution) result(together)
+   !> `bodies A, B, C and 5 more`
+   function body_names(fem, bodies) result(text)
       type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
-      logical :: together
-      real(wp), allocatable :: u(:, :)
-      real(wp) :: relative
-      integer(ip) :: i, j
+      integer(ip), intent(in) :: bodies(:)
+      character(len=:), allocatable :: text
+      integer(ip) :: i, n
 
-      allocate (u(2, fem%mesh%n_nodes), source=0.0_wp)
-      call add_rigid_motions(fem, solution%inner%motion, u)
-      together = .true.
-      do i = 1, problem%n_normal
-         if (solution%state%state(i) /= FREE) cycle
-         j = line%point(i)
-         relative = max(abs(row_value(rows, j, rows%normal(:, j), u)), abs(row_value(rows, j, rows%tangent(:, j), u)))
-         together = together .and. relative <= SMALL*maxval(abs(u))
+      n = size(bodies, kind=ip)
+      text = 'bodies '
+      do i = 1, min(n, MOST_NAMES)
+         text = text//fem%bodies%list(bodies(i))%name//separator(i, n)
       end do
-   end function moves_together
+      if (n > MOST_NAMES) text = text//to_text(n - MOST_NAMES)//' more'
+   end function body_names
 
-   function cause_text(forces, line) result(text)
-      type(motion_forces_t), intent(in) :: forces
-      type(contact_line_t), intent(in) :: line
+   !> What stands behind the i-th name of n: `, `, ` and `, or nothing.
+   pure function separator(i, n) result(text)
+      integer(ip), intent(in) :: i, n
       character(len=:), allocatable :: text
 
-      if (line%n == 0) then
-         text = 'the load drives it with '//amount(forces%load, forces%turns)
-      else if (forces%together) then
-         text = 'the load drives it, together with the body that it touches, with '//amount(forces%load, .false.)
-      else if (forces%turns) then
-         text = 'the load turns it with '//amount(forces%load, .true.)//' about that point, and no pressure there holds it'
-      else if (forces%slides .and. line%has_friction) then
-         text = 'it slides, the load drives it with H = '//amount(forces%load, .false.)//' and friction holds nu times N = ' &
-                //amount(forces%friction, .false.)//' at most (N = '//amount(forces%normal, .false.) &
-                //trim(merge(')                              ', ', its pressure averaged by rho)', line%average%is_identity))
-      else if (forces%slides) then
-         text = 'it slides, the load drives it with H = '//amount(forces%load, .false.)//' and there is no friction'
+      text = ''
+      if (i < min(n, MOST_NAMES)) text = ', '
+      if (i == n - 1 .and. n <= MOST_NAMES .or. i == MOST_NAMES .and. n > MOST_NAMES) text = ' and '
+   end function separator
+
+   !> `A can rotate about (1, 0), B can move along x1`, of the first ones.
+   function each_motion(fem, mechanism) result(text)
+      type(fem_t), intent(in) :: fem
+      type(mechanism_t), intent(in) :: mechanism
+      character(len=:), allocatable :: text
+      integer(ip) :: i
+
+      text = ''
+      do i = 1, min(size(mechanism%bodies, kind=ip), MOST_NAMES)
+         if (i > 1) text = text//', '
+         text = text//fem%bodies%list(mechanism%bodies(i))%name//' can ' &
+                //how_it_moves(fem, mechanism%bodies(i), mechanism%mode(:, i))
+      end do
+   end function each_motion
+
+   !> What drives bodies that move as one, and what could hold them.
+   function cause_text(line, pairs, mechanism, subject) result(text)
+      type(contact_line_t), intent(in) :: line
+      type(pair_scene_t), intent(in) :: pairs(:)
+      type(mechanism_t), intent(in) :: mechanism
+      character(len=*), intent(in) :: subject  !< it, they
+      character(len=:), allocatable :: text, driven
+
+      driven = 'the load drives it with '
+      if (subject == 'they') driven = 'the loads drive them with '
+      if (mechanism%turns) then
+         text = turning_text(pairs, mechanism, subject)
+      else if (any(mechanism%slides)) then
+         text = subject//trim(merge(' slides', ' slide ', subject == 'it'))//joint_text(pairs, mechanism)//', '//driven//'H = ' &
+                //amount(mechanism%load, .false.)//' and '//friction_text(line, mechanism)
+      else if (any(mechanism%opens)) then
+         text = 'the contact opens'//joint_text(pairs, mechanism)//', '//driven//amount(mechanism%load, .false.)
       else
-         text = 'the contact opens, the load drives it with '//amount(forces%load, .false.)
+         text = driven//amount(mechanism%load, .false.)
+         if (mechanism%touches) text = text//', and no contact is in the way'
       end if
    end function cause_text
+
+   function turning_text(pairs, mechanism, subject) result(text)
+      type(pair_scene_t), intent(in) :: pairs(:)
+      type(mechanism_t), intent(in) :: mechanism
+      character(len=*), intent(in) :: subject
+      character(len=:), allocatable :: text
+
+      text = 'the load turns it with '
+      if (subject == 'they') text = 'the loads turn them with '
+      text = text//amount(mechanism%load, .true.)//' about that point, and '
+      if (any(mechanism%slides) .and. mechanism%friction > SMALL*mechanism%load) then
+         text = text//'friction holds '//amount(mechanism%friction, .true.)//' at most, '//shortfall(mechanism, .true.)
+      else
+         text = text//'no pressure there holds '//trim(merge('it  ', 'them', subject == 'it'))
+      end if
+      text = text//joint_text(pairs, mechanism)
+   end function turning_text
+
+   !> What friction can hold on a sliding motion.
+   function friction_text(line, mechanism) result(text)
+      type(contact_line_t), intent(in) :: line
+      type(mechanism_t), intent(in) :: mechanism
+      character(len=:), allocatable :: text
+
+      if (.not. rubs(line, mechanism)) then
+         text = 'there is no friction'
+         return
+      end if
+      text = 'friction holds '
+      if (line%average%is_identity .and. count(mechanism%slides) == 1) text = text//'nu times N = '
+      text = text//amount(mechanism%friction, .false.)//' at most'
+      if (count(mechanism%slides) == 1) then
+         text = text//' (N = '//amount(mechanism%normal, .false.)
+         if (.not. line%average%is_identity) text = text//', its pressure averaged by rho'
+         text = text//')'
+      end if
+      text = text//', '//shortfall(mechanism, .false.)
+   end function friction_text
+
+   pure logical function rubs(line, mechanism)
+      type(contact_line_t), intent(in) :: line
+      type(mechanism_t), intent(in) :: mechanism
+      integer(ip) :: j
+
+      rubs = .false.
+      do j = 1, line%n
+         rubs = rubs .or. (line%tangential(j) > 0 .and. line%law(j)%nu > 0.0_wp .and. mechanism%slides(line%pair(j)))
+      end do
+   end function rubs
+
+   function shortfall(mechanism, turns) result(text)
+      type(mechanism_t), intent(in) :: mechanism
+      logical, intent(in) :: turns
+      character(len=:), allocatable :: text
+
+      text = amount(mechanism%load - mechanism%friction, turns)//' too little'
+   end function shortfall
+
+   !> What drives bodies that move in different ways.
+   function work_text(mechanism) result(text)
+      type(mechanism_t), intent(in) :: mechanism
+      character(len=:), allocatable :: text
+
+      if (any(mechanism%slides) .and. mechanism%friction > SMALL*mechanism%load) then
+         text = 'friction takes '//to_text(100.0_wp*mechanism%friction/mechanism%load, DIGITS) &
+                //' % of the work of the loads at most'
+      else
+         text = 'no pressure takes up the work of the loads'
+      end if
+   end function work_text
+
+   !> The pairs that slide or open: ` (B3-BOTTOM on B2-TOP)`.
+   function joint_text(pairs, mechanism) result(text)
+      type(pair_scene_t), intent(in) :: pairs(:)
+      type(mechanism_t), intent(in) :: mechanism
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (any(mechanism%slides)) then
+         text = pair_names(pairs, mechanism%slides)
+         if (mechanism%turns) text = 'sliding: '//text
+      end if
+      if (any(mechanism%opens .and. .not. mechanism%slides)) then
+         if (len(text) > 0) text = text//'; '
+         if (mechanism%turns .or. any(mechanism%slides)) text = text//'opening: '
+         text = text//pair_names(pairs, mechanism%opens .and. .not. mechanism%slides)
+      end if
+      if (len(text) > 0) text = ' ('//text//')'
+   end function joint_text
+
+   function pair_names(pairs, chosen) result(text)
+      type(pair_scene_t), intent(in) :: pairs(:)
+      logical, intent(in) :: chosen(:)
+      character(len=:), allocatable :: text
+      integer(ip) :: i, k, n
+
+      n = count(chosen, kind=ip)
+      k = 0
+      text = ''
+      do i = 1, size(chosen, kind=ip)
+         if (.not. chosen(i)) cycle
+         k = k + 1
+         if (k > MOST_NAMES) exit
+         text = text//pairs(i)%slave//' on '//pairs(i)%master//separator(k, n)
+      end do
+      if (n > MOST_NAMES) text = text//to_text(n - MOST_NAMES)//' more'
+   end function pair_names
 
    pure function amount(force, turns) result(text)
       real(wp), intent(in) :: force
@@ -141,18 +222,18 @@ contains
       text = to_text(force, DIGITS)//' [F'//trim(merge(' L]', ']  ', turns))
    end function amount
 
-   !> The contact node about which a body turns, where there is one.
-   pure function pivot_text(fem, b, mode, rows) result(text)
+   !> The contact node about which bodies turn as one, where there is one.
+   pure function pivot_text(fem, mechanism, rows) result(text)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      real(wp), intent(in) :: mode(3)
+      type(mechanism_t), intent(in) :: mechanism
       type(contact_rows_t), intent(in) :: rows
       character(len=:), allocatable :: text
       real(wp) :: centre(2)
       integer(ip) :: j
 
       text = ''
-      associate (body => fem%bodies%list(b))
+      if (.not. mechanism%turns) return
+      associate (body => fem%bodies%list(mechanism%bodies(1)), mode => mechanism%mode(:, 1))
          centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
          do j = 1, rows%n
             if (norm2(fem%mesh%x(:, rows%node(1, j)) - centre) > SMALL*body%size) cycle
@@ -162,32 +243,35 @@ contains
       end associate
    end function pivot_text
 
-   !> Supports that the body has, though they leave it this motion.
-   pure function support_text(fem, b, held) result(text)
+   !> Supports that the bodies have, though they leave them this motion.
+   pure function support_text(fem, bodies, held) result(text)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
+      integer(ip), intent(in) :: bodies(:)
       logical, intent(in) :: held(:, :)        !< (2, n_nodes)
       character(len=:), allocatable :: text
-      integer(ip) :: i, dof, n, first, first_dof
+      integer(ip) :: b, i, dof, n, first, first_dof
 
       n = 0
       first = 0
       first_dof = 0
-      associate (nodes => fem%bodies%list(b)%nodes)
-         do i = 1, size(nodes, kind=ip)
-            do dof = 1, 2
-               if (.not. held(dof, nodes(i))) cycle
-               n = n + 1
-               if (first > 0) cycle
-               first = fem%mesh%node_id(nodes(i))
-               first_dof = dof
+      do b = 1, size(bodies, kind=ip)
+         associate (nodes => fem%bodies%list(bodies(b))%nodes)
+            do i = 1, size(nodes, kind=ip)
+               do dof = 1, 2
+                  if (.not. held(dof, nodes(i))) cycle
+                  n = n + 1
+                  if (first > 0) cycle
+                  first = fem%mesh%node_id(nodes(i))
+                  first_dof = dof
+               end do
             end do
-         end do
-      end associate
+         end associate
+      end do
       if (n == 0) then
-         text = 'it has no support'
+         text = trim(merge('it has no support   ', 'they have no support', size(bodies) == 1))
       else
-         text = 'its supports (node '//to_text(first)//' along x'//to_text(first_dof)
+         text = trim(merge('its supports (node  ', 'their supports (node', size(bodies) == 1))//' '//to_text(first)//' along x' &
+                //to_text(first_dof)
          if (n > 1) text = text//' and '//to_text(n - 1)//' more'
          text = text//') do not prevent that'
       end if

@@ -4,7 +4,7 @@
 !> the law of Oden and Pires), q = +-w tau(q) for slipping ones, G' q = h. The bound tau = nu W p is differentiated, so the matrix
 !> is not symmetric. States change after each step as in the full steps of the active set.
 module atrito_newton
-   use atrito_box_problem, only: box_problem_t, set_residual, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_box_problem, only: box_problem_t, set_residual, row_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound
    use atrito_contact_solution, only: contact_solution_t, outer_controls_t, judge_condition, has_settled
    use atrito_dense, only: solve_lu
@@ -250,10 +250,9 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       integer(ip), intent(out) :: changes
       real(wp), parameter :: OPENS = 1.0e-13_wp, SLIPS = 1.0e-12_wp
-      real(wp) :: slack, largest_pressure, direction
+      real(wp) :: largest_pressure, direction
       integer(ip) :: i, old
 
-      slack = solution%state%slack
       largest_pressure = maxval([abs(pressure_of(line, solution%state%q)), 0.0_wp])
       changes = 0
       associate (state => solution%state%state, q => solution%state%q, r => solution%state%r)
@@ -263,14 +262,16 @@ contains
                if (old == FREE .and. q(i)/problem%weight(i) < -OPENS*largest_pressure) then
                   state(i) = AT_LOWER
                   q(i) = 0.0_wp
-               else if (old == AT_LOWER .and. r(i) > slack) then
+               else if (old == AT_LOWER .and. r(i) > row_round_off(problem, solution%state, i)) then
                   state(i) = FREE
                end if
             else if (old == FREE) then
                if (abs(q(i))/(1 + SLIPS) > solution%bounds%upper(i)) state(i) = merge(AT_UPPER, AT_LOWER, q(i) > 0.0_wp)
             else if (old /= FROZEN) then
                direction = merge(1.0_wp, -1.0_wp, old == AT_UPPER)
-               if (direction*r(i) < -slack - SLIPS*abs(solution%bounds%d(i)*q(i))) state(i) = FREE
+               if (-direction*r(i) > row_round_off(problem, solution%state, i) + SLIPS*abs(solution%bounds%d(i)*q(i))) then
+                  state(i) = FREE
+               end if
             end if
             if (state(i) /= old) changes = changes + 1
          end do

@@ -1,8 +1,9 @@
 !> The Picard loop on the weighted normal stress: tau <- nu S_rho(p(tau)), the fixed point of the existence proof.
 module atrito_outer_loop
    use atrito_accelerator, only: accelerator_t, picard_t, anderson_t
-   use atrito_box_problem, only: box_problem_t, FREE
-   use atrito_coarse_line, only: interpolation_t, coarsen_line, start_from_coarse
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
+   use atrito_coarse_line, only: interpolation_t, has_coarse_line, coarsen_line, start_from_coarse
+   use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
    use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, &
                                       may_be_round_off, relative_residual
@@ -10,12 +11,12 @@ module atrito_outer_loop
    use atrito_model, only: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_solve_history, only: begin_outer, end_outer
+   use atrito_solve_history, only: solve_history_t, begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: solve_contact_line, FREE_MOTION
+   public :: solve_contact_line, continue_contact_line, FREE_MOTION
 
    !> Text of the status when no friction bound of the loop holds a body; solution%inner%motion is the motion.
    character(len=*), parameter :: FREE_MOTION = 'free motion'
@@ -27,6 +28,22 @@ module atrito_outer_loop
    integer(ip), parameter :: LONGEST_CYCLE = 6
    integer(ip), parameter :: STALE = 10                   !< iterations in which the residual is not halved
    real(wp), parameter :: STALE_RESIDUAL = 1.0e-8_wp      !< that is accepted then
+   integer(ip), parameter :: LEAST_SOLVES = 200           !< before it is given up
+
+   !> What is tried where the loop does not converge, in this order.
+   integer, parameter :: PLAIN_PICARD = 1, NEWTON_FROM_LAST = 2, SMALL_STEPS = 3, MORE_FRICTION = 4
+   character(len=25), parameter :: ATTEMPTS(4) = [character(len=25) :: 'PICARD', 'NEWTON', 'ANDERSON with small steps', &
+                                                                                                               'from more friction']
+   real(wp), parameter :: LARGEST_FACTOR = 64.0_wp        !< of the friction that is eased
+   real(wp), parameter :: FIRST_EASING = 0.25_wp          !< steps of its exponent
+   real(wp), parameter :: LEAST_EASING = 1.0e-3_wp
+
+   !> Where an attempt begins.
+   type :: start_t
+      real(wp), allocatable :: tau(:)
+      type(box_bounds_t) :: bounds
+      type(box_state_t) :: state
+   end type start_t
 
    !> What the loop remembers of its bounds.
    type :: loop_t
@@ -41,21 +58,56 @@ module atrito_outer_loop
 contains
 
    !> Solves the contact line. Not converged: solution%converged is false and solution%verdict says why.
-   !> status: STATUS_SINGULAR with FREE_MOTION, or with dependent contact points.
-   subroutine solve_contact_line(problem, line, controls, reporter, solution, status)
+   !> status: STATUS_SINGULAR with FREE_MOTION, or with dependent contact points, which needs the rows.
+   subroutine solve_contact_line(problem, line, controls, reporter, solution, status, rows)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(outer_controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
+      type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns: they may depend on each other
 
-      if (line%n > MOST_PLAIN .and. (controls%method == METHOD_ANDERSON .or. .not. line%has_friction)) then
+      if (has_coarse_start(line) .and. .not. present(rows) .and. &
+          (controls%method == METHOD_ANDERSON .or. .not. line%has_friction)) then
          call solve_from_coarse(problem, line, controls, reporter, solution, status)
       end if
-      if (.not. solution%converged) call solve_from_plain_start(problem, line, controls, reporter, solution, status)
+      if (.not. solution%converged) call solve_from_plain_start(problem, line, controls, reporter, solution, status, rows)
       call judge_condition(solution)
    end subroutine solve_contact_line
+
+   !> Solves again, from the solution of a problem that differs by little. status: as of solve_contact_line.
+   subroutine continue_contact_line(problem, line, controls, reporter, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(anderson_t) :: anderson
+      real(wp) :: tau(line%n), image(line%n), contraction
+
+      tau = solution%tau
+      if (line%has_friction) then
+         contraction = solution%contraction
+         call iterate(problem, line, controls, reporter, anderson, tau, solution, status)
+         if (is_ok(status) .and. .not. (solution%converged .or. allocated(solution%rows))) then
+            call iterate_newton(problem, line, controls, solution)
+         end if
+         solution%contraction = max(contraction, solution%contraction)
+      else
+         call solve_with_bound(problem, line, tau, solution, image, status)
+         solution%converged = is_ok(status) .and. solution%inner%solved
+      end if
+      call judge_condition(solution)
+   end subroutine continue_contact_line
+
+   pure logical function has_coarse_start(line)
+      type(contact_line_t), intent(in) :: line
+
+      has_coarse_start = line%n > MOST_PLAIN
+      if (has_coarse_start) has_coarse_start = has_coarse_line(line)
+   end function has_coarse_start
 
    !> Begins where the line's coarse line ends. Whatever does not go well on the way leaves solution%converged false, and the caller
    !> begins anew.
@@ -100,7 +152,7 @@ contains
       type(contact_solution_t) :: nothing
       real(wp), allocatable :: tau(:)
 
-      if (line%n > MOST_PLAIN) then
+      if (has_coarse_start(line)) then
          call solve_from_coarse(problem, line, CONTROLS, NOBODY, solution, status)
          if (solution%converged) return
          solution = nothing
@@ -114,15 +166,17 @@ contains
       end if
    end subroutine solve_coarse
 
-   subroutine solve_from_plain_start(problem, line, controls, reporter, solution, status)
+   subroutine solve_from_plain_start(problem, line, controls, reporter, solution, status, rows)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(outer_controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
       type(status_t), intent(out) :: status
+      type(constraint_rows_t), intent(in), optional :: rows
       real(wp), allocatable :: tau(:)
 
+      if (present(rows)) solution%rows = rows
       call start(problem, line, solution, tau, status)
       if (.not. is_ok(status)) return
       if (.not. line%has_friction) then
@@ -133,7 +187,11 @@ contains
       case (METHOD_PICARD)
          call iterate_picard(problem, line, controls, reporter, tau, solution, status)
       case (METHOD_NEWTON)
-         call newton_from(problem, line, controls, tau, solution, status)
+         if (present(rows)) then                             ! whose matrix cannot be factored
+            call iterate_with_fallbacks(problem, line, controls, reporter, tau, solution, status)
+         else
+            call newton_from(problem, line, controls, tau, solution, status)
+         end if
       case default
          call iterate_with_fallbacks(problem, line, controls, reporter, tau, solution, status)
       end select
@@ -207,7 +265,7 @@ contains
       call begin_outer(solution%history)
       call solve_with_bound(problem, line, tau, solution, image, status)
       if (.not. is_ok(status)) return
-      call end_outer(solution%history, relative_residual(tau, image))
+      call end_outer(solution%history, relative_residual(line, tau, image))
       if (solution%inner%moves) then
          call set_status(status, STATUS_SINGULAR, FREE_MOTION)
          return
@@ -215,7 +273,8 @@ contains
       call iterate_newton(problem, line, controls, solution)
    end subroutine newton_from
 
-   !> Anderson; then Newton; then Anderson with small steps; then the honest end.
+   !> Anderson; where it does not converge or finds no equilibrium, the others in the order that random scenes taught
+   !> (docs/theory/formulation.md, section 5); then the honest end, which is that of Anderson.
    subroutine iterate_with_fallbacks(problem, line, controls, reporter, tau, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -225,23 +284,144 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
       type(anderson_t) :: anderson
-      type(outer_controls_t) :: patient
-      real(wp) :: first_tau(size(tau))
+      type(start_t) :: first
+      type(contact_solution_t) :: found
+      type(status_t) :: outcome, dependent
+      integer :: attempt
 
-      first_tau = tau
+      call keep_start(tau, solution, first)
       call iterate(problem, line, controls, reporter, anderson, tau, solution, status)
-      if (solution%converged .or. .not. is_ok(status)) return
-      call report_progress(reporter, 'ANDERSON did not converge; NEWTON')
-      call iterate_newton(problem, line, controls, solution)
       if (solution%converged) return
-      call report_progress(reporter, 'NEWTON did not converge; ANDERSON with small steps')
-      call anderson%reset()
-      anderson%mixing = LAST_RESORT_MIXING
-      patient = controls
-      patient%max_iterations = LAST_RESORT_FACTOR*controls%max_iterations
-      tau = first_tau
-      call iterate(problem, line, patient, reporter, anderson, tau, solution, status)
+      if (.not. (is_ok(status) .or. is_free_motion(status))) return
+      found = solution
+      do attempt = 1, size(ATTEMPTS)
+         if (is_too_much(problem, controls, found%history)) exit
+         call report_progress(reporter, 'not converged; '//trim(ATTEMPTS(attempt)))
+         call try_again(problem, line, controls, reporter, attempt, first, found, outcome)
+         if (.not. (is_ok(outcome) .or. is_free_motion(outcome))) dependent = outcome
+         if (.not. found%converged) cycle
+         solution = found
+         status = outcome
+         return
+      end do
+      solution%history = found%history
+      if (.not. is_ok(dependent)) status = dependent         ! the caller has the rows
    end subroutine iterate_with_fallbacks
+
+   pure logical function is_free_motion(status)
+      type(status_t), intent(in) :: status
+
+      is_free_motion = status%code == STATUS_SINGULAR
+      if (is_free_motion) is_free_motion = status%text == FREE_MOTION
+   end function is_free_motion
+
+   pure subroutine keep_start(tau, solution, first)
+      real(wp), intent(in) :: tau(:)
+      type(contact_solution_t), intent(in) :: solution
+      type(start_t), intent(out) :: first
+
+      first%tau = tau
+      first%bounds = solution%bounds
+      first%state = solution%state
+   end subroutine keep_start
+
+   !> One of the ATTEMPTS.
+   subroutine try_again(problem, line, controls, reporter, attempt, first, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      integer, intent(in) :: attempt                 !< place in ATTEMPTS
+      type(start_t), intent(in) :: first
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(anderson_t) :: anderson
+      type(picard_t) :: picard
+      type(outer_controls_t) :: patient
+      real(wp) :: tau(line%n)
+
+      patient = controls
+      tau = first%tau
+      if (attempt /= NEWTON_FROM_LAST) then
+         solution%bounds = first%bounds
+         solution%state = first%state
+      end if
+      select case (attempt)
+      case (PLAIN_PICARD)
+         call iterate(problem, line, controls, reporter, picard, tau, solution, status)
+      case (NEWTON_FROM_LAST)
+         ! Newton's matrix cannot be factored where rows depend on each other
+         if (.not. allocated(solution%rows) .and. .not. solution%inner%moves) call iterate_newton(problem, line, controls, solution)
+      case (SMALL_STEPS)
+         anderson%mixing = LAST_RESORT_MIXING
+         patient%max_iterations = LAST_RESORT_FACTOR*controls%max_iterations
+         call iterate(problem, line, patient, reporter, anderson, tau, solution, status)
+      case (MORE_FRICTION)
+         call ease_friction(problem, line, controls, reporter, first, solution, status)
+      end select
+   end subroutine try_again
+
+   !> From a solution with much more friction to that of the line: the coefficients take the factors LARGEST_FACTOR**s, s from 1 to
+   !> 0, each from the solution of the one before. A step that does not converge is halved.
+   subroutine ease_friction(problem, line, controls, reporter, first, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(start_t), intent(in) :: first
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(contact_line_t) :: eased
+      type(start_t) :: last
+      real(wp) :: s, step, tau(line%n)
+
+      eased = line
+      last = first
+      last%tau = LARGEST_FACTOR*first%tau
+      s = 1.0_wp + FIRST_EASING
+      step = FIRST_EASING
+      do while (s > 0.0_wp)
+         tau = last%tau
+         if (s <= 1.0_wp) tau = tau*LARGEST_FACTOR**(max(s - step, 0.0_wp) - s)
+         eased%law%nu = line%law%nu*LARGEST_FACTOR**max(s - step, 0.0_wp)
+         call solve_near(problem, eased, controls, reporter, s <= 1.0_wp, last, tau, solution, status)
+         if (solution%converged) then
+            call keep_start(solution%tau, solution, last)
+            s = s - step
+            step = min(2*step, FIRST_EASING)
+         else
+            if (s > 1.0_wp) return
+            step = 0.5_wp*step
+            if (step < LEAST_EASING .or. is_too_much(problem, controls, solution%history)) return
+         end if
+      end do
+   end subroutine ease_friction
+
+   !> From a solution that is near: Newton, then Anderson.
+   subroutine solve_near(problem, line, controls, reporter, is_solved, near, tau, solution, status)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      logical, intent(in) :: is_solved               !< near is a solution
+      type(start_t), intent(in) :: near
+      real(wp), intent(in) :: tau(:)                 !< first bound
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(anderson_t) :: anderson
+      real(wp) :: bound(line%n)
+
+      solution%bounds = near%bounds
+      solution%state = near%state
+      bound = tau
+      solution%tau = tau
+      solution%converged = .false.
+      if (.not. allocated(solution%rows) .and. is_solved) call iterate_newton(problem, line, controls, solution)
+      if (solution%converged) return
+      solution%bounds = near%bounds
+      solution%state = near%state
+      call iterate(problem, line, controls, reporter, anderson, bound, solution, status)
+   end subroutine solve_near
 
    !> The loop: solve with the bound, compare with its image, next bound.
    subroutine iterate(problem, line, controls, reporter, accelerator, tau, solution, status)
@@ -271,22 +451,33 @@ contains
             if (.not. is_ok(status)) return
             cycle
          end if
-         if (.not. solution%inner%solved) exit
-         solution%residual = relative_residual(tau, image)
+         if (.not. solution%inner%solved .or. is_too_much(problem, controls, solution%history)) exit
+         solution%residual = relative_residual(line, tau, image)
          call end_outer(solution%history, solution%residual)
          call tell(reporter, outer, solution)
-         call judge_step(line%weight/maxval(line%weight), controls%tolerance, outer, tau, image, loop, solution)
+         call judge_step(line, controls%tolerance, outer, tau, image, loop, solution)
          if (solution%converged) return
          loop%good = tau
          loop%good_image = image
          call accelerator%update(loop%good, image, tau)
-         call look_for_cycle(controls%method, tau, loop, solution, cycles)
+         call look_for_cycle(line, controls%method, tau, loop, solution, cycles)
          if (cycles) return
       end do
       solution%verdict = 'the outer loop did not converge in '//to_text(controls%max_iterations)//' iterations (residual ' &
                          //to_text(solution%residual, 3)//')'
+      if (is_too_much(problem, controls, solution%history)) solution%verdict = 'the loop was given up after ' &
+                                                                               //to_text(solution%history%n)//' linear solves'
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
+
+   !> Whether the attempts so far went through so many entries of C that the other form of the contact system is cheaper.
+   pure logical function is_too_much(problem, controls, history)
+      type(box_problem_t), intent(in) :: problem
+      type(outer_controls_t), intent(in) :: controls
+      type(solve_history_t), intent(in) :: history
+
+      is_too_much = history%n > LEAST_SOLVES .and. real(history%n, wp)*real(problem%m, wp)**2 > controls%most_entries
+   end function is_too_much
 
    !> The bound does not hold a body: half way back to the last one that did, or twice as much where none did so far.
    !> status: STATUS_SINGULAR with FREE_MOTION when that was done often enough.
@@ -310,8 +501,8 @@ contains
    end subroutine step_back
 
    !> Whether the loop has converged with this bound and its image; and how fast it goes.
-   subroutine judge_step(weight, tolerance, outer, tau, image, loop, solution)
-      real(wp), intent(in) :: weight(:)             !< (n) of the points, relative to the largest
+   subroutine judge_step(line, tolerance, outer, tau, image, loop, solution)
+      type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tolerance
       integer(ip), intent(in) :: outer
       real(wp), intent(in) :: tau(:), image(:)
@@ -319,7 +510,8 @@ contains
       type(contact_solution_t), intent(inout) :: solution
 
       if (allocated(loop%good) .and. maxval(tau) > 0.0_wp) then
-         call measure_rate(weight, (tau - loop%good)/maxval(tau), (image - loop%good_image)/maxval(tau), solution%contraction)
+         call measure_rate(line%weight/maxval(line%weight), (tau - loop%good)/maxval(tau), (image - loop%good_image)/maxval(tau), &
+                           solution%contraction)
       end if
       if (may_be_round_off(loop%last_residual, solution%residual)) call judge_condition(solution)
       solution%converged = has_settled(tolerance, solution%inner%condition, loop%last_residual, solution%residual)
@@ -329,11 +521,14 @@ contains
          loop%best_outer = outer
       end if
       ! round-off that the matrix does not tell: displacements far below the initial gaps
-      if (outer - loop%best_outer >= STALE .and. solution%residual <= STALE_RESIDUAL) solution%converged = .true.
+      if (outer - loop%best_outer < STALE .or. solution%converged) return
+      solution%converged = relative_residual(line, tau, image, beside_noise=.true.) <= STALE_RESIDUAL
+      if (solution%converged) solution%residual = min(solution%residual, STALE_RESIDUAL)
    end subroutine judge_step
 
    !> Whether the next bound was there before; the verdict says so.
-   subroutine look_for_cycle(method, tau, loop, solution, cycles)
+   subroutine look_for_cycle(line, method, tau, loop, solution, cycles)
+      type(contact_line_t), intent(in) :: line
       integer, intent(in) :: method
       real(wp), intent(in) :: tau(:)
       type(loop_t), intent(inout) :: loop
@@ -341,7 +536,7 @@ contains
       logical, intent(out) :: cycles
       integer(ip) :: length
 
-      call find_cycle(loop%visited, tau, solution%residual, length)
+      call find_cycle(line, loop%visited, tau, solution%residual, length)
       cycles = length > 1 .and. loop%steps_back == 0
       if (.not. cycles) return
       solution%verdict = 'the loop cycles between '//to_text(length)//' states'
@@ -372,7 +567,8 @@ contains
    end subroutine tell
 
    !> Compares the next bound with the last ones: the same again after two steps or more, while the residual stays, is a cycle.
-   pure subroutine find_cycle(visited, tau, residual, length)
+   pure subroutine find_cycle(line, visited, tau, residual, length)
+      type(contact_line_t), intent(in) :: line
       real(wp), intent(inout) :: visited(:, :)        !< newest first
       real(wp), intent(in) :: tau(:), residual
       integer(ip), intent(out) :: length              !< 0: none
@@ -382,7 +578,7 @@ contains
       length = 0
       do k = 2, LONGEST_CYCLE
          if (any(visited(:, k) < 0.0_wp)) exit
-         if (relative_residual(visited(:, k), tau) < SAME*residual) then
+         if (relative_residual(line, visited(:, k), tau) < SAME*residual) then
             length = k
             exit
          end if

@@ -5,7 +5,6 @@ module atrito_recovery
    use atrito_box_problem, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_problem, only: first_motion
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
@@ -41,7 +40,7 @@ contains
 
       force = 0.0_wp
       do j = 1, rows%n
-         at_point = line%weight(j)*(solution%p(j)*rows%normal(:, j) + solution%t(j)*rows%tangent(:, j))
+         at_point = line%weight(j)*(max(solution%p(j), 0.0_wp)*rows%normal(:, j) + solution%t(j)*rows%tangent(:, j))
          do k = 1, rows%entries(j)
             force(:, rows%node(k, j)) = force(:, rows%node(k, j)) + rows%coefficient(k, j)*at_point
          end do
@@ -77,10 +76,12 @@ contains
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: a(:)
       real(wp), intent(inout) :: u(:, :)             !< (2, n_nodes) [L]
-      integer(ip) :: b
+      integer(ip) :: b, first
 
+      first = 1
       do b = 1, fem%bodies%n
-         if (size(fem%bodies%list(b)%modes, 2) > 0) call move_body(fem, fem%bodies%list(b), a(first_motion(fem, b):), u)
+         if (size(fem%bodies%list(b)%modes, 2) > 0) call move_body(fem, fem%bodies%list(b), a(first:), u)
+         first = first + size(fem%bodies%list(b)%modes, 2, kind=ip)
       end do
    end subroutine add_rigid_motions
 

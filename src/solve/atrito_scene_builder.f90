@@ -1,17 +1,19 @@
 !> From the model to the bodies with their equations and the points of the contact line.
 module atrito_scene_builder
    use atrito_kinds, only: ip, wp
-   use atrito_assembly, only: fem_t
-   use atrito_bodies, only: find_bodies, number_equations, find_rigid_modes
+   use atrito_assembly, only: fem_t, grain_of
+   use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
+   use atrito_body_names, only: name_bodies
    use atrito_elasticity, only: elastic_t
-   use atrito_faces, only: face_list_t
-   use atrito_model, only: model_t, SURFACE_SEGMENTS
-   use atrito_points, only: contact_points_t, pair_surfaces
+   use atrito_incidence, only: list_holders
+   use atrito_model, only: model_t
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_pairing, only: pairing_t, prepare_pairing, pair_points
+   use atrito_points, only: contact_points_t
    use atrito_solver_choice, only: needs_profile
-   use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_scene, build_bodies, section_thickness, pair_points
+   public :: build_scene, build_bodies
 
 contains
 
@@ -22,9 +24,11 @@ contains
       logical, allocatable, intent(out) :: held(:, :)          !< (2, n_nodes)
       real(wp), allocatable, intent(out) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       type(contact_points_t), allocatable, intent(out) :: points(:) !< one a pair
+      type(pairing_t) :: pairing
       integer(ip) :: i
 
       fem%mesh => model%mesh
+      fem%grain = grain_of(model%mesh%x(:, :model%mesh%n_nodes))
       fem%section_of = model%section_of
       allocate (fem%sections(size(model%sections)))
       do i = 1, size(model%sections, kind=ip)
@@ -35,8 +39,9 @@ contains
       end do
       call list_prescribed(model, held, value)
       allocate (points(size(model%pairs)))
+      call prepare_pairing(model, pairing)
       do i = 1, size(model%pairs, kind=ip)
-         call pair_points(model, i, points(i))
+         call pair_points(model, pairing, i, points(i))
       end do
    end subroutine build_scene
 
@@ -47,13 +52,16 @@ contains
       type(contact_points_t), intent(in) :: points(:)
       integer, intent(in) :: asked                             !< storage asked for, or 0
       type(fem_t), intent(inout) :: fem
+      integer(ip), allocatable :: first(:), contact_nodes(:)
       integer(ip) :: i, n_free
 
       call find_bodies(fem%mesh, fem%bodies)
-      call name_bodies(model, fem)
+      call name_bodies(model, fem%bodies)
+      call list_contact_nodes(fem%bodies, points, first, contact_nodes)
       do i = 1, fem%bodies%n
          n_free = count(.not. held(:, fem%bodies%list(i)%nodes), kind=ip)
-         call number_equations(fem%mesh, fem%bodies, i, held, contact_nodes(fem, i, points), needs_profile(asked, n_free))
+         call number_equations(fem%mesh, fem%bodies, i, held, contact_nodes(first(i):first(i + 1) - 1), &
+                               needs_profile(asked, n_free))
          call find_rigid_modes(fem%mesh, fem%bodies%list(i), held)
       end do
    end subroutine build_bodies
@@ -72,63 +80,18 @@ contains
       end do
    end subroutine list_prescribed
 
-   !> The points of one pair.
-   pure subroutine pair_points(model, i, points)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i
-      type(contact_points_t), intent(out) :: points
-      type(face_list_t) :: no_faces
-      real(wp) :: no_points(2, 0)
-
-      associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
-         if (master%kind == SURFACE_SEGMENTS) then
-            call pair_surfaces(model%mesh, section_thickness(model), slave%faces, no_faces, master%points, points, &
-                               master%is_arc, master%centre)
-         else
-            call pair_surfaces(model%mesh, section_thickness(model), slave%faces, master%faces, no_points, points)
-         end if
-      end associate
-   end subroutine pair_points
-
-   !> Thickness [L] of each element.
-   pure function section_thickness(model) result(thickness)
-      type(model_t), intent(in) :: model
-      real(wp) :: thickness(model%mesh%n_elements)
-      integer(ip) :: e
-
-      do e = 1, model%mesh%n_elements
-         thickness(e) = model%sections(model%section_of(e))%thickness
-      end do
-   end function section_thickness
-
-   !> A body is called after the element set of its section; bodies that share one get a number as well.
-   pure subroutine name_bodies(model, fem)
-      type(model_t), intent(in) :: model
-      type(fem_t), intent(inout) :: fem
-      integer(ip) :: first(fem%bodies%n), i
-
-      do i = 1, fem%bodies%n
-         first(i) = model%section_of(fem%bodies%list(i)%elements(1))
-      end do
-      do i = 1, fem%bodies%n
-         fem%bodies%list(i)%name = model%sections(first(i))%elset
-         if (count(first == first(i)) > 1) fem%bodies%list(i)%name = fem%bodies%list(i)%name//'-'//to_text(i)
-      end do
-   end subroutine name_bodies
-
-   !> The nodes of a body that take part in contact, each once, in the order of the points.
-   function contact_nodes(fem, i_body, points) result(nodes)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
+   !> The nodes of each body that take part in contact, each once, in the order of the points.
+   subroutine list_contact_nodes(bodies, points, first, nodes)
+      type(bodies_t), intent(in) :: bodies
       type(contact_points_t), intent(in) :: points(:)
-      integer(ip), allocatable :: nodes(:)
-      integer(ip) :: i, j, k, n
+      integer(ip), allocatable, intent(out) :: first(:)    !< (bodies + 1)
+      integer(ip), allocatable, intent(out) :: nodes(:)    !< those of body i are nodes(first(i):first(i + 1) - 1)
+      type(number_list_t) :: found
       logical, allocatable :: taken(:)
+      integer(ip), allocatable :: of_body(:, :), place(:)
+      integer(ip) :: i, j, k
 
-      allocate (taken(fem%mesh%n_nodes))
-      taken = fem%bodies%of_node /= i_body
-      allocate (nodes(count(.not. taken)))
-      n = 0
+      taken = bodies%of_node == 0
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
             call take(points(i)%node(j))
@@ -137,7 +100,10 @@ contains
             end do
          end do
       end do
-      nodes = nodes(:n)
+      nodes = numbers_of(found)
+      of_body = reshape(bodies%of_node(nodes), [1, size(nodes)])
+      call list_holders(bodies%n, of_body, first, place)
+      nodes = nodes(place)
 
    contains
 
@@ -146,10 +112,9 @@ contains
 
          if (taken(node)) return
          taken(node) = .true.
-         n = n + 1
-         nodes(n) = node
+         call add_number(found, node)
       end subroutine take
 
-   end function contact_nodes
+   end subroutine list_contact_nodes
 
 end module atrito_scene_builder

@@ -7,7 +7,7 @@ module atrito_scene_memory
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: check_memory, check_average_memory
+   public :: check_memory, check_average_memory, most_average_entries
 
    !> An entry of the average: its value and its column.
    integer(lp), parameter :: ENTRY_BYTES = 12_lp
@@ -15,29 +15,37 @@ module atrito_scene_memory
 contains
 
    !> status: STATUS_DECK, and an error, when a scene needs more than there is.
-   subroutine check_memory(deck_path, what, needed, limit, status)
+   subroutine check_memory(deck_path, what, needed, limit, status, held)
       character(len=:), allocatable, intent(in) :: deck_path   !< a model made without a deck has none
       character(len=*), intent(in) :: what             !< e.g. 'the scene, 12 equations,'
       integer(lp), intent(in) :: needed                !< bytes
       integer(lp), intent(in) :: limit                 !< bytes; what the machine has counts where it is less
       type(status_t), intent(inout) :: status
+      integer(lp), intent(in), optional :: held        !< bytes of what is needed that are the process's already
       integer(lp) :: memory
 
-      memory = min(limit, available_memory())
+      memory = available_memory()
+      if (present(held)) memory = memory + min(held, huge(memory) - memory)
+      memory = min(limit, memory)
       if (needed > memory) call refuse(deck_path, what//' needs about '//memory_text(needed)//' of memory, there are '// &
                                        memory_text(memory), status)
    end subroutine check_memory
 
-   !> The same of the average over contact points, before they are averaged: each may have all others in its reach, and the entries
-   !> must have numbers.
-   subroutine check_average_memory(deck_path, n, limit, status)
+   !> So many entries of an average are not too many.
+   integer(lp) function most_average_entries(limit) result(most)
+      integer(lp), intent(in) :: limit                 !< bytes; what the machine has counts where it is less
+
+      most = min(min(limit, available_memory())/ENTRY_BYTES, int(huge(1_ip), lp))
+   end function most_average_entries
+
+   !> The same as check_memory of the average over contact points, before they are averaged; the entries must have numbers.
+   subroutine check_average_memory(deck_path, n, entries, limit, status)
       character(len=:), allocatable, intent(in) :: deck_path
       integer(ip), intent(in) :: n                     !< contact points
+      integer(lp), intent(in) :: entries               !< of the average
       integer(lp), intent(in) :: limit                 !< bytes
       type(status_t), intent(inout) :: status
-      integer(lp) :: entries
 
-      entries = int(n, lp)**2
       if (entries > int(huge(n), lp)) then
          call refuse(deck_path, 'an average over '//to_text(n)//' contact points is too large for the numbers of its entries', &
                      status)

@@ -1,66 +1,70 @@
 !> One static step, from the model to the results.
 module atrito_solve
-   use atrito_assembly, only: fem_t, body_profile
    use atrito_blas_info, only: is_reference_blas
-   use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
-   use atrito_body_store, only: body_store_t, provide_bodies, take_numbering, release_bodies
-   use atrito_condensed_body, only: choose_storage, motion_text
-   use atrito_contact_line, only: contact_line_t
-   use atrito_contact_problem, only: build_line, build_problem, motion_body
-   use atrito_contact_rows, only: contact_rows_t, build_rows
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
-   use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
+   use atrito_body_store, only: body_store_t
+   use atrito_body_sums, only: sum_bodies
    use atrito_chatter, only: report_chatter
+   use atrito_condensed_body, only: motion_text, body_text, how_it_moves
+   use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
+   use atrito_contact_problem, only: motion_body
+   use atrito_contact_scales, only: usual_growth
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_dense_form, only: solve_dense_form
+   use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
-   use atrito_free_motion, only: free_motion_text
    use atrito_friction_law, only: FRICTION_NONE
-   use atrito_internal_forces, only: internal_forces
+   use atrito_joint_sums, only: sum_joints
    use atrito_kinds, only: ip, lp, wp
-   use atrito_messages, only: add_warning
-   use atrito_model, only: model_t
-   use atrito_nodal_loads, only: nodal_loads
-   use atrito_outer_loop, only: solve_contact_line, FREE_MOTION
-   use atrito_points, only: contact_points_t
-   use atrito_profile, only: profile_t
-   use atrito_recovery, only: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
-                              estimate_error
-   use atrito_reporter, only: reporter_t
-   use atrito_results, only: results_t, scene_t, iteration_t, body_result_t
-   use atrito_scene_builder, only: build_scene, build_bodies
-   use atrito_scene_memory, only: check_memory, check_average_memory
-   use atrito_solve_history, only: solve_history_t
+   use atrito_messages, only: add_note, add_warning
+   use atrito_model, only: model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
+   use atrito_outer_loop, only: FREE_MOTION
+   use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: results_t, scene_t, pair_scene_t, iteration_t
+   use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
+   use atrito_scene_forecast, only: forecast_memory
+   use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
+   use atrito_shared_points, only: note_shared_points
    use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR, STATUS_DECK
-   use atrito_strings, only: to_text, append_string
+   use atrito_sparse_form, only: solve_sparse_form
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
-   use atrito_uniqueness, only: estimate_contraction
+   use atrito_verdict, only: judge_balance
+   use atrito_weak_forces, only: contact_sizes_t
    implicit none (type, external)
    private
    public :: solve_options_t, solve_static, survey_scene
    public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
+   public :: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
 
    integer, parameter :: SOLVER_AUTO = 0, SOLVER_SKYLINE = STORAGE_SKYLINE, SOLVER_BANDED = STORAGE_BANDED, &
                          SOLVER_SPARSE = STORAGE_SPARSE, SOLVER_MUMPS = STORAGE_MUMPS
 
-   type :: solve_options_t
-      integer :: storage_kind = SOLVER_AUTO
-      integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
+   type, extends(asked_t) :: solve_options_t
    end type solve_options_t
-
-   !> The scene with everything that the phases of a solution share.
-   type :: scene_data_t
-      type(fem_t) :: fem
-      logical, allocatable :: held(:, :)                    !< (2, n_nodes)
-      real(wp), allocatable :: value(:, :)                  !< (2, n_nodes) prescribed displacements [L]
-      type(contact_points_t), allocatable :: points(:)
-      type(contact_rows_t) :: rows
-      type(contact_line_t) :: line
-      real(wp), allocatable :: f(:, :)                      !< (2, n_nodes) applied forces [F]
-   end type scene_data_t
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
    real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
+
+   !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
+   real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
+
+   !> What is tried last, in the order of what it found in 10,000 random scenes that nothing else had solved.
+   type :: attempt_t
+      integer :: form, method
+      integer(ip) :: times                                 !< MAXIT
+      real(wp) :: relaxation
+      logical :: is_coarse                                 !< outer_controls_t
+   end type attempt_t
+
+   type(attempt_t), parameter :: PATIENT(5) = [attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 1, 1.0_wp, .true.), &
+                                               attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 3, 1.0_wp, .false.), &
+                                               attempt_t(CONTACT_SPARSE, METHOD_ANDERSON, 2, 1.0_wp, .false.), &
+                                               attempt_t(CONTACT_DENSE, METHOD_PICARD, 10, 0.3_wp, .false.), &
+                                               attempt_t(CONTACT_DENSE, METHOD_PICARD, 10, 1.0_wp, .false.)]
+   integer, parameter :: MOST_PATIENT = 400                !< unknown forces
 
 contains
 
@@ -73,12 +77,28 @@ contains
       type(scene_data_t) :: data
       type(body_store_t) :: store
 
-      call prepare(model, store, options, data, status)
-      if (.not. is_ok(status)) return
-      call describe_scene(model, data, options, scene)
-      call check_scene(model, options, scene, status)
-      if (is_ok(status)) call check_known_points(data, status)
+      call begin_scene(model, options, store, .true., data, scene, status)
    end subroutine survey_scene
+
+   !> Everything before the first number is computed. status: STATUS_DECK as in solve_static.
+   subroutine begin_scene(model, options, store, exact, data, scene, status)
+      type(model_t), intent(in), target :: model
+      type(solve_options_t), intent(in) :: options
+      type(body_store_t), intent(in) :: store
+      logical, intent(in) :: exact                          !< all fronts are counted, before a run makes them
+      type(scene_data_t), intent(out) :: data
+      type(scene_t), intent(out) :: scene
+      type(status_t), intent(out) :: status
+
+      call start_phase('order')
+      call prepare(model, store, options%asked_t, data, status)
+      if (is_ok(status) .and. data%contact_form == CONTACT_SPARSE) call assemble(data, status)
+      if (is_ok(status)) call describe_scene(model, data, scene)
+      if (is_ok(status)) call count_fronts(model, data, exact, scene)
+      call stop_phase('order')
+      if (is_ok(status)) call check_scene(model, options%memory, scene, status)
+      if (is_ok(status)) call check_known_points(data, status)
+   end subroutine begin_scene
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.
@@ -106,222 +126,244 @@ contains
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
-      type(box_problem_t) :: problem
       type(contact_solution_t) :: solution
       type(outer_controls_t) :: controls
 
-      call start_phase('order')
-      call prepare(model, store, options, data, status)
-      if (is_ok(status)) call describe_scene(model, data, options, results%scene)
-      call stop_phase('order')
-      if (is_ok(status)) call check_scene(model, options, results%scene, status)
-      if (is_ok(status)) call check_known_points(data, status)
+      call begin_scene(model, options, store, .false., data, results%scene, status)
       if (.not. is_ok(status)) return
-      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), options%storage_kind, reporter, &
-                          results%scene%bodies, status)
-      results%factorisations = store%factorisations
-      if (.not. is_ok(status)) return
-      call start_phase('iterate')
-      call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
       controls = outer_controls_t(model%controls%method, model%controls%tolerance, model%controls%max_iterations, &
                                   model%controls%relaxation)
-      call solve_contact_line(problem, data%line, controls, reporter, solution, status)
-      if (is_ok(status)) results%contraction_estimate = estimate_contraction(problem, data%line, solution%bounds%d, &
-                                                                             solution%state%state)
-      call stop_phase('iterate')
-      if (.not. is_ok(status)) then
-         call explain_failure(data, problem, solution, status)
-         return
+      if (options%contact_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
+      if (data%contact_form == CONTACT_SPARSE .and. controls%method /= METHOD_ANDERSON) then
+         call add_note('N-METHOD', 'METHOD is one of the dense form of the contact system; the sparse one, which was taken, has' &
+                       //' its own')
       end if
+      call solve_one_form(model, data, data%contact_form, controls, reporter, store, results, solution, status)
+      if (results%scene%near_elements .and. .not. is_solved(results, status)) then
+         call solve_without_near(model, data, controls, reporter, store, results, solution, status)
+      end if
+      if (options%contact_form == CONTACT_AUTO .and. data%assembled%failed > 0 .and. .not. is_ok(status)) then
+         ! what is singular for the one form need not be so for the other
+         if (can_be_dense(size(data%line%point, kind=ip))) then
+            call solve_one_form(model, data, CONTACT_DENSE, controls, reporter, store, results, solution, status)
+         end if
+      end if
+      if (options%contact_form == CONTACT_AUTO .and. is_ok(status) .and. .not. (results%converged .and. results%law_holds)) then
+         call try_others(model, data, controls, reporter, store, results, solution)
+      end if
+      if (.not. is_ok(status)) return
+      ! with the fronts that the bodies have in place of those that were expected
+      results%scene%memory = forecast_memory(model, data, results%scene)
+      call report_chatter(data%fem%mesh, data%points, data%rows, data%line, solution, results)
+      call warn(model, data, solution, results)
+   end subroutine solve_with_store
+
+   pure logical function is_solved(results, status)
+      type(results_t), intent(in) :: results
+      type(status_t), intent(in) :: status
+
+      is_solved = is_ok(status) .and. results%converged .and. results%law_holds
+   end function is_solved
+
+   !> Solves again with the stiffness of each element: where a body is as slender as the digits of its nodes are few, taking near
+   !> elements as equal says nothing of it, and refinement does not converge.
+   subroutine solve_without_near(model, data, controls, reporter, store, results, solution, status)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(inout) :: data
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      type(results_t) :: again
+
+      call report_progress(reporter, 'not solved; each element with its own last digits')
+      again%scene = results%scene
+      again%scene%near_elements = .false.
+      results = again
+      data%fem%grain = 0.0_wp
+      data%is_assembled = .false.
+      call solve_one_form(model, data, data%contact_form, controls, reporter, store, results, solution, status)
+   end subroutine solve_without_near
+
+   !> Solves by one form of the contact system, and checks what it found. Without a solution it is judged whether there can be one:
+   !> status is STATUS_SINGULAR where there is none.
+   subroutine solve_one_form(model, data, form, controls, reporter, store, results, solution, status)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
+
+      if (form == CONTACT_SPARSE) then
+         call solve_sparse_form(data, controls, reporter, results, solution, u, status)
+      else
+         call solve_dense_form(data, controls, reporter, store, results, solution, u, status)
+      end if
+      call start_phase('iterate')
+      call judge_outcome(data, results%scene%pairs, solution, status)
+      call stop_phase('iterate')
+      if (.not. is_ok(status)) return
       call start_phase('recover')
-      call recover(model, data, store, solution, results)
+      call recover(model, data, solution, u, results)
       call stop_phase('recover')
       call start_phase('estimate')
       call estimate_error(data%fem, results)
       call stop_phase('estimate')
       call start_phase('check')
-      call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results)
+      call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
+                     growth_of_bodies(data, results%scene))
+      call judge_failed_check(data, results, status)
       call stop_phase('check')
-      call report_chatter(data%fem%mesh, data%points, data%rows, data%line, solution, results)
-      call warn(model, data, solution, results)
-   end subroutine solve_with_store
+   end subroutine solve_one_form
 
-   subroutine prepare(model, store, options, data, status)
-      type(model_t), intent(in), target :: model
-      type(body_store_t), intent(in) :: store
-      type(solve_options_t), intent(in) :: options
-      type(scene_data_t), intent(out) :: data
-      type(status_t), intent(out) :: status
-      logical :: known
-
-      call build_scene(model, data%fem, data%held, data%value, data%points)
-      call take_numbering(store, data%held, data%points, options%storage_kind, data%fem, known)
-      if (.not. known) call build_bodies(model, data%held, data%points, options%storage_kind, data%fem)
-      call build_rows(data%points, data%rows)
-      if (any(model%interactions%rho > 0.0_wp)) then
-         call check_average_memory(model%deck_path, data%rows%n, options%memory, status)
-         if (.not. is_ok(status)) return
-      end if
-      call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
-      call nodal_loads(model, data%f)
-   end subroutine prepare
-
-   !> status: STATUS_DECK when the matrices of the scene need more memory than there is.
-   subroutine check_scene(model, options, scene, status)
-      type(model_t), intent(in) :: model
-      type(solve_options_t), intent(in) :: options
+   !> By how much round-off grows in the displacements of each body, as far as its factorisation tells.
+   pure function growth_of_bodies(data, scene) result(growth)
+      type(scene_data_t), intent(in) :: data
       type(scene_t), intent(in) :: scene
-      type(status_t), intent(inout) :: status
-
-      call check_memory(model%deck_path, 'the scene, '//to_text(scene%n_dofs)//' free displacements and '// &
-                        to_text(scene%n_normal + scene%n_tangential)//' contact unknowns,', scene%memory, options%memory, status)
-   end subroutine check_scene
-
-   !> Fills what `check` and the listing print of a scene.
-   subroutine describe_scene(model, data, options, scene)
-      type(model_t), intent(in) :: model
-      type(scene_data_t), intent(in) :: data
-      type(solve_options_t), intent(in) :: options
-      type(scene_t), intent(out) :: scene
-      type(profile_t) :: profile
+      real(wp) :: growth(data%fem%bodies%n)
       integer(ip) :: b
-      integer :: kind
 
-      allocate (scene%bodies(data%fem%bodies%n))
-      do b = 1, data%fem%bodies%n
-         associate (body => data%fem%bodies%list(b), result => scene%bodies(b))
-            result%name = body%name
-            result%n_nodes = size(body%nodes, kind=ip)
-            result%n_elements = size(body%elements, kind=ip)
-            result%n_equations = body%n
-            result%n_contact_equations = body%n_kept
-            result%n_free_motions = size(body%modes, 2, kind=ip)
-            call body_profile(data%fem, b, profile)
-            call choose_storage(profile, options%storage_kind, kind, result)
-            scene%n_dofs = scene%n_dofs + body%n
-            scene%n_rigid = scene%n_rigid + result%n_free_motions
-            scene%memory = scene%memory + result%memory
-         end associate
+      do b = 1, size(growth, kind=ip)
+         growth(b) = usual_growth(data%fem%bodies%list(b)%n, scene%bodies(b)%digits_lost)
       end do
-      call describe_pairs(model, data, scene)
-      scene%n_normal = count(data%line%normal > 0, kind=ip)
-      scene%n_tangential = count(data%line%tangential > 0, kind=ip)
-      scene%outer_loop = data%line%has_friction
-      scene%memory = scene%memory + 3*8_lp*int(scene%n_normal + scene%n_tangential, lp)**2 &
-                     + 200_lp*int(model%mesh%n_nodes + model%mesh%n_elements, lp)
-      call list_left_out(data, scene)
-   end subroutine describe_scene
+   end function growth_of_bodies
 
-   subroutine describe_pairs(model, data, scene)
+   !> The other form of the contact system, and Newton's method from a start of its own; with few points also what takes long:
+   !> what is found counts when it converges and its law holds.
+   subroutine try_others(model, data, controls, reporter, store, results, solution)
       type(model_t), intent(in) :: model
-      type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(inout) :: scene
-      integer(ip) :: i
+      type(scene_data_t), intent(inout) :: data
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(inout) :: solution
+      type(outer_controls_t) :: newton, patient_controls
+      integer :: attempt
 
-      allocate (scene%pairs(size(data%points)))
-      do i = 1, size(data%points, kind=ip)
-         associate (pair => scene%pairs(i), points => data%points(i))
-            pair%slave = model%surfaces(model%pairs(i)%slave)%name
-            pair%master = model%surfaces(model%pairs(i)%master)%name
-            pair%interaction = model%interactions(model%pairs(i)%interaction)%name
-            pair%n_points = points%n
-            pair%n_left_out = points%n_left_out
-            pair%matching = points%matching
-            pair%master_is_rigid = points%rigid
-            if (points%n > 0) pair%least_gap = minval(points%gap)
-            if (points%n > 0) pair%greatest_gap = maxval(points%gap)
-         end associate
+      if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
+      if (data%contact_form == CONTACT_DENSE) then
+         call try_form(model, data, CONTACT_SPARSE, controls, reporter, store, results, solution)
+      else
+         call try_form(model, data, CONTACT_DENSE, controls, reporter, store, results, solution)
+      end if
+      if (results%converged .and. results%law_holds) return
+      newton = controls
+      newton%method = METHOD_NEWTON
+      call try_form(model, data, CONTACT_DENSE, newton, reporter, store, results, solution)
+      if (size(data%line%point) > MOST_PATIENT) return
+      do attempt = 1, size(PATIENT)
+         if (results%converged .and. results%law_holds) return
+         patient_controls = outer_controls_t(PATIENT(attempt)%method, controls%tolerance, &
+                                             PATIENT(attempt)%times*controls%max_iterations, PATIENT(attempt)%relaxation, &
+                                             PATIENT(attempt)%is_coarse, controls%most_entries)
+         call try_form(model, data, PATIENT(attempt)%form, patient_controls, reporter, store, results, solution)
       end do
-   end subroutine describe_pairs
+   end subroutine try_others
 
-   !> What the scene does not need, in sentences.
-   subroutine list_left_out(data, scene)
+   subroutine try_form(model, data, form, controls, reporter, store, results, solution)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(inout) :: solution
+      type(results_t) :: other
+      type(contact_solution_t) :: other_solution
+      type(status_t) :: status
+
+      if (form == CONTACT_DENSE .and. .not. can_be_dense(size(data%line%point, kind=ip))) return
+      call report_progress(reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
+                           attempt_text(model, controls))
+      other%scene = results%scene
+      other%scene%contact_form = contact_form_name(form)
+      other%scene%contact_reason = 'what was tried before found no solution'
+      call solve_one_form(model, data, form, controls, reporter, store, other, other_solution, status)
+      if (.not. (is_ok(status) .and. other%converged .and. other%law_holds)) return
+      solution = other_solution
+      results = other
+   end subroutine try_form
+
+   !> What an attempt is, besides its form.
+   function attempt_text(model, controls) result(text)
+      type(model_t), intent(in) :: model
+      type(outer_controls_t), intent(in) :: controls
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (controls%method == METHOD_NEWTON) text = ', NEWTON'
+      if (controls%method == METHOD_PICARD) text = ', PICARD, RELAXATION='//to_text(controls%relaxation)
+      if (controls%is_coarse) text = text//', coarse round-off'
+      if (controls%max_iterations > model%controls%max_iterations) text = text//', MAXIT='//to_text(controls%max_iterations)
+   end function attempt_text
+
+   !> Without a solution: whether there can be one. Free motion becomes a proof of it, or a last iterate that did not converge.
+   subroutine judge_outcome(data, pairs, solution, status)
       type(scene_data_t), intent(in) :: data
-      type(scene_t), intent(inout) :: scene
-
-      allocate (scene%left_out(0))
-      if (size(data%points) == 0) call append_string(scene%left_out, 'no contact pair: no contact line, one solve a body')
-      if (size(data%points) > 0 .and. .not. data%line%has_friction) then
-         call append_string(scene%left_out, 'no friction: no tangential unknowns, no outer loop')
-      end if
-      if (any(data%points%rigid)) then
-         call append_string(scene%left_out, 'rigid surface: no second body and no matrix for it')
-      end if
-      if (data%line%has_friction .and. data%line%average%is_identity) then
-         call append_string(scene%left_out, 'local friction: no averaging of the pressure')
-      end if
-   end subroutine list_left_out
-
-   !> Hard contact cannot take an overlap of prescribed dofs.
-   pure subroutine check_known_points(data, status)
-      type(scene_data_t), intent(in) :: data
-      type(status_t), intent(out) :: status
-      integer(ip) :: j
-
-      do j = 1, data%line%n
-         if (data%line%normal(j) > 0 .or. data%line%delta(j) > 0.0_wp) cycle
-         if (data%line%known_overlap(j) <= 1.0e-12_wp*(maxval(abs(data%fem%mesh%x)))) cycle
-         call set_status(status, STATUS_DECK, 'node '//to_text(data%fem%mesh%node_id(data%rows%node(1, j))) &
-                         //' is prescribed to penetrate a hard contact by '//to_text(data%line%known_overlap(j)) &
-                         //' [L]; a penalty (PRESSURE-OVERCLOSURE=LINEAR) could take it')
-         return
-      end do
-   end subroutine check_known_points
-
-   !> Applied forces less those of the prescribed displacements.
-   function free_load(data) result(load)
-      type(scene_data_t), intent(in) :: data
-      real(wp), allocatable :: load(:, :), force(:, :)
-      real(wp) :: energy
-
-      load = data%f
-      if (all(data%value == 0.0_wp)) return
-      allocate (force, mold=load)
-      force = 0.0_wp
-      energy = 0.0_wp
-      call internal_forces(data%fem, data%value, force, energy)
-      load = load - force
-   end function free_load
-
-   !> Puts a failure of the contact line into words.
-   subroutine explain_failure(data, problem, solution, status)
-      type(scene_data_t), intent(in) :: data
-      type(box_problem_t), intent(in) :: problem
-      type(contact_solution_t), intent(in) :: solution
+      type(pair_scene_t), intent(in) :: pairs(:)
+      type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(inout) :: status
-      integer(ip) :: node
+      logical :: moves
 
-      if (status%text == FREE_MOTION) then
-         call set_status(status, STATUS_SINGULAR, free_motion_text(data%fem, data%held, data%rows, data%line, problem, solution))
-      else if (status%text == DEPENDENT_POINTS) then
-         node = data%rows%node(1, data%line%point(solution%inner%dependent))
-         call set_status(status, STATUS_SINGULAR, 'the contact point at node '//to_text(data%fem%mesh%node_id(node)) &
-                         //trim(merge(' (normal)    ', ' (tangential)', solution%inner%dependent <= problem%n_normal)) &
-                         //' repeats what other points ask: two pairs share it, or the slave is finer than its own dofs')
-      end if
-   end subroutine explain_failure
+      moves = .false.
+      if (.not. is_ok(status)) moves = status%text == FREE_MOTION
+      if (.not. moves .and. (solution%converged .or. .not. is_ok(status))) return
+      solution%converged = .false.
+      if (moves) solution%verdict = 'no friction bound that was tried holds the bodies'//moving_text(data, solution)
+      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, pairs, solution%verdict, status)
+   end subroutine judge_outcome
+
+   !> The body that moved most under the last friction bound, and how.
+   function moving_text(data, solution) result(text)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      character(len=:), allocatable :: text
+      integer(ip) :: b
+      real(wp) :: mode(3)
+
+      text = ''
+      if (.not. allocated(solution%inner%motion)) return
+      if (.not. any(abs(solution%inner%motion) > 0.0_wp)) return
+      call motion_body(data%fem, solution%inner%motion, b, mode)
+      text = ': '//body_text(data%fem, b)//' would '//how_it_moves(data%fem, b, mode)
+   end function moving_text
+
+   !> The same where the loop ended well and the final check did not.
+   subroutine judge_failed_check(data, results, status)
+      type(scene_data_t), intent(in) :: data
+      type(results_t), intent(inout) :: results
+      type(status_t), intent(inout) :: status
+
+      if (results%law_holds .or. .not. results%converged .or. data%line%n == 0) return
+      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, results%scene%pairs, results%verdict, status)
+   end subroutine judge_failed_check
 
    !> Displacements, reactions, stresses, contact fields, energies and balances.
-   subroutine recover(model, data, store, solution, results)
+   subroutine recover(model, data, solution, u, results)
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(in) :: data
-      type(body_store_t), intent(inout) :: store           !< its factored bodies are not needed after the displacements
       type(contact_solution_t), intent(in) :: solution
+      real(wp), allocatable, intent(inout) :: u(:, :)      !< without rigid motions, (2, n_nodes) [L]; moved to the results
       type(results_t), intent(inout) :: results
       real(wp), allocatable :: contact(:, :)
       type(equilibrium_t) :: equilibrium
       real(wp) :: imbalance
-      integer(ip) :: b
 
       contact = contact_forces(data%fem, data%rows, data%line, solution)
-      results%u = data%value
-      do b = 1, data%fem%bodies%n
-         call elastic_displacements(data%fem, b, store%bodies(b), contact, results%u)
-      end do
-      call release_bodies(store)
+      call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
-      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium)
-      imbalance = check_balance(data%fem, data%f, contact)
+      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, data%rows, &
+                             sizes_at_points(data, solution))
+      imbalance = check_balance(data%fem, data%f, contact, data%rows)
       call add_rigid_motions(data%fem, solution%state%a, results%u)
       results%prescribed = data%held
       results%converged = solution%converged
@@ -333,10 +375,30 @@ contains
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
+      if (model%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
+      call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
       call recover_stress(model, data%fem, results)
       call copy_history(solution, results)
    end subroutine recover
+
+   !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
+   pure function sizes_at_points(data, solution) result(sizes)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(contact_sizes_t) :: sizes
+      integer(ip) :: b, first, n
+
+      sizes%force = data%line%weight*hypot(solution%p, solution%t)
+      sizes%pair = data%line%pair
+      allocate (sizes%motion(data%fem%bodies%n))
+      first = 1
+      do b = 1, data%fem%bodies%n
+         n = size(data%fem%bodies%list(b)%modes, 2, kind=ip)
+         sizes%motion(b) = sum(abs(solution%state%a(first:first + n - 1)))
+         first = first + n
+      end do
+   end function sizes_at_points
 
    pure subroutine copy_history(solution, results)
       type(contact_solution_t), intent(in) :: solution
@@ -382,6 +444,7 @@ contains
                                                      //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
                                                                  //' with more points than its soft master has nodes, or points' &
                                                                  //' that are almost one')
+      call note_shared_points(data%fem%mesh, data%rows, data%line, solution)
       call warn_of_others(model, results)
    end subroutine warn
 

@@ -1,182 +1,141 @@
-!> The limit of scenes A and P (scene-a.sh, scene-p.sh): their bodies glued together along the contact line, assembled, factored by
-!> MUMPS (minimum degree, one thread) and solved once. No contact, no deck, no tables: what a linear solve costs.
+!> What one linear solve of a deck's scene costs, by which a run of the program is measured (docs/performance.md): the bodies are glued
+!> together along their contact pairs, assembled, ordered, factored by MUMPS and solved once, with one thread.
 !>
-!>    gfortran -O3 -I/usr/include tests/bench/limit.f90 -o limit -ldmumps_seq -lopenblas
-!>    OPENBLAS_NUM_THREADS=1 ./limit A|P K
+!>    limit DECK.inp [--ordering amd|metis] [--numbering deck|backward|bodies] [--set NAME=VALUE] [--refine K]
+!>    limit DECK.inp --count [--set NAME=VALUE] [--refine K]
 !>
-!> Prints the equations and the processor seconds of assembly, analysis, factorisation, solve and all of it.
+!> --ordering   MUMPS's minimum degree (default), or METIS, whose time is counted. One process, one order: its peak memory is its own
+!> --numbering  of the equations: nodes as in the deck (default), backward, or the last body first
+!> --count      solves nothing, and tells the operations of the factorisation: AMD for each numbering, METIS
+!>
+!> Exit codes are those of atrito; bodies that cannot be glued are 1.
 program limit
-   use, intrinsic :: iso_fortran_env, only: int64, real64
-   implicit none
-   include 'dmumps_struc.h'
-   integer, parameter :: wp = real64
-   type(dmumps_struc) :: id
-   character(len=32) :: scene, word
-   integer :: k
-   integer, allocatable :: rectangles(:, :), number(:, :), equation(:, :), elements(:, :)
-   real(wp) :: stiffness(8, 8), times(5)
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use atrito_blas_info, only: set_blas_threads
+   use atrito_command_line, only: command_t, fetch_arguments
+   use atrito_console, only: print_status
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_messages, only: clear_messages
+   use atrito_model, only: model_t
+   use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_page, only: page_t, print_page
+   use atrito_reporter, only: reporter_t
+   use atrito_run, only: load_model
+   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE
+   use atrito_strings, only: string_t, append_string
+   use atrito_threads, only: set_threads
+   use atrito_timers, only: reset_timers
+   use glued_bodies, only: NUMBERINGS
+   use linear_solve, only: plan_t, solve_facts_t, solve_once, count_operations, ORDERINGS
+   use linear_solve_page, only: compose_solve
+   implicit none (type, external)
+   type(command_t) :: command
+   type(plan_t) :: plan
+   type(model_t) :: model
+   type(reporter_t) :: reporter
+   type(status_t) :: status
+   integer(lp) :: begun
+   integer(ip) :: told
+   integer :: code
+   logical :: counts, ok
 
-   call get_command_argument(1, scene)
-   call get_command_argument(2, word)
-   read (word, *) k
-   call cpu_time(times(1))
-   if (scene == 'A') then
-      rectangles = reshape([0, 32*k, 5*k, 11*k, 0, 6*k, 0, 5*k], [4, 2])
-   else
-      rectangles = reshape([k/2, k/2 + k, k, k + k/2, 0, 2*k, 0, k], [4, 2])
+   call system_clock(begun)
+   call set_blas_threads(1_ip)
+   call set_threads(1_ip)
+   call clear_messages()
+   call reset_timers()
+   call read_arguments(ok)
+   if (.not. ok) then
+      write (error_unit, '(a)') 'usage: limit DECK.inp [--ordering amd|metis] [--numbering deck|backward|bodies] '// &
+         '[--set NAME=VALUE] [--refine K] | limit DECK.inp --count [...]'
+      stop STATUS_USAGE, quiet = .true.
    end if
-   call make_mesh()
-   call make_stiffness()
-   id%comm = 0
-   id%par = 1
-   id%sym = 1
-   id%job = -1
-   call dmumps(id)
-   id%icntl(1:4) = 0
-   id%icntl(7) = 0
-   id%n = maxval(equation)
-   call assemble()
-   call cpu_time(times(2))
-   id%job = 1
-   call dmumps(id)
-   call cpu_time(times(3))
-   id%job = 2
-   call dmumps(id)
-   call cpu_time(times(4))
-   allocate (id%rhs(id%n), source=1.0_wp)
-   id%job = 3
-   call dmumps(id)
-   call cpu_time(times(5))
-   if (id%infog(1) < 0) stop 1
-   print '(a, i0, 5(a, f0.3))', 'equations ', id%n, '  assemble ', times(2) - times(1), '  analyse ', times(3) - times(2), &
-      '  factor ', times(4) - times(3), '  solve ', times(5) - times(4), '  total ', times(5) - times(1)
+   reporter%quiet = .true.
+   command%quiet = .true.
+   call load_model(command, reporter, model, told, code)
+   if (code == STATUS_OK) then
+      if (counts) then
+         call count_all()
+      else
+         call solve_and_tell()
+      end if
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      code = status%code
+   end if
+   stop code, quiet = .true.
 
 contains
 
-   !> Nodes on a lattice, one where the rectangles meet; equations of the free dofs.
-   subroutine make_mesh()
-      integer :: i, j, r, n, dof
+   subroutine read_arguments(ok)
+      logical, intent(out) :: ok
+      type(string_t), allocatable :: arguments(:)
+      integer :: i
 
-      allocate (number(0:maxval(rectangles(2, :)), 0:maxval(rectangles(4, :))), source=0)
-      n = 0
-      do r = 1, 2
-         do j = rectangles(3, r), rectangles(4, r)
-            do i = rectangles(1, r), rectangles(2, r)
-               if (number(i, j) > 0) cycle
-               n = n + 1
-               number(i, j) = n
-            end do
-         end do
+      call fetch_arguments(arguments)
+      allocate (command%names(0), command%settings(0))
+      counts = .false.
+      ok = .true.
+      i = 0
+      do while (i < size(arguments) .and. ok)
+         i = i + 1
+         select case (arguments(i)%s)
+         case ('--count')
+            counts = .true.
+         case ('--ordering', '--numbering', '--set', '--refine')
+            ok = i < size(arguments)
+            if (ok) call take_value(arguments(i)%s, arguments(i + 1)%s, ok)
+            i = i + 1
+         case default
+            ok = index(arguments(i)%s, '-') /= 1
+            call append_string(command%names, arguments(i)%s)
+         end select
       end do
-      allocate (equation(2, n), elements(4, sum((rectangles(2, :) - rectangles(1, :))*(rectangles(4, :) - rectangles(3, :)))))
-      n = 0
-      do r = 1, 2
-         do j = rectangles(3, r), rectangles(4, r) - 1
-            do i = rectangles(1, r), rectangles(2, r) - 1
-               n = n + 1
-               elements(:, n) = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)]
-            end do
-         end do
+      ok = ok .and. size(command%names) == 1
+   end subroutine read_arguments
+
+   subroutine take_value(option, value, ok)
+      character(len=*), intent(in) :: option, value
+      logical, intent(out) :: ok
+      integer :: status
+
+      ok = .true.
+      select case (option)
+      case ('--ordering')
+         plan%ordering = findloc(ORDERINGS == value, .true., dim=1)
+         ok = plan%ordering > 0
+      case ('--numbering')
+         plan%numbering = findloc(NUMBERINGS == value, .true., dim=1)
+         ok = plan%numbering > 0
+      case ('--set')
+         call append_string(command%settings, value)
+      case ('--refine')
+         call read_integer(value, command%refine, status)
+         ok = status == NUMBER_OK .and. command%refine >= 0
+      end select
+   end subroutine take_value
+
+   subroutine solve_and_tell()
+      type(solve_facts_t) :: facts
+      type(page_t) :: page
+      integer(lp) :: ended, rate
+
+      call solve_once(model, plan, facts, status)
+      if (.not. is_ok(status)) return
+      call system_clock(ended, rate)
+      call compose_solve(command%names(1)%s, plan, facts, real(ended - begun, wp)/real(rate, wp), page)
+      call print_page(page, output_unit)
+   end subroutine solve_and_tell
+
+   subroutine count_all()
+      real(wp) :: amd_operations(size(NUMBERINGS)), metis_operations
+      integer :: i
+
+      call count_operations(model, amd_operations, metis_operations, status)
+      if (.not. is_ok(status)) return
+      do i = 1, size(NUMBERINGS)
+         write (output_unit, '(a, 1x, a8, es11.3)') 'amd  ', NUMBERINGS(i), amd_operations(i)
       end do
-      equation = -1
-      n = 0
-      do r = 1, 2
-         do j = rectangles(3, r), rectangles(4, r)
-            do i = rectangles(1, r), rectangles(2, r)
-               do dof = 1, 2
-                  if (equation(dof, number(i, j)) >= 0) cycle
-                  equation(dof, number(i, j)) = 0
-                  if (held(i, j, dof)) cycle
-                  n = n + 1
-                  equation(dof, number(i, j)) = n
-               end do
-            end do
-         end do
-      end do
-   end subroutine make_mesh
-
-   logical function held(i, j, dof)
-      integer, intent(in) :: i, j, dof
-
-      if (scene == 'A') then
-         held = j == 0 .or. (dof == 1 .and. i == 32*k)
-      else
-         held = j == 0 .or. j == k + k/2
-      end if
-   end function held
-
-   !> A square in plane strain, 2 x 2 points; the side does not matter.
-   subroutine make_stiffness()
-      real(wp), parameter :: NU = 0.3_wp, E = 1000.0_wp/((1 + NU)*(1 - 2*NU)), G(2) = [-1, 1]/sqrt(3.0_wp)
-      real(wp) :: d(3, 3), b(3, 8)
-      integer :: p, q
-
-      d = 0.0_wp
-      d(1, 1) = E*(1 - NU)
-      d(2, 2) = d(1, 1)
-      d(1, 2) = E*NU
-      d(2, 1) = d(1, 2)
-      d(3, 3) = E*(1 - 2*NU)/2
-      stiffness = 0.0_wp
-      do p = 1, 2
-         do q = 1, 2
-            b = 0.0_wp
-            b(1, 1:7:2) = 0.5_wp*[G(q) - 1, 1 - G(q), 1 + G(q), -1 - G(q)]
-            b(2, 2:8:2) = 0.5_wp*[G(p) - 1, -1 - G(p), 1 + G(p), 1 - G(p)]
-            b(3, 1:7:2) = b(2, 2:8:2)
-            b(3, 2:8:2) = b(1, 1:7:2)
-            stiffness = stiffness + 0.25_wp*matmul(transpose(b), matmul(d, b))
-         end do
-      end do
-   end subroutine make_stiffness
-
-   !> Lists a column as in atrito_mumps, so that the limit has the assembly that the program has.
-   subroutine assemble()
-      integer, allocatable :: newest(:), row(:), next(:)
-      real(wp), allocatable :: values(:)
-      integer :: e, a, b, i, j, n, at, following, eq(8)
-
-      allocate (newest(id%n), source=0)
-      allocate (row(36*size(elements, 2)), next(36*size(elements, 2)), values(36*size(elements, 2)))
-      n = 0
-      do e = 1, size(elements, 2)
-         eq = reshape(equation(:, elements(:, e)), [8])
-         do b = 1, 8
-            j = eq(b)
-            if (j == 0) cycle
-            do a = 1, 8
-               i = eq(a)
-               if (i < j) cycle
-               at = newest(j)
-               do while (at /= 0)
-                  if (row(at) == i) exit
-                  at = next(at)
-               end do
-               if (at == 0) then
-                  n = n + 1
-                  at = n
-                  row(at) = i
-                  values(at) = 0.0_wp
-                  next(at) = newest(j)
-                  newest(j) = at
-               end if
-               values(at) = values(at) + stiffness(a, b)
-            end do
-         end do
-      end do
-      do j = 1, id%n
-         at = newest(j)
-         do while (at /= 0)
-            following = next(at)
-            next(at) = j
-            at = following
-         end do
-      end do
-      id%nnz = int(n, int64)
-      allocate (id%irn(n), id%jcn(n), id%a(n))
-      id%irn = row(:n)
-      id%jcn = next(:n)
-      id%a = values(:n)
-   end subroutine assemble
+      if (metis_operations >= 0.0_wp) write (output_unit, '(a, 1x, a8, es11.3)') 'metis', NUMBERINGS(1), metis_operations
+   end subroutine count_all
 
 end program limit

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The bench: whole runs of scenes A and P and of example 3 against the limit, one linear solve of the same scene glued together
-# (`atrito DECK.inp --bench-limit`). Prints a table to be pasted; asserts nothing.
+# The bench: whole runs of scenes A and P and of example 3 against the limit, one linear solve of the same scene glued together by
+# MUMPS (limit.f90; the program `limit` next to PROGRAM). Prints a table to be pasted; asserts nothing.
 #    tests/bench/run-bench.sh [-n N] [-t] [-b SECONDS] [-o OPTIONS] [PROGRAM] [SIZE...]
 # -n N        repetitions, default 5; in each the limit and the run are measured one after the other, and their ratio is taken
 # -t          two more tables: wall seconds with 1, 2 and 4 threads (the limit always takes one), and how much faster several are
@@ -11,8 +11,9 @@
 #
 # Run: processor seconds of the whole process, from its start to its end, as the shell counts them (`times`, user and system):
 # loading the libraries, reading the deck, all tables into a new folder, giving the memory back. (The total of timing.tab is the sum
-# of its phases and less than that.) Limit: the four parts that --bench-limit prints, by the program's own clock; nothing else of
-# that process. Wall seconds in the same way, those of the run by /proc/uptime.
+# of its phases and less than that.) Limit: assembly, order, analysis, factorisation and solve, by the clock of the limit program;
+# nothing else of that process. Of AMD with the cheapest numbering and METIS the better one is taken. Wall seconds in the same way, those
+# of the run by /proc/uptime.
 set -u
 top=$(CDPATH="" cd -- "$(dirname -- "$0")/../.." && pwd) || exit 9
 repetitions=5
@@ -40,6 +41,8 @@ case ${1:-2e3} in
 *) program=$1 && shift ;;
 esac
 [ -x "$program" ] || { echo "no program at $program; build it first: cmake --build --preset release" >&2; exit 1; }
+limit_program=$(dirname "$program")/limit
+[ -x "$limit_program" ] || { echo "no limit program at $limit_program; it needs MUMPS (libmumps-seq-dev) when atrito is built" >&2; exit 1; }
 [ $# -gt 0 ] || set -- 2e3 1e4 5e4 2e5 1e6 r0 r1 r2 r3 r4 r5
 work=$(mktemp -d) || exit 9
 trap 'rm -rf "$work"' EXIT
@@ -66,17 +69,30 @@ failed() {
    exit 1
 }
 
-# measure_limit DECK ARGUMENTS: $wall and $cpu of the limit, the mean of $batch of them.
+# measure_limit DECK ARGUMENTS: $wall and $cpu of the limit in the order of $how, the mean of $batch of them.
 measure_limit() {
    i=0
    : >"$work/limits"
    while [ $i -lt "$batch" ]; do
-      "$program" "$@" --bench-limit --quiet >"$work/limit" 2>"$work/said" || { code=$?; failed "$@" --bench-limit; }
+      # the order is two words or four
+      "$limit_program" "$@" $how >"$work/limit" 2>"$work/said" || { code=$?; failed limit "$@" $how; }
       cat "$work/limit" >>"$work/limits"
       i=$((i + 1))
    done
    wall=$(awk '$1 == "total" { s += $2; n++ } END { printf "%.6f", s/n }' "$work/limits")
    cpu=$(awk '$1 == "total" { s += $3; n++ } END { printf "%.6f", s/n }' "$work/limits")
+}
+
+# choose_limit DECK ARGUMENTS: $how, the better order, tried once each.
+choose_limit() {
+   "$limit_program" "$@" --count >"$work/counts" 2>"$work/said" || { code=$?; failed limit "$@" --count; }
+   how="--ordering amd --numbering $(awk '$1 == "amd" && (!least || $3 + 0 < least) { least = $3 + 0; name = $2 } END { print name }' "$work/counts")"
+   grep -q '^metis' "$work/counts" || return 0
+   measure_limit "$@"
+   amd="$cpu $how"
+   how='--ordering metis'
+   measure_limit "$@"
+   how=$(printf '%s\n' "$amd" "$cpu $how" | sort -g | sed -n '1s/^[^ ]* //p')
 }
 
 # measure_run THREADS DECK ARGUMENTS: $wall and $cpu of the run, the mean of $batch of them.
@@ -141,6 +157,7 @@ bench_cpu() {
    size=$2
    shift 2
    find_batch "$@"
+   choose_limit "$@"
    : >"$work/rows"
    k=0
    while [ $k -lt "$repetitions" ]; do
@@ -164,6 +181,7 @@ bench_threads() {
    size=$2
    shift 2
    find_batch "$@"
+   choose_limit "$@"
    : >"$work/rows"
    k=0
    while [ $k -lt "$repetitions" ]; do
@@ -207,7 +225,8 @@ print_head() {
    "$program" --version | sed 's/^atrito/program: atrito/'
    [ -z "$options" ] || echo "options of the run: $options"
    echo "repetitions: $repetitions, limit and run in turn; medians; ratio: least, median, greatest"
-   echo "run: whole process, user and system, by the shell's times; limit: the parts of --bench-limit"
+   echo "run: whole process, user and system, by the shell's times"
+   echo "limit: the better of AMD and METIS, its phases from assembly to solve"
    echo
 }
 

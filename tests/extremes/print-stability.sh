@@ -88,3 +88,12 @@ cat "$FAULT_ROWS"
 printf '\nMutated decks: [fuzzing.md](fuzzing.md).\n'
 printf '\n## Random decks\n\n3,000 decks of seed 1 (`tests/extremes/random_decks.f90`), every answer checked anew from the tables\n(`check-law.awk`):\n\n'
 sed 's/^/    /' random.txt
+cat "$here/scenes.head"
+# SCENE_SEEDS: which seeds; SCENES: how many of each
+python=python3
+[ -x "$tests/../build/venv/bin/python3" ] && python=$tests/../build/venv/bin/python3
+for seed in ${SCENE_SEEDS:-11}; do
+   "$python" "$here/run_scenes.py" "$atrito" "$build/tests/extremes/random_scenes" 1 "${SCENES:-5000}" "$seed" >scenes.txt 2>&1
+   printf '\nSeed %s:\n\n' "$seed"
+   tail -n 2 scenes.txt | sed 's/^/    /; s/; [0-9]* s, the program.*//'
+done

@@ -8,7 +8,7 @@ module fuzz_checks
    use atrito_mesh, only: Q1_NODES, Q2_NODES, signed_area
    use atrito_model, only: model_t
    use atrito_results, only: results_t
-   use atrito_sets, only: set_list_t
+   use atrito_sets, only: set_list_t, set_count
    use atrito_status, only: status_t, is_ok, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
@@ -135,8 +135,7 @@ contains
       character(len=:), allocatable, intent(inout) :: fault
       integer(ip) :: i
 
-      if (.not. allocated(list%sets)) return
-      do i = 1, size(list%sets, kind=ip)
+      do i = 1, set_count(list)
          if (any(list%sets(i)%members < 1) .or. any(list%sets(i)%members > n)) fault = 'set '//list%sets(i)%name// &
                                                                                        ' with a member that does not exist'
       end do

@@ -11,7 +11,7 @@ expect() {
    text=$2
    what=$3
    shift 3
-   (ulimit -v 2000000 && timeout 10 "$atrito" "$work/deck.inp" -o "$work/none" "$@") >"$work/out" 2>"$work/err"
+   (ulimit -v 2000000 && timeout 120 "$atrito" "$work/deck.inp" -o "$work/none" "$@") >"$work/out" 2>"$work/err"
    code=$?
    row "$what" "exit $wanted" "exit $code"
    [ "$code" -eq "$wanted" ] || { fail "$what: exit $code, expected $wanted"; cat "$work/err"; }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A program built without MUMPS solves large bodies all the same, and refuses --solver mumps and --bench-limit: exit 1, and why.
+# A program built without MUMPS solves large bodies all the same, and refuses --solver mumps: exit 1, and why.
 #    without_mumps.sh ATRITO SCENE.sh
 . "$(dirname "$0")/lib.sh"
 atrito=$1
@@ -18,9 +18,5 @@ for task in '' check sweep; do
    grep -qF 'needs MUMPS, and this build has none' "$work/said" || { fail 'MUMPS is not named'; cat "$work/said"; }
 done
 
-"$atrito" "$work/deck.inp" --bench-limit >"$work/said" 2>&1
-code=$?
-[ "$code" -eq 1 ] || fail "--bench-limit: exit $code, expected 1"
-grep -qF 'E-NOT-BUILT] --bench-limit needs MUMPS, and this build has none' "$work/said" || { fail 'E-NOT-BUILT is not told'; cat "$work/said"; }
 "$atrito" --version | grep -qxF 'MUMPS: not used: this build has none' || fail '--version does not say that there is no MUMPS'
 finish

@@ -8,12 +8,7 @@ module atrito_mumps
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
-   public :: mumps_t, mumps_facts_t
-
-   type :: mumps_facts_t
-      integer(lp) :: entries = 0, factor_entries = 0, memory = 0
-      real(wp) :: operations = 0.0_wp
-   end type mumps_facts_t
+   public :: mumps_t
 
    type, extends(storage_t) :: mumps_t
    contains
@@ -25,9 +20,6 @@ module atrito_mumps
       procedure :: expand => expand_by_mumps
       procedure :: memory_bytes => mumps_memory
       procedure, nopass :: name => mumps_storage_name
-      procedure :: close => close_mumps
-      procedure :: analyse => analyse_by_mumps
-      procedure :: facts => mumps_facts
    end type mumps_t
 
 contains
@@ -45,14 +37,6 @@ contains
       integer(ip), intent(in) :: equations(:)
       real(wp), intent(in) :: matrix(:, :)
    end subroutine add_to_mumps
-
-   subroutine close_mumps(self)
-      class(mumps_t), intent(inout) :: self
-   end subroutine close_mumps
-
-   subroutine analyse_by_mumps(self)
-      class(mumps_t), intent(inout) :: self
-   end subroutine analyse_by_mumps
 
    subroutine factor_mumps(self, status)
       class(mumps_t), intent(inout) :: self
@@ -83,12 +67,6 @@ contains
 
       mumps_memory = 0
    end function mumps_memory
-
-   pure type(mumps_facts_t) function mumps_facts(self) result(facts)
-      class(mumps_t), intent(in) :: self
-
-      facts = mumps_facts_t()
-   end function mumps_facts
 
    pure function mumps_storage_name() result(name)
       character(len=:), allocatable :: name

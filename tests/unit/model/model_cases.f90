@@ -6,11 +6,10 @@ module model_cases
    use atrito_kinds, only: ip, lp
    use atrito_messages, only: message_t, clear_messages, count_messages, get_message, sort_messages
    use atrito_model, only: model_t
-   use atrito_model_names, only: surface_names, find_name
    use atrito_reader, only: read_deck
    use atrito_sets, only: find_set
    use atrito_status, only: status_t
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t, same_name, to_text
    implicit none (type, external)
    private
    public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, build_within, said, first_text, node_ids, &
@@ -158,8 +157,10 @@ contains
       integer(ip) :: i, s
 
       text = 'no surface'
-      s = find_name(surface_names(model), name)
-      if (s == 0) return
+      do s = 1, size(model%surfaces, kind=ip)
+         if (same_name(model%surfaces(s)%name, name)) exit
+      end do
+      if (s > size(model%surfaces)) return
       text = ''
       associate (faces => model%surfaces(s)%faces)
          do i = 1, faces%n

@@ -1,5 +1,6 @@
 !> A small model and its results, made by hand: two elements side by side on a rigid line, three points.
 module output_cases
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t
    use atrito_mesh, only: add_node, add_element, trim_mesh, PLANE_STRAIN
@@ -7,7 +8,7 @@ module output_cases
    use atrito_results, only: results_t, contact_result_t
    implicit none (type, external)
    private
-   public :: make_model, make_results, make_contact
+   public :: make_model, make_results, make_contact, make_joints
 
 contains
 
@@ -98,5 +99,41 @@ contains
       allocate (results%iterations(2))
       results%iterations%outer = [1_ip, 2_ip]
    end subroutine make_results
+
+   !> Two bodies, the second with what is rounding beside the first and what is not; three joints of the one pair, the last open.
+   subroutine make_joints(results)
+      type(results_t), intent(inout) :: results     !< of make_results
+
+      allocate (results%bodies(2), results%joints(3))
+      associate (a => results%bodies(1), b => results%bodies(2))
+         a%name = 'A B#1'
+         a%size = 2.0_wp
+         a%u = [1.0e-3_wp, -2.0e-3_wp]
+         a%rotation = 5.0e-4_wp
+         a%loads = [1.0_wp, -2.0_wp, 3.0_wp]
+         a%supports = [4.0_wp, 5.0_wp, 6.0_wp]
+         a%contact = [7.0_wp, 8.0_wp, 9.0_wp]
+         b%name = 'B'
+         b%size = 2.0_wp
+         b%u = [0.9e-16_wp, 2.0e-16_wp]
+         b%rotation = 0.4e-16_wp
+         b%loads = [0.7e-13_wp, 0.0_wp, 1.5e-13_wp]
+         b%contact = [1.0e-13_wp, 0.0_wp, 2.0e-13_wp]
+      end associate
+      results%joints%pair = 1
+      results%joints%bodies(1) = 1
+      results%joints%length = 3.0_wp
+      results%joints%n = [2.0_wp, 1.0_wp, 0.0_wp]
+      results%joints%t = [-0.5_wp, 0.9e-14_wp, 0.0_wp]
+      results%joints%m = [0.25_wp, 2.0e-14_wp, 0.0_wp]
+      results%joints%force = [2.0_wp, 1.0_wp, 0.0_wp]
+      results%joints(1)%place = [1.125_wp, 0.5_wp]
+      results%joints(2)%place = [1.5_wp, 0.5_wp]
+      results%joints(3)%place = ieee_value(1.0_wp, ieee_quiet_nan)
+      results%joints%opening = [1.0e-2_wp, 0.0_wp, 0.0_wp]
+      results%joints%sliding = [-4.0e-3_wp, 0.0_wp, 0.0_wp]
+      results%contact(1)%joint = [1_ip, 1_ip, 1_ip]
+      results%contact(1)%follows = [.false., .true., .true.]
+   end subroutine make_joints
 
 end module output_cases

@@ -33,7 +33,7 @@ quoted '1 BLOCK-BOTTOM on FLOOR 100 1.66 0.83001 0.9' floor-0.out
 quoted ' normal 20, shear -4 [F]; max. p 16.6; 0 open, 9 stick, 0 slip' floor-0.out
 
 run 4 "$input/lessons/block-on-floor.inp" slides --set push=12
-quoted 'it slides, the load drives it with H = 12 [F] and friction holds nu times N = 10 [F] at most (N = 20 [F])' slides.err
+quoted 'it slides (BLOCK-BOTTOM on FLOOR), the load drives it with H = 12 [F] and friction holds nu times N = 10 [F] at most (N = 20 [F]), 2 [F] too little' slides.err
 run 0 "$input/lessons/block-on-floor.inp" pushed --set push=9 --refine 3
 near 'where it sticks' "$(awk '!/^#/ && $12 == 2 { s = $4 } END { print s }' pushed/contact.tab)" 1.66 0.005
 

@@ -11,9 +11,9 @@ expect_motion() { # NAME TEXT options
 run 0 "$here/block.inp" pressed --quiet
 near 'pressed' "$(summary pressed normal_resultant)" 1 1e-12
 expect_motion pulled 'free to move along x2' --set top=-1
-says pulled pulled.err 'the contact opens, the load drives it with 1 [F]; it has no support'
+says pulled pulled.err 'the contact opens (CRATE-BOTTOM on FLOOR), the load drives it with 1 [F]; it has no support'
 expect_motion pushed 'free to move along x1' --set side=0.1
-says pushed pushed.err 'it slides, the load drives it with H = 0.1 [F] and there is no friction; it has no support'
+says pushed pushed.err 'it slides (CRATE-BOTTOM on FLOOR), the load drives it with H = 0.1 [F] and there is no friction; it has no support'
 # a support that does not help is named
 sed 's/^\*STEP/*BOUNDARY\n25, 1\n*STEP/' "$here/block.inp" >guided.inp
 run 4 guided.inp guided --set top=-1
@@ -31,7 +31,7 @@ says alone alone.err 'no support and no contact pair holds it'
 # two bodies that fall together: nothing opens or slides
 sed '/^SUPPORT, 2$/d' "$input/ex2-two-plates.inp" >falls.inp
 run 4 falls.inp falls
-says falls falls.err 'the load drives it, together with the body that it touches, with 5000 [F]; its supports'
+says falls falls.err 'together under their loads: the loads drive them with 5000 [F], and no contact is in the way; their supports'
 absent falls
 absent alone
 finish

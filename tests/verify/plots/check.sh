@@ -57,6 +57,31 @@ pictures slow mesh contact-1
 says 'not converged' slow/plots/mesh.gp "heading = 'NOT CONVERGED"
 says 'not converged' slow/plots/contact-1.gp "heading = 'NOT CONVERGED"
 
+# joints: on request, with one body, with many, and with none that touches
+joints_of() { # NAME DECK [options]
+   name=$1
+   sed 's/^\*END STEP/*JOINT PRINT\n*END STEP/' "$2" >"$name.inp"
+   shift 2
+   run 0 "$name.inp" "$name" --plot --quiet "$@"
+   if [ "$have_gnuplot" = yes ] && grep -q W-PLOT "$name.err"; then complain "$name: W-PLOT"; fi
+}
+joints_of joints_1 "$input/ex1-plate-on-rigid-support.inp"
+pictures joints_1 mesh joints contact-1
+says 'one body' joints_1/plots/joints.gp 'title "slip"'
+joints_of joints_open "$input/ex1-plate-on-rigid-support.inp" --set q=0
+pictures joints_open mesh joints contact-1
+if grep -q 'line of thrust, n' joints_open/plots/joints.gp; then complain 'a line of thrust without forces'; fi
+awk -v courses=10 -v len=19 -v nu=0.6 -v factor=0.2 -f "$here/../walls/wall.awk" >wall100.inp
+[ "$(grep -c '^\*BLOCK' wall100.inp)" -eq 100 ] || complain 'the wall has not 100 blocks'
+joints_of joints_100 wall100.inp
+pictures joints_100 mesh joints
+absent joints_100/plots/contact-1.gp
+for state in open stick slip; do says 'wall' joints_100/plots/joints.gp "title \"$state\""; done
+says 'wall' joints_100/plots/joints.gp 'line of thrust, n up to'
+run 0 "$ex1" joints_1 --plot --quiet
+absent joints_1/plots/joints.png
+absent joints_1/plots/joints.dat
+
 # odd names: of deck, heading, sets and folder; nothing of them is executed
 odd='it'\''s 100% "$(touch HIT)" `touch HIT` {a_b^c} @x & <tag> \'
 { printf '*HEADING\n%s\n' "$odd \\"; sed '1,2d; s/PLATE$/"P{L_A}^T\\"/; s/ELSET=PLATE,/ELSET="P{L_A}^T\\",/' "$ex1"; } >"$odd.inp"

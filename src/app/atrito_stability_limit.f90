@@ -1,0 +1,363 @@
+!> `atrito limit`: the value of a parameter from which on a scene does not stand.
+!>
+!> What is asked of which value is atrito_stability_search's. The balance of a value needs no stiffness; runs hand their factored
+!> bodies on, so that those that the parameter leaves as they are are factored once.
+module atrito_stability_limit
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_balance_probe, only: probe_balance
+   use atrito_body_store, only: body_store_t
+   use atrito_clp, only: has_clp, clp_trouble
+   use atrito_command_line, only: command_t, output_folder
+   use atrito_console, only: print_messages, print_status
+   use atrito_files, only: check_folder
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_mesh, only: find_node
+   use atrito_messages, only: clear_messages
+   use atrito_model, only: model_t
+   use atrito_page, only: page_t, print_page
+   use atrito_plot_files, only: plot_folder, remove_plots
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: results_t
+   use atrito_run, only: load_model, solve_options, agree_on_outcome
+   use atrito_solve, only: solve_static
+   use atrito_stability_plot, only: write_stability_plots
+   use atrito_stability_range, only: read_range
+   use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
+   use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
+                                      falling_value, balanced_value, STEP_BALANCE, STEP_SOLVE, STEP_DONE, STANDS, FALLS, &
+                                      UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
+   use atrito_stability_tables, only: write_stability, compose_stability
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_table, only: origin_t
+   use atrito_threads, only: set_threads
+   use atrito_timers, only: processor_seconds
+   implicit none (type, external)
+   private
+   public :: run_limit
+
+   integer, parameter :: ALL_DIGITS = 17             !< a value as text gives the same value again
+
+contains
+
+   !> Searches for the limit and writes what came of it.
+   subroutine run_limit(command, code)
+      type(command_t), intent(in) :: command
+      integer, intent(out) :: code                  !< STATUS_NOT_CONVERGED: only an interval wider than the tolerance; others
+      type(stability_t) :: limit
+      type(status_t) :: status
+      type(folder_claim_t) :: claim
+
+      call set_threads(command%threads)
+      limit%tolerance = command%limit_tolerance
+      call read_range(command%vary(1)%s, command%settings, limit%parameter, limit%ends, status)
+      if (is_ok(status) .and. .not. has_clp()) then
+         call set_status(status, STATUS_USAGE, 'limit needs Clp, to prove that a scene falls: '//clp_trouble())
+      end if
+      if (is_ok(status)) call check_folder(output_folder(command), status)
+      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
+      code = status%code
+      if (is_ok(status)) then
+         call find_limit(command, limit, code)
+         call release_folder(claim)
+      else
+         call print_status(status, command%names(1)%s)
+      end if
+   end subroutine run_limit
+
+   subroutine find_limit(command, limit, code)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(inout) :: limit
+      integer, intent(out) :: code
+      type(search_t) :: search
+      type(status_t) :: status
+      type(model_t) :: model
+      integer(lp) :: began, ended, rate
+      integer :: answer
+      real(wp) :: excess
+
+      call system_clock(began, rate)
+      limit%watched = watched_text(command%watched)
+      allocate (limit%values(0))
+      call begin_search(limit%ends(1), limit%ends(2), limit%tolerance, search)
+      call ask_all(command, search, limit, code)
+      if (code /= STATUS_OK) return
+      call judge_search(search, limit, status)
+      if (is_ok(status)) then
+         call load_value(command, limit, limit%falls, .true., model, code)
+         if (code /= STATUS_OK) return
+         call probe_balance(model, answer, excess, status, limit%collapse)
+      end if
+      call system_clock(ended)
+      if (is_ok(status)) call finish(command, model, limit, real(ended - began, wp)/real(rate, wp), status)
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      code = status%code
+      if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
+   end subroutine find_limit
+
+   !> Asks until the search has what it needs. code: of a deck that has errors at a value, and the like; told.
+   subroutine ask_all(command, search, limit, code)
+      type(command_t), intent(in) :: command
+      type(search_t), intent(inout) :: search
+      type(stability_t), intent(inout) :: limit
+      integer, intent(out) :: code
+      type(body_store_t) :: store
+      type(reporter_t) :: reporter
+      type(stability_value_t) :: one
+      real(wp) :: x
+      integer :: step
+
+      reporter%quiet = command%quiet
+      store%keeps = .true.
+      do
+         call next_step(search, x, step)
+         code = STATUS_OK
+         if (step == STEP_DONE) exit
+         call find_value(limit, x, one)
+         if (step == STEP_BALANCE) call ask_balance(command, limit, search, one, code)
+         if (step == STEP_SOLVE) call ask_solution(command, limit, store, search, one, code)
+         if (code /= STATUS_OK) exit
+         call keep_value(one, limit)
+         call report_progress(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text(one))
+      end do
+   end subroutine ask_all
+
+   pure function answer_text(one) result(text)
+      type(stability_value_t), intent(in) :: one
+      character(len=:), allocatable :: text
+
+      select case (one%code)
+      case (STATUS_OK)
+         text = 'stands, displacement '//to_text(one%displacement, 5)//' [L]'
+      case (STATUS_NOT_CONVERGED)
+         text = 'neither a solution nor a proof'
+      case (STATUS_SINGULAR)
+         text = 'falls'
+      case default
+         text = 'the loads can be balanced'
+         if (one%excess /= one%excess) text = 'too near the limit for a proof'
+      end select
+   end function answer_text
+
+   subroutine ask_balance(command, limit, search, one, code)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      type(search_t), intent(inout) :: search
+      type(stability_value_t), intent(inout) :: one
+      integer, intent(out) :: code
+      type(model_t) :: model
+      type(status_t) :: status
+      integer :: answer
+
+      call load_value(command, limit, one%value, size(search%tried) > 0, model, code)
+      if (code /= STATUS_OK) return
+      call probe_balance(model, answer, one%excess, status)
+      code = status%code
+      if (code /= STATUS_OK) then
+         call print_failure(command, limit, one%value, status)
+         return
+      end if
+      call record_balance(search, one%value, answer, one%excess)
+      if (answer == FALLS) one%code = STATUS_SINGULAR
+      if (answer == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine ask_balance
+
+   !> A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved before.
+   subroutine ask_solution(command, limit, store, search, one, code)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      type(body_store_t), intent(inout) :: store
+      type(search_t), intent(inout) :: search
+      type(stability_value_t), intent(inout) :: one
+      integer, intent(out) :: code
+      type(model_t) :: model
+      type(results_t) :: results
+      type(reporter_t) :: reporter
+      type(status_t) :: status
+      integer(ip) :: told
+      logical :: first
+
+      first = all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)
+      call load_value(command, limit, one%value, .true., model, code, told)
+      if (code /= STATUS_OK) return
+      reporter%quiet = .true.
+      call solve_static(model, solve_options(command), reporter, results, status, store)
+      if (is_ok(status)) call agree_on_outcome(status, results)
+      if (status%code /= STATUS_OK .and. status%code /= STATUS_NOT_CONVERGED) then
+         code = status%code
+         call print_failure(command, limit, one%value, status)
+         return
+      end if
+      if (first) call print_messages(command%quiet, told + 1)
+      call watch(model, results, command%watched, one%displacement, status=code)
+      if (code /= STATUS_OK) return
+      one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, is_ok(status))
+      one%iterations = results%outer_iterations
+      one%solves = results%linear_solves
+      one%factorisations = results%factorisations
+      call record_solution(search, one%value, merge(STANDS, UNDECIDED, is_ok(status)))
+   end subroutine ask_solution
+
+   !> The displacement of the curve. status: STATUS_USAGE where there is no such node; told.
+   subroutine watch(model, results, watched, displacement, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: watched(2)          !< node and dof; 0: the largest displacement
+      real(wp), intent(out) :: displacement          !< [L]
+      integer, intent(out) :: status
+      type(status_t) :: error
+      integer(ip) :: node
+
+      status = STATUS_OK
+      displacement = maxval(norm2(results%u, dim=1))
+      if (watched(1) == 0) return
+      node = find_node(model%mesh, watched(1))
+      if (node > 0) then
+         displacement = results%u(watched(2), node)
+         return
+      end if
+      status = STATUS_USAGE
+      call set_status(error, STATUS_USAGE, '--watch '//to_text(watched(1))//','//to_text(watched(2))//': the deck has no node ' &
+                      //to_text(watched(1)))
+      call print_status(error, model%deck_path)
+   end subroutine watch
+
+   pure function watched_text(watched) result(text)
+      integer(ip), intent(in) :: watched(2)
+      character(len=:), allocatable :: text
+
+      text = 'largest displacement'
+      if (watched(1) > 0) text = 'u'//to_text(watched(2))//' of node '//to_text(watched(1))
+   end function watched_text
+
+   !> Reads the deck with a value. Warnings and notes are told the first time; errors whenever there are.
+   subroutine load_value(command, limit, x, silent, model, code, read_so_far)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      real(wp), intent(in) :: x
+      logical, intent(in) :: silent
+      type(model_t), intent(out) :: model
+      integer, intent(out) :: code
+      integer(ip), intent(out), optional :: read_so_far !< messages of the deck
+      type(command_t) :: one
+      type(reporter_t) :: reporter
+      integer(ip) :: told
+
+      one = command
+      reporter%quiet = .true.
+      call append_string(one%settings, limit%parameter//'='//to_text(x, ALL_DIGITS))
+      call clear_messages()
+      call load_model(one, reporter, model, told, code, only_errors=silent)
+      if (present(read_so_far)) read_so_far = told
+   end subroutine load_value
+
+   subroutine print_failure(command, limit, x, status)
+      type(command_t), intent(in) :: command
+      type(stability_t), intent(in) :: limit
+      real(wp), intent(in) :: x
+      type(status_t), intent(in) :: status
+      type(status_t) :: longer
+
+      call print_messages(command%quiet, 1_ip)
+      if (.not. allocated(status%text)) return
+      call set_status(longer, status%code, 'at '//limit%parameter//' = '//to_text(x, ALL_DIGITS)//': '//status%text)
+      call print_status(longer, command%names(1)%s)
+   end subroutine print_failure
+
+   !> What is known of a value so far.
+   pure subroutine find_value(limit, x, one)
+      type(stability_t), intent(in) :: limit
+      real(wp), intent(in) :: x
+      type(stability_value_t), intent(out) :: one
+      integer :: i
+
+      one%value = x
+      one%displacement = ieee_value(1.0_wp, ieee_quiet_nan)
+      do i = 1, size(limit%values)
+         if (abs(limit%values(i)%value - x) <= 0.0_wp) one = limit%values(i)
+      end do
+   end subroutine find_value
+
+   !> Puts it at its place among the others.
+   pure subroutine keep_value(one, limit)
+      type(stability_value_t), intent(in) :: one
+      type(stability_t), intent(inout) :: limit
+
+      limit%values = [pack(limit%values, limit%values%value < one%value), one, &
+                      pack(limit%values, limit%values%value > one%value)]
+   end subroutine keep_value
+
+   !> The bounds. status: STATUS_USAGE where both ends stand or fall, STATUS_NOT_CONVERGED where none is known to stand.
+   subroutine judge_search(search, limit, status)
+      type(search_t), intent(in) :: search
+      type(stability_t), intent(inout) :: limit
+      type(status_t), intent(out) :: status
+      character(len=:), allocatable :: range
+
+      limit%is_close = search%found == FOUND_LIMIT
+      limit%stands = standing_value(search)
+      limit%falls = falling_value(search)
+      limit%balanced = balanced_value(search)
+      range = '--vary '//limit%parameter//'='//to_text(limit%ends(1))//':'//to_text(limit%ends(2))//': '
+      select case (search%found)
+      case (FOUND_LIMIT, FOUND_INTERVAL)
+         return
+      case (BOTH_STAND)
+         call set_status(status, STATUS_USAGE, range//'the scene stands at both, there is no limit to be found between them')
+      case (BOTH_FALL)
+         call set_status(status, STATUS_USAGE, range//'the scene falls at both, one of them should stand; a run with' &
+                         //' one of them tells how it falls')
+      case default
+         call set_status(status, STATUS_NOT_CONVERGED, range//end_text(limit, 1)//', '//end_text(limit, 2) &
+                         //'; one of them should have a solution, the other should fall')
+      end select
+   end subroutine judge_search
+
+   pure function end_text(limit, i) result(text)
+      type(stability_t), intent(in) :: limit
+      integer, intent(in) :: i
+      character(len=:), allocatable :: text
+      type(stability_value_t) :: one
+
+      call find_value(limit, limit%ends(i), one)
+      text = 'at '//to_text(limit%ends(i))//' '
+      select case (one%code)
+      case (STATUS_OK)
+         text = text//'it stands'
+      case (STATUS_SINGULAR)
+         text = text//'it falls'
+      case default
+         text = text//'neither a solution nor a proof that there is none was found'
+      end select
+   end function end_text
+
+   !> Tables, pictures and closing lines. Without --plot the pictures of an earlier run go, for the tables are new.
+   subroutine finish(command, model, limit, seconds, status)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model            !< at the value that falls
+      type(stability_t), intent(in) :: limit
+      real(wp), intent(in) :: seconds
+      type(status_t), intent(out) :: status
+      type(origin_t) :: origin
+      type(page_t) :: page
+      type(string_t), allocatable :: pictures(:)
+
+      associate (deck => command%names(1)%s)
+         origin%deck = deck(index(deck, '/', back=.true.) + 1:)
+         origin%not_converged = .not. limit%is_close
+         allocate (origin%heading(0), pictures(0))
+         call write_stability(output_folder(command), origin, limit, int(command%digits), status)
+         if (.not. is_ok(status)) return
+         call clear_messages()
+         call remove_plots(output_folder(command))
+         if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, pictures)
+         call print_messages(command%quiet, 1_ip)
+         if (command%quiet) return
+         call compose_stability(deck, output_folder(command), limit, [seconds, processor_seconds()], page, pictures)
+         call print_page(page, output_unit)
+      end associate
+   end subroutine finish
+
+end module atrito_stability_limit

@@ -1,0 +1,57 @@
+!> Sorting by whole numbers.
+module atrito_sorting
+   use atrito_kinds, only: ip, lp
+   implicit none (type, external)
+   private
+   public :: sorted_places
+
+contains
+
+   !> The places of some keys in rising order of the keys, equal ones in the order in which they come: a merge sort.
+   pure function sorted_places(key) result(places)
+      integer(lp), intent(in) :: key(:)
+      integer(ip) :: places(size(key))
+      integer(ip), allocatable :: merged(:)
+      integer(ip) :: i, n, length, middle, last
+
+      n = size(key, kind=ip)
+      do i = 1, n
+         places(i) = i
+      end do
+      if (all(key(2:) >= key(:n - 1))) return
+      allocate (merged(n))
+      length = 1
+      do while (length < n)
+         do i = 1, n, 2*length
+            middle = min(i + length - 1, n)
+            last = min(middle + length, n)
+            call merge_runs(key, places(i:middle), places(middle + 1:last), merged(i:last))
+         end do
+         places = merged
+         length = 2*length
+      end do
+   end function sorted_places
+
+   pure subroutine merge_runs(key, left, right, merged)
+      integer(lp), intent(in) :: key(:)
+      integer(ip), intent(in) :: left(:), right(:)   !< sorted
+      integer(ip), intent(out) :: merged(:)
+      integer(ip) :: i, j, k
+      logical :: from_left
+
+      i = 1
+      j = 1
+      do k = 1, size(merged, kind=ip)
+         from_left = j > size(right)
+         if (.not. from_left .and. i <= size(left)) from_left = key(left(i)) <= key(right(j))
+         if (from_left) then
+            merged(k) = left(i)
+            i = i + 1
+         else
+            merged(k) = right(j)
+            j = j + 1
+         end if
+      end do
+   end subroutine merge_runs
+
+end module atrito_sorting

@@ -1,0 +1,77 @@
+!> Bodies that touch each other, directly or through others: the balance of each such group is a question of its own.
+!>
+!> Bodies are given by their rigid motions; one that the supports hold has none and parts the groups. Points whose pressures are
+!> averaged together belong together, since the pressure of one raises the friction of the other.
+module atrito_balance_groups
+   use atrito_contact_line, only: contact_line_t
+   use atrito_kinds, only: ip
+   use atrito_motion_rows, only: motion_rows_t
+   implicit none (type, external)
+   private
+   public :: balance_groups_t, find_groups
+
+   type :: balance_groups_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: of_motion(:)   !< (k) 1 .. n
+      integer(ip), allocatable :: of_point(:)    !< (line%n) 0: no motion, and none of what it is averaged with
+   end type balance_groups_t
+
+contains
+
+   !> Groups in the order of their first motions.
+   pure subroutine find_groups(rows, line, groups)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(balance_groups_t), intent(out) :: groups
+      integer(ip) :: parent(rows%k + line%n), number(rows%k + line%n), i, j, e
+
+      parent = [(i, i=1, rows%k + line%n)]
+      do i = 2, rows%k
+         if (rows%body(i) == rows%body(i - 1)) call join(parent, i, i - 1)
+      end do
+      do i = 1, rows%m
+         do e = rows%first(i), rows%first(i + 1) - 1
+            call join(parent, rows%k + line%point(i), rows%motion(e))
+         end do
+      end do
+      do j = 1, line%n
+         if (line%tangential(j) == 0 .or. line%law(j)%nu <= 0) cycle
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            if (line%average%entry(e) > 0) call join(parent, rows%k + line%average%column(e), rows%k + j)
+         end do
+      end do
+      allocate (groups%of_motion(rows%k), groups%of_point(line%n))
+      number = 0
+      do i = 1, rows%k + line%n
+         e = root(parent, i)
+         if (i <= rows%k .and. number(e) == 0) then
+            groups%n = groups%n + 1
+            number(e) = groups%n
+         end if
+         if (i <= rows%k) groups%of_motion(i) = number(e)
+         if (i > rows%k) groups%of_point(i - rows%k) = number(e)
+      end do
+   end subroutine find_groups
+
+   pure subroutine join(parent, a, b)
+      integer(ip), intent(inout) :: parent(:)
+      integer(ip), intent(in) :: a, b
+      integer(ip) :: ra, rb
+
+      ra = root(parent, a)
+      rb = root(parent, b)
+      parent(max(ra, rb)) = min(ra, rb)
+      parent(a) = min(ra, rb)
+      parent(b) = min(ra, rb)
+   end subroutine join
+
+   pure integer(ip) function root(parent, a) result(r)
+      integer(ip), intent(in) :: parent(:), a
+
+      r = a
+      do while (parent(r) /= r)
+         r = parent(r)
+      end do
+   end function root
+
+end module atrito_balance_groups

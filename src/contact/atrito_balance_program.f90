@@ -1,0 +1,427 @@
+!> The linear programme of the balance of some bodies: forces that the contact can take, and what they leave unbalanced.
+!>
+!>     minimise sum_i y_i   with   |(h - G' q)_i| = y_i S_i,   q_n >= 0,   |q_t,j| <= w_j nu_j sum_k W_jk p_k,   p_k = q_n,k/w_k
+!>
+!> S_i are the sizes of the forces on the motions. The duals of the equations are S_i v_i, v being a motion of at most 1/S_i on
+!> which the loads work more than any such forces, by the least sum (docs/theory/formulation.md, section 10). With least_largest
+!> the largest y_i takes the place of the sum; then sum |S_i v_i| is one, and v is as simple as such a motion can be.
+!>
+!> A point whose friction depends on its own pressure alone has two columns, the edges of its cone; others have one for the
+!> pressure, two for the friction, and a row for the bound. Columns are scaled to a largest entry of one.
+module atrito_balance_program
+   use atrito_contact_line, only: contact_line_t, pressure_of
+   use atrito_growth, only: grow
+   use atrito_kinds, only: ip, lp, wp, HUGE_REAL
+   use atrito_linear_program, only: linear_program_t
+   use atrito_motion_rows, only: motion_rows_t
+   implicit none (type, external)
+   private
+   public :: balance_program_t, build_balance_program, forces_of_columns, motion_of_duals
+
+   type :: balance_program_t
+      type(linear_program_t) :: program
+      integer(ip) :: n_motions = 0               !< rows that are equations of balance: the first ones
+      integer(ip), allocatable :: motion(:)      !< (n_motions) of each
+      real(wp), allocatable :: size(:)           !< (n_motions) S [F]
+      integer(ip) :: n_forces = 0                !< columns that are forces: the first ones
+      integer(ip), allocatable :: force(:, :)    !< (2, n_forces) the unknowns of a column; 0: none
+      real(wp), allocatable :: share(:, :)       !< (2, n_forces) what they are at x = 1 [F]
+   end type balance_program_t
+
+   !> What is added to while the programme grows, column by column.
+   type :: columns_t
+      integer(ip) :: n = 0
+      integer(ip) :: n_entries = 0
+      integer(ip), allocatable :: first(:), row(:), force(:, :)
+      real(wp), allocatable :: entry(:), lower(:), upper(:), cost(:), share(:, :)
+   end type columns_t
+
+   !> How the points take part.
+   type :: point_kinds_t
+      logical, allocatable :: rubs(:)            !< it has friction that works on a motion of the programme
+      logical, allocatable :: is_cone(:)         !< its friction depends on its own unknown pressure, and no other friction on that
+      integer(ip), allocatable :: bound(:)       !< row of its friction bound; 0: none
+      real(wp), allocatable :: known(:)          !< part of sum_k W_jk p_k that is known [F/L^2]
+      real(wp), allocatable :: bound_scale(:)    !< of that row [F]
+   end type point_kinds_t
+
+contains
+
+   !> The programme of the motions with a row, and of the points that touch them.
+   pure subroutine build_balance_program(rows, line, wanted, row_of_motion, scale, least_largest, balance)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: wanted(:)           !< (line%n) points that take part
+      integer(ip), intent(in) :: row_of_motion(:) !< (k) 1, 2, ... in the order of the motions; 0: takes no part
+      real(wp), intent(in) :: scale(:)           !< (k) S [F], > 0 where there is a row
+      logical, intent(in) :: least_largest
+      type(balance_program_t), intent(out) :: balance
+      type(point_kinds_t) :: kinds
+      type(columns_t) :: columns
+      integer(ip) :: i
+
+      balance%motion = pack([(i, i=1, rows%k)], row_of_motion > 0)
+      balance%n_motions = size(balance%motion, kind=ip)
+      balance%size = scale(balance%motion)
+      call sort_points(rows, line, wanted, row_of_motion, balance%n_motions, kinds)
+      call begin_columns(columns)
+      call add_contact_columns(rows, line, wanted, row_of_motion, scale, kinds, columns)
+      balance%n_forces = columns%n
+      balance%force = columns%force(:, :columns%n)
+      balance%share = columns%share(:, :columns%n)
+      call set_rows(rows, line, kinds, least_largest, balance)
+      call add_remainders(balance%n_motions, maxval([0_ip, kinds%bound, balance%n_motions]), least_largest, columns)
+      call take_columns(columns, balance%program)
+   end subroutine build_balance_program
+
+   pure subroutine sort_points(rows, line, wanted, row_of_motion, n_motions, kinds)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: wanted(:)
+      integer(ip), intent(in) :: row_of_motion(:), n_motions
+      type(point_kinds_t), intent(out) :: kinds
+      real(wp) :: known(line%n), nothing(rows%m)
+      integer(ip) :: j, e, n, users(line%n)
+
+      nothing = 0.0_wp
+      known = pressure_of(line, nothing)         ! of the points without an unknown
+      allocate (kinds%rubs(line%n), kinds%is_cone(line%n), source=.false.)
+      allocate (kinds%bound(line%n), source=0_ip)
+      allocate (kinds%known(line%n), source=0.0_wp)
+      allocate (kinds%bound_scale(line%n), source=1.0_wp)
+      users = 0
+      do j = 1, line%n
+         if (.not. wanted(j) .or. line%tangential(j) == 0 .or. line%law(j)%nu <= 0.0_wp) cycle
+         kinds%rubs(j) = works(rows, line%tangential(j), row_of_motion)
+         if (.not. kinds%rubs(j)) cycle
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            associate (k => line%average%column(e))
+               kinds%known(j) = kinds%known(j) + line%average%entry(e)*known(k)
+               if (line%average%entry(e) > 0.0_wp) users(k) = users(k) + 1
+            end associate
+         end do
+      end do
+      n = n_motions
+      do j = 1, line%n
+         if (.not. kinds%rubs(j)) cycle
+         kinds%is_cone(j) = line%normal(j) > 0 .and. users(j) == 1 .and. depends_on_itself(line, j)
+         if (kinds%is_cone(j)) cycle
+         n = n + 1
+         kinds%bound(j) = n
+      end do
+   end subroutine sort_points
+
+   pure logical function works(rows, i, row_of_motion)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: i, row_of_motion(:)
+
+      works = any(row_of_motion(rows%motion(rows%first(i):rows%first(i + 1) - 1)) > 0)
+   end function works
+
+   pure logical function depends_on_itself(line, j)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j
+
+      associate (first => line%average%first(j), last => line%average%first(j + 1) - 1)
+         depends_on_itself = all(line%average%column(first:last) == j .or. line%average%entry(first:last) <= 0.0_wp)
+      end associate
+   end function depends_on_itself
+
+   !> The columns of all points, the friction first: it sets the scales of the rows of its bounds.
+   pure subroutine add_contact_columns(rows, line, wanted, row_of_motion, scale, kinds, columns)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: wanted(:)
+      integer(ip), intent(in) :: row_of_motion(:)
+      real(wp), intent(in) :: scale(:)
+      type(point_kinds_t), intent(inout) :: kinds
+      type(columns_t), intent(inout) :: columns
+      real(wp), allocatable :: pressed(:)
+      integer(ip), allocatable :: first(:), user(:)
+      integer(ip) :: j, side
+
+      do j = 1, line%n
+         if (kinds%bound(j) == 0) cycle
+         do side = -1, 1, 2
+            call begin_column(columns, [line%tangential(j), 0_ip], [real(side, wp), 0.0_wp])
+            call add_row(rows, line%tangential(j), real(side, wp), row_of_motion, scale, columns)
+            call scale_column(columns)
+            kinds%bound_scale(j) = abs(columns%share(1, columns%n))
+            call add_entry(columns, kinds%bound(j), 1.0_wp)
+         end do
+      end do
+      call list_users(line, kinds, first, user, pressed)
+      do j = 1, line%n
+         if (.not. wanted(j) .or. line%normal(j) == 0) cycle
+         if (kinds%is_cone(j)) then
+            call add_cone(rows, line, j, row_of_motion, scale, columns)
+         else if (works(rows, line%normal(j), row_of_motion) .or. first(j + 1) > first(j)) then
+            associate (users => user(first(j):first(j + 1) - 1), added => pressed(first(j):first(j + 1) - 1))
+               call add_pressure(rows, line%normal(j), line%weight(j), row_of_motion, scale, kinds%bound(users), &
+                                 added/kinds%bound_scale(users), columns)
+            end associate
+         end if
+      end do
+   end subroutine add_contact_columns
+
+   !> The two edges of the cone of a point: a pressure with full friction along T and against it.
+   pure subroutine add_cone(rows, line, j, row_of_motion, scale, columns)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j, row_of_motion(:)
+      real(wp), intent(in) :: scale(:)
+      type(columns_t), intent(inout) :: columns
+      real(wp) :: friction
+      integer(ip) :: e, side
+
+      friction = 0.0_wp
+      do e = line%average%first(j), line%average%first(j + 1) - 1
+         if (line%average%column(e) == j) friction = friction + line%law(j)%nu*line%average%entry(e)
+      end do
+      do side = -1, 1, 2
+         call begin_column(columns, [line%normal(j), line%tangential(j)], [1.0_wp, side*friction])
+         call add_row(rows, line%normal(j), 1.0_wp, row_of_motion, scale, columns)
+         call add_row(rows, line%tangential(j), side*friction, row_of_motion, scale, columns)
+         call scale_column(columns)
+      end do
+   end subroutine add_cone
+
+   !> A pressure, with what it adds to friction bounds.
+   pure subroutine add_pressure(rows, i, weight, row_of_motion, scale, bounds, added, columns)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: i               !< its unknown
+      real(wp), intent(in) :: weight             !< [L^2]
+      integer(ip), intent(in) :: row_of_motion(:)
+      real(wp), intent(in) :: scale(:)
+      integer(ip), intent(in) :: bounds(:)       !< rows of the bounds
+      real(wp), intent(in) :: added(:)           !< to each, by a pressure of one [F/L^2]
+      type(columns_t), intent(inout) :: columns
+      integer(ip) :: e
+
+      call begin_column(columns, [i, 0_ip], [1.0_wp, 0.0_wp])
+      call add_row(rows, i, 1.0_wp, row_of_motion, scale, columns)
+      do e = 1, size(bounds, kind=ip)
+         call add_entry(columns, bounds(e), -added(e)/weight)
+      end do
+      call scale_column(columns)
+   end subroutine add_pressure
+
+   !> Whose friction bounds the pressure of a point adds to, and how much.
+   pure subroutine list_users(line, kinds, first, user, pressed)
+      type(contact_line_t), intent(in) :: line
+      type(point_kinds_t), intent(in) :: kinds
+      integer(ip), allocatable, intent(out) :: first(:), user(:)
+      real(wp), allocatable, intent(out) :: pressed(:) !< w_j nu_j W_jk [L^2]
+      integer(ip) :: next(line%n + 1), j, e, k
+
+      next = 0
+      do j = 1, line%n
+         if (kinds%bound(j) == 0) cycle
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            next(line%average%column(e) + 1) = next(line%average%column(e) + 1) + 1
+         end do
+      end do
+      next(1) = 1
+      do k = 1, line%n
+         next(k + 1) = next(k + 1) + next(k)
+      end do
+      first = next
+      allocate (user(next(line%n + 1) - 1), pressed(next(line%n + 1) - 1))
+      do j = 1, line%n
+         if (kinds%bound(j) == 0) cycle
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            k = line%average%column(e)
+            user(next(k)) = j
+            pressed(next(k)) = line%weight(j)*line%law(j)%nu*line%average%entry(e)
+            next(k) = next(k) + 1
+         end do
+      end do
+   end subroutine list_users
+
+   !> Right-hand sides of the balance and of the friction bounds.
+   pure subroutine set_rows(rows, line, kinds, least_largest, balance)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(point_kinds_t), intent(in) :: kinds
+      logical, intent(in) :: least_largest
+      type(balance_program_t), intent(inout) :: balance
+      integer(ip) :: j, n
+
+      n = maxval([0_ip, kinds%bound, balance%n_motions])
+      associate (program => balance%program)
+         program%n_rows = n
+         if (least_largest) program%n_rows = n + balance%n_motions
+         allocate (program%row_lower(program%n_rows), source=-HUGE_REAL)
+         allocate (program%row_upper(program%n_rows), source=0.0_wp)
+         program%row_upper(:balance%n_motions) = rows%work(balance%motion)/balance%size
+         program%row_lower(:balance%n_motions) = program%row_upper(:balance%n_motions)
+         do j = 1, line%n
+            if (kinds%bound(j) == 0) cycle
+            program%row_upper(kinds%bound(j)) = line%weight(j)*line%law(j)%nu*kinds%known(j)/kinds%bound_scale(j)
+         end do
+      end associate
+   end subroutine set_rows
+
+   !> The columns of what is left unbalanced, at a cost each, or below one column that alone has a cost.
+   pure subroutine add_remainders(n_motions, n_rows, least_largest, columns)
+      integer(ip), intent(in) :: n_motions
+      integer(ip), intent(in) :: n_rows          !< without those of least_largest
+      logical, intent(in) :: least_largest
+      type(columns_t), intent(inout) :: columns
+      integer(ip) :: i, side
+
+      do i = 1, n_motions
+         do side = -1, 1, 2
+            call begin_column(columns, [0_ip, 0_ip], [0.0_wp, 0.0_wp])
+            call add_entry(columns, i, real(side, wp))
+            if (least_largest) then
+               call add_entry(columns, n_rows + i, 1.0_wp)
+            else
+               columns%cost(columns%n) = 1.0_wp
+            end if
+         end do
+      end do
+      if (.not. least_largest) return
+      call begin_column(columns, [0_ip, 0_ip], [0.0_wp, 0.0_wp])
+      columns%cost(columns%n) = 1.0_wp
+      do i = 1, n_motions
+         call add_entry(columns, n_rows + i, -1.0_wp)
+      end do
+   end subroutine add_remainders
+
+   pure subroutine begin_columns(columns)
+      type(columns_t), intent(out) :: columns
+      integer(ip), parameter :: SOME = 64_ip
+
+      allocate (columns%first(SOME + 1), columns%row(SOME), columns%force(2, SOME))
+      allocate (columns%entry(SOME), columns%lower(SOME), columns%upper(SOME), columns%cost(SOME), columns%share(2, SOME))
+      columns%first(1) = 1
+   end subroutine begin_columns
+
+   !> One more column, without entries, from zero upwards, at no cost.
+   pure subroutine begin_column(columns, force, share)
+      type(columns_t), intent(inout) :: columns
+      integer(ip), intent(in) :: force(2)
+      real(wp), intent(in) :: share(2)
+
+      if (columns%n == size(columns%cost)) call lengthen(columns)
+      columns%n = columns%n + 1
+      columns%first(columns%n + 1) = columns%first(columns%n)
+      columns%lower(columns%n) = 0.0_wp
+      columns%upper(columns%n) = HUGE_REAL
+      columns%cost(columns%n) = 0.0_wp
+      columns%force(:, columns%n) = force
+      columns%share(:, columns%n) = share
+   end subroutine begin_column
+
+   pure subroutine lengthen(columns)
+      type(columns_t), intent(inout) :: columns
+      integer(ip), allocatable :: force(:, :)
+      real(wp), allocatable :: share(:, :)
+      integer(lp) :: length
+
+      length = 2_lp*columns%n
+      call grow(columns%first, length + 1)
+      call grow(columns%lower, length)
+      call grow(columns%upper, length)
+      call grow(columns%cost, length)
+      allocate (force(2, length), share(2, length))
+      force(:, :columns%n) = columns%force
+      share(:, :columns%n) = columns%share
+      call move_alloc(force, columns%force)
+      call move_alloc(share, columns%share)
+   end subroutine lengthen
+
+   !> Adds a multiple of a row of G, over the sizes of the motions, to the last column.
+   pure subroutine add_row(rows, i, factor, row_of_motion, scale, columns)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: factor
+      integer(ip), intent(in) :: row_of_motion(:)
+      real(wp), intent(in) :: scale(:)
+      type(columns_t), intent(inout) :: columns
+      integer(ip) :: e
+
+      do e = rows%first(i), rows%first(i + 1) - 1
+         if (row_of_motion(rows%motion(e)) == 0) cycle
+         call add_entry(columns, row_of_motion(rows%motion(e)), factor*rows%value(e)/scale(rows%motion(e)))
+      end do
+   end subroutine add_row
+
+   !> Adds to an entry of the last column.
+   pure subroutine add_entry(columns, row, value)
+      type(columns_t), intent(inout) :: columns
+      integer(ip), intent(in) :: row
+      real(wp), intent(in) :: value
+      integer(ip) :: e
+
+      if (value == 0.0_wp) return
+      do e = columns%first(columns%n), columns%n_entries
+         if (columns%row(e) /= row) cycle
+         columns%entry(e) = columns%entry(e) + value
+         return
+      end do
+      if (columns%n_entries == size(columns%row)) then
+         call grow(columns%row, 2_lp*columns%n_entries)
+         call grow(columns%entry, 2_lp*columns%n_entries)
+      end if
+      columns%n_entries = columns%n_entries + 1
+      columns%row(columns%n_entries) = row
+      columns%entry(columns%n_entries) = value
+      columns%first(columns%n + 1) = columns%n_entries + 1
+   end subroutine add_entry
+
+   !> Scales the last column to a largest entry of one, and its forces with it.
+   pure subroutine scale_column(columns)
+      type(columns_t), intent(inout) :: columns
+      real(wp) :: largest
+
+      associate (first => columns%first(columns%n), last => columns%n_entries)
+         if (last < first) return
+         largest = maxval(abs(columns%entry(first:last)))
+         if (largest <= 0.0_wp) return
+         columns%entry(first:last) = columns%entry(first:last)/largest
+         columns%share(:, columns%n) = columns%share(:, columns%n)/largest
+      end associate
+   end subroutine scale_column
+
+   pure subroutine take_columns(columns, program)
+      type(columns_t), intent(in) :: columns
+      type(linear_program_t), intent(inout) :: program
+
+      program%n_columns = columns%n
+      program%first = columns%first(:columns%n + 1)
+      program%row = columns%row(:columns%n_entries)
+      program%entry = columns%entry(:columns%n_entries)
+      program%lower = columns%lower(:columns%n)
+      program%upper = columns%upper(:columns%n)
+      program%objective = columns%cost(:columns%n)
+   end subroutine take_columns
+
+   !> Adds the forces of the columns to q.
+   pure subroutine forces_of_columns(balance, x, q)
+      type(balance_program_t), intent(in) :: balance
+      real(wp), intent(in) :: x(:)               !< (columns)
+      real(wp), intent(inout) :: q(:)            !< (m) [F]
+      integer(ip) :: j, s
+
+      do j = 1, balance%n_forces
+         do s = 1, 2
+            if (balance%force(s, j) == 0) cycle
+            associate (force => q(balance%force(s, j)))
+               force = force + balance%share(s, j)*max(x(j), 0.0_wp)
+            end associate
+         end do
+      end do
+   end subroutine forces_of_columns
+
+   !> Sets the motions of the programme from the duals of its rows; [1/F], of any length that suits.
+   pure subroutine motion_of_duals(balance, dual, v)
+      type(balance_program_t), intent(in) :: balance
+      real(wp), intent(in) :: dual(:)            !< (rows)
+      real(wp), intent(inout) :: v(:)            !< (k)
+
+      v(balance%motion) = dual(:balance%n_motions)/balance%size
+   end subroutine motion_of_duals
+
+end module atrito_balance_program

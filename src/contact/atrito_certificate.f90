@@ -1,0 +1,325 @@
+!> Whether the contact can take the loads of the bodies at all: p >= 0 and |t| <= nu S_rho(p) at every point with G' q = h.
+!>
+!> Where such forces exist, they are given. Where none do, a motion v is given that the loads drive harder than any of them can
+!> resist (the lemma of Farkas): N_k v + (1/w_k) sum_j w_j nu_j W_jk |T_j v| <= 0 at every point k with an unknown pressure, and
+!> h'v above what known pressures can take by friction. Both come from one linear programme a group of bodies that touch, and both
+!> are checked here from the data, whatever its solver said; what passes neither check is undecided.
+module atrito_certificate
+   use atrito_balance_groups, only: balance_groups_t, find_groups
+   use atrito_balance_program, only: balance_program_t, build_balance_program, forces_of_columns, motion_of_duals
+   use atrito_clp, only: solve_linear_program
+   use atrito_contact_line, only: contact_line_t, pressure_of, friction_bound
+   use atrito_kinds, only: ip, wp
+   use atrito_linear_program, only: linear_solution_t, LP_BY_SIMPLEX, LP_BY_BARRIER, LP_OPTIMAL, LP_NOT_AVAILABLE
+   use atrito_motion_rows, only: motion_rows_t, motion_rates, motion_forces
+   implicit none (type, external)
+   private
+   public :: certificate_t, prove_balance, motion_excess, friction_work, forces_balance
+   public :: BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE, BALANCE_UNDECIDED
+
+   integer, parameter :: BALANCE_UNDECIDED = 0, BALANCE_POSSIBLE = 1, BALANCE_IMPOSSIBLE = 2
+
+   type :: certificate_t
+      integer :: verdict = BALANCE_UNDECIDED
+      logical :: solver_missing = .false.        !< undecided because there is no solver of linear programmes
+      real(wp), allocatable :: motion(:)         !< (k) IMPOSSIBLE: v, its fastest amplitude one [L]
+      real(wp) :: excess = 0.0_wp                !< IMPOSSIBLE: what the loads work on v beyond what the contact can take [F L]
+      real(wp), allocatable :: q(:)              !< (m) POSSIBLE: forces that balance the loads [F]
+   end type certificate_t
+
+   real(wp), parameter :: NO_LOAD = 1.0e-13_wp    !< of what was added up: round-off
+   real(wp), parameter :: IN_BALANCE = 1.0e-9_wp    !< remainder over the forces on a motion
+   real(wp), parameter :: OF_BODY = 1.0e-13_wp    !< remainder over the largest force on the body
+   real(wp), parameter :: CLEAR = 1.0e-9_wp       !< excess over the loads' work
+   real(wp), parameter :: MANY_TIMES = 1.0e4_wp   !< larger forces than those of the bodies' size, times this, are none
+   real(wp), parameter :: NO_MOTION = 1.0e-9_wp   !< of the largest, scaled by forces
+   integer(ip), parameter :: MOST_PASSES = 3_ip
+   integer(ip), parameter :: MANY_MOTIONS = 500_ip !< from here on interior points are faster than simplex steps
+
+contains
+
+   !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
+   subroutine prove_balance(rows, line, certificate)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(certificate_t), intent(out) :: certificate
+      type(certificate_t) :: own
+      type(balance_groups_t) :: groups
+      real(wp) :: worst, part
+      integer(ip) :: g
+
+      call find_groups(rows, line, groups)
+      allocate (certificate%motion(rows%k), certificate%q(rows%m), source=0.0_wp)
+      certificate%verdict = BALANCE_POSSIBLE
+      worst = 0.0_wp
+      do g = 1, groups%n
+         if (is_unloaded(rows, groups%of_motion == g)) cycle
+         call judge_group(rows, line, groups%of_motion == g, groups%of_point == g, own)
+         certificate%solver_missing = certificate%solver_missing .or. own%solver_missing
+         select case (own%verdict)
+         case (BALANCE_IMPOSSIBLE)
+            part = own%excess/dot_product(abs(own%motion), rows%work_size)
+            if (part > worst) then
+               worst = part
+               certificate%motion = own%motion
+               certificate%excess = own%excess
+            end if
+            certificate%verdict = BALANCE_IMPOSSIBLE
+         case (BALANCE_POSSIBLE)
+            certificate%q = certificate%q + own%q
+         case default
+            if (certificate%verdict == BALANCE_POSSIBLE) certificate%verdict = BALANCE_UNDECIDED
+         end select
+      end do
+   end subroutine prove_balance
+
+   !> A group whose loads are the round-off of what cancelled in them rests, without any force.
+   pure logical function is_unloaded(rows, member)
+      type(motion_rows_t), intent(in) :: rows
+      logical, intent(in) :: member(:)
+
+      is_unloaded = all(abs(rows%work) <= NO_LOAD*rows%work_size .or. .not. member)
+   end function is_unloaded
+
+   !> Sizes of forces differ from body to body by any factor. The first pass measures all by the largest load of the group, the next
+   !> ones each motion by the forces that the pass before found on it.
+   subroutine judge_group(rows, line, member, touched, certificate)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: member(:)           !< (k)
+      logical, intent(in) :: touched(:)          !< (line%n)
+      type(certificate_t), intent(out) :: certificate
+      real(wp) :: scale(rows%k), body_force(rows%k)
+      logical :: solved
+      integer(ip) :: pass
+
+      scale = 0.0_wp
+      where (member) scale = maxval(rows%work_size, mask=member)
+      do pass = 1, MOST_PASSES
+         call try_scale(rows, line, member, touched, scale, certificate, solved)
+         if (certificate%verdict /= BALANCE_UNDECIDED .or. .not. solved) exit
+         call measure_forces(rows, certificate%q, member, scale, body_force)
+      end do
+      if (certificate%verdict /= BALANCE_IMPOSSIBLE) return
+      call measure_forces(rows, certificate%q, member, scale, body_force)
+      call simplify_motion(rows, line, touched, scale, certificate)
+      certificate%excess = certificate%excess/maxval(abs(certificate%motion))
+      certificate%motion = certificate%motion/maxval(abs(certificate%motion))
+   end subroutine judge_group
+
+   !> One linear programme, and what its two answers are worth.
+   subroutine try_scale(rows, line, member, touched, scale, certificate, solved)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: member(:), touched(:)
+      real(wp), intent(in) :: scale(:)
+      type(certificate_t), intent(inout) :: certificate
+      logical, intent(out) :: solved
+      real(wp) :: v(rows%k), q(rows%m), sizes(rows%k), body_force(rows%k)
+
+      call solve_balance(rows, line, member, touched, scale, .false., q, v, certificate%solver_missing, solved)
+      if (.not. solved) return
+      certificate%q = q
+      if (forces_balance(rows, line, q, member)) then
+         certificate%verdict = BALANCE_POSSIBLE
+         return
+      end if
+      sizes = scale
+      call measure_forces(rows, q, member, sizes, body_force)
+      call accept_motion(rows, line, body_force, scale, v, certificate)
+   end subroutine try_scale
+
+   !> Takes a motion that proves it, without its smallest parts where it does so without them.
+   subroutine accept_motion(rows, line, body_force, scale, v, certificate)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: body_force(:), scale(:)
+      real(wp), intent(in) :: v(:)
+      type(certificate_t), intent(inout) :: certificate
+      real(wp) :: clean(rows%k), excess
+      logical :: proven
+
+      clean = v
+      where (abs(v)*scale <= NO_MOTION*maxval(abs(v)*scale)) clean = 0.0_wp
+      call motion_excess(rows, line, body_force, clean, excess, proven)
+      if (.not. proven) then
+         clean = v
+         call motion_excess(rows, line, body_force, clean, excess, proven)
+      end if
+      if (.not. proven) return
+      certificate%verdict = BALANCE_IMPOSSIBLE
+      certificate%motion = clean
+      certificate%excess = excess
+   end subroutine accept_motion
+
+   !> A simpler motion of the same bodies, and of those that it needs, where one proves it as well.
+   subroutine simplify_motion(rows, line, touched, scale, certificate)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: touched(:)
+      real(wp), intent(in) :: scale(:)
+      type(certificate_t), intent(inout) :: certificate
+      real(wp) :: v(rows%k), q(rows%m), sizes(rows%k), body_force(rows%k)
+      logical :: moves(rows%k), solved, missing
+
+      moves = abs(certificate%motion) > 0.0_wp
+      call solve_balance(rows, line, moves, touched, scale, .true., q, v, missing, solved)
+      if (.not. solved) return
+      sizes = scale
+      call measure_forces(rows, certificate%q, scale > 0.0_wp, sizes, body_force)
+      call accept_motion(rows, line, body_force, scale, v, certificate)
+   end subroutine simplify_motion
+
+   subroutine solve_balance(rows, line, member, touched, scale, least_largest, q, v, missing, solved)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: member(:), touched(:)
+      real(wp), intent(in) :: scale(:)
+      logical, intent(in) :: least_largest
+      real(wp), intent(out) :: q(:), v(:)
+      logical, intent(out) :: missing, solved
+      type(balance_program_t) :: balance
+      type(linear_solution_t) :: solution
+      integer(ip) :: row_of_motion(rows%k), i, n
+
+      row_of_motion = 0
+      n = 0
+      do i = 1, rows%k
+         if (.not. member(i)) cycle
+         n = n + 1
+         row_of_motion(i) = n
+      end do
+      call build_balance_program(rows, line, touched, row_of_motion, scale, least_largest, balance)
+      call solve_linear_program(balance%program, method_for(n, least_largest), solution)
+      if (solution%status /= LP_OPTIMAL .and. n > MANY_MOTIONS) call solve_linear_program(balance%program, LP_BY_SIMPLEX, solution)
+      missing = solution%status == LP_NOT_AVAILABLE
+      solved = solution%status == LP_OPTIMAL
+      q = 0.0_wp
+      v = 0.0_wp
+      if (.not. solved) return
+      call forces_of_columns(balance, solution%x, q)
+      call motion_of_duals(balance, solution%dual, v)
+   end subroutine solve_balance
+
+   !> Measured on walls of 100 to 1,000 blocks: simplex steps are slow for the sum (most for loads far beyond the limit), interior
+   !> points for the largest.
+   pure integer function method_for(n, least_largest) result(method)
+      integer(ip), intent(in) :: n
+      logical, intent(in) :: least_largest
+
+      method = LP_BY_SIMPLEX
+      if (n > MANY_MOTIONS .and. .not. least_largest) method = LP_BY_BARRIER
+   end function method_for
+
+   !> The sizes of the forces on each motion of a group, and on its body [F].
+   pure subroutine measure_forces(rows, q, member, scale, body_force)
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: q(:)
+      logical, intent(in) :: member(:)
+      real(wp), intent(inout) :: scale(:)        !< of bodies without a force but round-off: the least load of the group
+      real(wp), intent(out) :: body_force(:)
+      real(wp) :: sizes(rows%k), least, largest
+      integer(ip) :: i, first, last
+
+      sizes = rows%work_size + motion_forces(rows, q, .true.)
+      least = 0.0_wp
+      if (any(member .and. rows%work_size > 0.0_wp)) least = minval(rows%work_size, mask=member .and. rows%work_size > 0.0_wp)
+      largest = maxval(sizes, mask=member)
+      first = 1
+      do while (first <= rows%k)
+         last = first
+         do while (last < rows%k)
+            if (rows%body(last + 1) /= rows%body(first)) exit
+            last = last + 1
+         end do
+         body_force(first:last) = maxval(sizes(first:last))
+         if (all(rows%work_size(first:last) <= 0.0_wp) .and. body_force(first) <= OF_BODY*largest) body_force(first:last) = least
+         first = last + 1
+      end do
+      do i = 1, rows%k
+         if (.not. member(i)) cycle
+         scale(i) = sizes(i)
+         if (sizes(i) <= OF_BODY*body_force(i)) scale(i) = body_force(i)
+      end do
+   end subroutine measure_forces
+
+   !> How much more the loads work on a motion than any admissible forces can take. proven: by far more than round-off, and than all
+   !> forces could take that are MANY_TIMES as large as those on the bodies, at the points where round-off lets v resist them.
+   subroutine motion_excess(rows, line, body_force, v, excess, proven)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: body_force(:)      !< (k) size of the forces on the body of each motion [F]
+      real(wp), intent(in) :: v(:)               !< (k) [L]
+      real(wp), intent(out) :: excess            !< [F L]
+      logical, intent(out) :: proven
+      real(wp) :: rate(rows%m), by_friction(line%n), known_work, work_size, taken, resisted
+      integer(ip) :: i
+
+      rate = motion_rates(rows, v, .false.)
+      call friction_work(line, rate, by_friction, known_work)
+      excess = dot_product(rows%work, v) - known_work
+      work_size = dot_product(rows%work_size, abs(v)) + known_work
+      taken = 0.0_wp
+      do i = 1, rows%m
+         if (line%normal(line%point(i)) /= i) cycle
+         resisted = rate(i) + by_friction(line%point(i))
+         if (resisted <= 0.0_wp) cycle
+         if (rows%first(i + 1) > rows%first(i)) then
+            taken = taken + resisted*minval(body_force(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
+         else
+            taken = taken + resisted*maxval(body_force)      ! its pressure only raises the friction of others
+         end if
+      end do
+      proven = excess > CLEAR*work_size .and. excess > MANY_TIMES*taken
+   end subroutine motion_excess
+
+   !> What a unit of each pressure force takes by friction, at its own point and where it is averaged; and what known ones take.
+   pure subroutine friction_work(line, rate, by_friction, known_work)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: rate(:)            !< (m) G v [L]
+      real(wp), intent(out) :: by_friction(:)    !< (n) [L]
+      real(wp), intent(out) :: known_work        !< [F L]
+      real(wp) :: p(line%n), nothing(size(rate))
+      integer(ip) :: j, e
+
+      nothing = 0.0_wp
+      p = pressure_of(line, nothing)
+      by_friction = 0.0_wp
+      known_work = 0.0_wp
+      do j = 1, line%n
+         if (line%tangential(j) == 0) cycle
+         do e = line%average%first(j), line%average%first(j + 1) - 1
+            associate (k => line%average%column(e), &
+                       rubbed => line%weight(j)*line%law(j)%nu*line%average%entry(e)*abs(rate(line%tangential(j))))
+               by_friction(k) = by_friction(k) + rubbed/line%weight(k)
+               known_work = known_work + rubbed*p(k)
+            end associate
+         end do
+      end do
+   end subroutine friction_work
+
+   !> Whether forces are admissible and leave nothing on the motions of some bodies, but for round-off of what is added up.
+   function forces_balance(rows, line, q, member) result(balanced)
+      type(motion_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: q(:)               !< (m) [F]
+      logical, intent(in) :: member(:)           !< (k)
+      logical :: balanced
+      real(wp) :: p(line%n), tau(line%n), remainder(rows%k), sizes(rows%k), scale(rows%k), body_force(rows%k)
+      integer(ip) :: j
+
+      p = pressure_of(line, q)
+      balanced = all(p >= 0.0_wp)
+      tau = friction_bound(line, p)
+      do j = 1, line%n
+         if (line%tangential(j) == 0) cycle
+         balanced = balanced .and. abs(q(line%tangential(j))) <= tau(j)*line%weight(j)*(1.0_wp + IN_BALANCE)
+      end do
+      remainder = abs(rows%work - motion_forces(rows, q, .false.))
+      sizes = rows%work_size + motion_forces(rows, q, .true.)
+      scale = sizes
+      call measure_forces(rows, q, member, scale, body_force)
+      balanced = balanced .and. all(remainder <= IN_BALANCE*sizes + OF_BODY*body_force .or. .not. member)
+   end function forces_balance
+
+end module atrito_certificate

@@ -1,0 +1,292 @@
+!> The rows of the contact constraints over displacement dofs, and which of them can depend on each other.
+!>
+!> A row is what an unknown contact force does: B' q are the forces on the dofs. Forces with the same B' q move the bodies alike, so
+!> where rows depend on each other the forces are not unique. A point whose rows are independent on the dofs that no other point
+!> touches takes no part in any dependence; once it is set aside, others may be alone with theirs. What is left when that ends falls
+!> into components that share no dof. All of it is linear in the number of entries.
+module atrito_constraint_rows
+   use atrito_kinds, only: ip, lp, wp
+   implicit none (type, external)
+   private
+   public :: constraint_rows_t, list_components, multiply_rows, add_transposed
+
+   !> Rows by their entries: those of row i are first(i) .. first(i+1)-1.
+   type :: constraint_rows_t
+      integer(ip) :: n = 0                       !< rows
+      integer(ip) :: n_columns = 0               !< dofs
+      integer(ip), allocatable :: first(:)       !< (n + 1)
+      integer(ip), allocatable :: column(:)      !< dofs
+      real(wp), allocatable :: value(:)
+      integer(ip), allocatable :: point(:)       !< (n) 1.., the point of each row: one or two rows have the same
+   end type constraint_rows_t
+
+   !> Who touches the dofs: the number of points, and the sum of their numbers, which names the last one.
+   type :: touches_t
+      integer(ip), allocatable :: count(:)       !< (columns)
+      integer(lp), allocatable :: sum(:)         !< (columns)
+   end type touches_t
+
+   integer(ip), parameter :: MOST_OF_POINT = 2   !< rows
+   real(wp), parameter :: INDEPENDENT = 1.0e-6_wp !< part of a row on dofs of its own that makes it independent of other points
+
+contains
+
+   !> y = B x, and the sums of the sizes of its terms.
+   pure subroutine multiply_rows(rows, x, y, sizes)
+      type(constraint_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: x(:)               !< (n_columns) [L]
+      real(wp), intent(out) :: y(:)              !< (n) [L]
+      real(wp), intent(out), optional :: sizes(:) !< (n) |B| |x| [L]
+      integer(ip) :: i, k
+
+      do i = 1, rows%n
+         y(i) = 0.0_wp
+         do k = rows%first(i), rows%first(i + 1) - 1
+            y(i) = y(i) + rows%value(k)*x(rows%column(k))
+         end do
+      end do
+      if (.not. present(sizes)) return
+      do i = 1, rows%n
+         sizes(i) = 0.0_wp
+         do k = rows%first(i), rows%first(i + 1) - 1
+            sizes(i) = sizes(i) + abs(rows%value(k)*x(rows%column(k)))
+         end do
+      end do
+   end subroutine multiply_rows
+
+   !> y <- y + factor B' q.
+   pure subroutine add_transposed(rows, factor, q, y)
+      type(constraint_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: factor
+      real(wp), intent(in) :: q(:)               !< (n) [F]
+      real(wp), intent(inout) :: y(:)            !< (n_columns) [F]
+      integer(ip) :: i, k
+
+      do i = 1, rows%n
+         if (q(i) == 0.0_wp) cycle
+         do k = rows%first(i), rows%first(i + 1) - 1
+            y(rows%column(k)) = y(rows%column(k)) + factor*(rows%value(k)*q(i))
+         end do
+      end do
+   end subroutine add_transposed
+
+   !> Components of the rows that may depend on each other; rows outside `used` do not count.
+   subroutine list_components(rows, used, first, member)
+      type(constraint_rows_t), intent(in) :: rows
+      logical, intent(in) :: used(:)             !< (n)
+      integer(ip), allocatable, intent(out) :: first(:)    !< (components + 1)
+      integer(ip), allocatable, intent(out) :: member(:)   !< rows; those of component i are first(i) .. first(i+1)-1
+      integer(ip), allocatable :: rows_of(:, :)
+      logical, allocatable :: waits(:)
+
+      call list_rows_of_points(rows, used, rows_of)
+      waits = rows_of(1, :) > 0
+      call set_aside(rows, rows_of, waits)
+      call group(rows, rows_of, waits, first, member)
+   end subroutine list_components
+
+   pure subroutine list_rows_of_points(rows, used, rows_of)
+      type(constraint_rows_t), intent(in) :: rows
+      logical, intent(in) :: used(:)
+      integer(ip), allocatable, intent(out) :: rows_of(:, :) !< (MOST_OF_POINT, points); 0: none
+      integer(ip) :: i
+
+      allocate (rows_of(MOST_OF_POINT, maxval([rows%point, 0_ip])), source=0_ip)
+      do i = 1, rows%n
+         if (.not. used(i)) cycle
+         if (rows_of(1, rows%point(i)) == 0) then
+            rows_of(1, rows%point(i)) = i
+         else
+            rows_of(2, rows%point(i)) = i
+         end if
+      end do
+   end subroutine list_rows_of_points
+
+   !> Takes out the points that dofs of their own make independent, until there is none.
+   subroutine set_aside(rows, rows_of, waits)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: rows_of(:, :)
+      logical, intent(inout) :: waits(:)         !< (points) in: points with rows; out: those that may depend on others
+      type(touches_t) :: touches
+      integer(ip), allocatable :: queue(:), dofs(:)
+      logical :: queued(size(waits))
+      integer(ip) :: j, k, head, tail            !< head and tail: taken out and put in so far
+
+      call count_touches(rows, rows_of, waits, touches)
+      queue = pack([(j, j=1, size(waits, kind=ip))], waits) ! a ring: a point is in it once at most
+      queued = waits
+      head = 0
+      tail = size(queue, kind=ip)
+      do while (tail > head)
+         head = head + 1
+         j = queue(place_in_ring(head, size(queue, kind=ip)))
+         queued(j) = .false.
+         if (.not. waits(j)) cycle
+         dofs = dofs_of_point(rows, rows_of(:, j))
+         if (.not. stands_alone(rows, rows_of(:, j), touches)) cycle
+         waits(j) = .false.
+         do k = 1, size(dofs, kind=ip)
+            touches%count(dofs(k)) = touches%count(dofs(k)) - 1
+            touches%sum(dofs(k)) = touches%sum(dofs(k)) - j
+            if (touches%count(dofs(k)) /= 1) cycle
+            associate (last => int(touches%sum(dofs(k)), ip))
+               if (queued(last)) cycle
+               tail = tail + 1
+               queue(place_in_ring(tail, size(queue, kind=ip))) = last
+               queued(last) = .true.
+            end associate
+         end do
+      end do
+   end subroutine set_aside
+
+   pure integer(ip) function place_in_ring(k, n)
+      integer(ip), intent(in) :: k, n
+
+      place_in_ring = mod(k - 1, n) + 1
+   end function place_in_ring
+
+   pure subroutine count_touches(rows, rows_of, waits, touches)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: rows_of(:, :)
+      logical, intent(in) :: waits(:)
+      type(touches_t), intent(out) :: touches
+      integer(ip) :: j
+
+      allocate (touches%count(rows%n_columns), source=0_ip)
+      allocate (touches%sum(rows%n_columns), source=0_lp)
+      do j = 1, size(waits, kind=ip)
+         if (.not. waits(j)) cycle
+         associate (dofs => dofs_of_point(rows, rows_of(:, j)))
+            touches%count(dofs) = touches%count(dofs) + 1
+            touches%sum(dofs) = touches%sum(dofs) + j
+         end associate
+      end do
+   end subroutine count_touches
+
+   !> The dofs of a point's rows, each once.
+   pure function dofs_of_point(rows, own) result(dofs)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: own(:)
+      integer(ip), allocatable :: dofs(:)
+      integer(ip) :: i, k
+
+      allocate (dofs(0))
+      do i = 1, MOST_OF_POINT
+         if (own(i) == 0) cycle
+         do k = rows%first(own(i)), rows%first(own(i) + 1) - 1
+            if (.not. any(dofs == rows%column(k))) dofs = [dofs, rows%column(k)]
+         end do
+      end do
+   end function dofs_of_point
+
+   !> Whether a point's rows are independent on the dofs that it alone touches.
+   pure logical function stands_alone(rows, own, touches)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: own(:)
+      type(touches_t), intent(in) :: touches
+      integer(ip), allocatable :: dofs(:)
+      real(wp), allocatable :: a(:), b(:)
+      real(wp) :: whole
+
+      dofs = dofs_of_point(rows, own)
+      dofs = pack(dofs, touches%count(dofs) == 1)
+      call spread_row(rows, own(1), dofs, a, whole)
+      stands_alone = norm2(a) > INDEPENDENT*whole
+      if (.not. stands_alone .or. own(2) == 0) return
+      a = a/norm2(a)
+      call spread_row(rows, own(2), dofs, b, whole)
+      stands_alone = norm2(b - dot_product(a, b)*a) > INDEPENDENT*whole
+   end function stands_alone
+
+   !> A row on some dofs, and its length on all.
+   pure subroutine spread_row(rows, i, dofs, a, whole)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: i, dofs(:)
+      real(wp), allocatable, intent(out) :: a(:)
+      real(wp), intent(out) :: whole
+      integer(ip) :: k
+
+      allocate (a(size(dofs)), source=0.0_wp)
+      do k = rows%first(i), rows%first(i + 1) - 1
+         where (dofs == rows%column(k)) a = a + rows%value(k)
+      end do
+      whole = norm2(rows%value(rows%first(i):rows%first(i + 1) - 1))
+   end subroutine spread_row
+
+   !> Lists the rows of the points that are left by what shares dofs, in their order.
+   subroutine group(rows, rows_of, waits, first, member)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: rows_of(:, :)
+      logical, intent(in) :: waits(:)
+      integer(ip), allocatable, intent(out) :: first(:), member(:)
+      integer(ip), allocatable :: root(:), number(:), next(:)
+      integer(ip) :: j, k, n
+
+      call join_points(rows, rows_of, waits, root)
+      allocate (number(size(waits)), source=0_ip)
+      n = 0
+      do j = 1, size(waits, kind=ip)
+         if (.not. waits(j)) cycle
+         if (number(root(j)) == 0) then
+            n = n + 1
+            number(root(j)) = n
+         end if
+      end do
+      allocate (first(n + 1), source=0_ip)
+      do j = 1, size(waits, kind=ip)
+         if (waits(j)) first(number(root(j)) + 1) = first(number(root(j)) + 1) + count(rows_of(:, j) > 0, kind=ip)
+      end do
+      first(1) = 1
+      do k = 1, n
+         first(k + 1) = first(k + 1) + first(k)
+      end do
+      next = first
+      allocate (member(first(n + 1) - 1))
+      do j = 1, size(waits, kind=ip)
+         if (.not. waits(j)) cycle
+         associate (own => pack(rows_of(:, j), rows_of(:, j) > 0), at => next(number(root(j))))
+            member(at:at + size(own, kind=ip) - 1) = own
+            at = at + size(own, kind=ip)
+         end associate
+      end do
+   end subroutine group
+
+   !> A common root for all points that shared dofs lead to.
+   subroutine join_points(rows, rows_of, waits, root)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: rows_of(:, :)
+      logical, intent(in) :: waits(:)
+      integer(ip), allocatable, intent(out) :: root(:)
+      integer(ip), allocatable :: holder(:), dofs(:)
+      integer(ip) :: j, k, a, b
+
+      root = [(j, j=1, size(waits, kind=ip))]
+      allocate (holder(rows%n_columns), source=0_ip)
+      do j = 1, size(waits, kind=ip)
+         if (.not. waits(j)) cycle
+         dofs = dofs_of_point(rows, rows_of(:, j))
+         do k = 1, size(dofs, kind=ip)
+            if (holder(dofs(k)) == 0) then
+               holder(dofs(k)) = j
+            else
+               a = root_of(root, holder(dofs(k)))
+               b = root_of(root, j)
+               root(max(a, b)) = min(a, b)
+            end if
+         end do
+      end do
+      do j = 1, size(root, kind=ip)
+         root(j) = root_of(root, j)
+      end do
+   end subroutine join_points
+
+   pure integer(ip) function root_of(root, j)
+      integer(ip), intent(in) :: root(:), j
+
+      root_of = j
+      do while (root(root_of) /= root_of)
+         root_of = root(root_of)
+      end do
+   end function root_of
+
+end module atrito_constraint_rows

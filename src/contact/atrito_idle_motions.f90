@@ -1,0 +1,178 @@
+!> Motions that nothing holds and no load drives, on the sparse form of the bodies.
+!>
+!> With the states of a solution, one step of the proximal method leaves such a motion as it is and takes all others to less than a
+!> millionth: a <- H^-1 (kappa a), H the matrix that was factored last. So a vector without pattern becomes an idle motion, or
+!> nothing. Of the displacements that differ by idle motions those are given whose relative displacements at the points are least.
+module atrito_idle_motions
+   use atrito_box_problem, only: box_bounds_t, box_state_t, FREE
+   use atrito_constraint_rows, only: multiply_rows, add_transposed
+   use atrito_contact_system, only: contact_system_t
+   use atrito_dense, only: least_squares
+   use atrito_kinds, only: ip, wp
+   use atrito_multiplier_step, only: multiplier_t, set_forces
+   implicit none (type, external)
+   private
+   public :: settle_idle_motions
+
+   integer(ip), parameter :: MOST_IDLE = 6_ip    !< motions that are looked for
+   real(wp), parameter :: NO_PART = 1.0e-3_wp    !< of a vector that is left of it without idle motion
+   real(wp), parameter :: STAYS = 0.999_wp       !< of an idle motion without its round-off
+   real(wp), parameter :: STAYS_PUT = 1.0e-9_wp  !< of a row in a motion of size one
+   real(wp), parameter :: DEPENDENT = 1.0e-8_wp
+
+contains
+
+   !> Takes the least motion, unless points would penetrate. idle: one of the motions, (k); not allocated when there is none.
+   subroutine settle_idle_motions(system, bounds, n_normal, multipliers, state, idle)
+      class(contact_system_t), intent(in) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      integer(ip), intent(in) :: n_normal
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      real(wp), allocatable, intent(out) :: idle(:)
+      real(wp), allocatable :: basis(:, :)
+      type(multiplier_t) :: least
+      type(box_state_t) :: least_state
+
+      call find_idle_motions(system, multipliers, basis)
+      if (size(basis, 2) == 0) return
+      idle = simplest(basis(system%n - system%k + 1:, :))
+      least = multipliers
+      least_state = state
+      call reduce_motion(system, basis, least%x)
+      call set_forces(system, bounds, least, least_state)
+      if (any(least_state%r(:n_normal) > least%noise(:n_normal)*(bounds%d(:n_normal) + least%r*system%flexibility(:n_normal)) &
+              .and. state%state(:n_normal) /= FREE)) return
+      multipliers = least
+      state%a = least_state%a
+      where (state%state /= FREE) state%r = least_state%r
+   end subroutine settle_idle_motions
+
+   !> basis: (n, motions), their amplitudes orthonormal; the displacements in them are round-off.
+   subroutine find_idle_motions(system, multipliers, basis)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), allocatable, intent(out) :: basis(:, :)
+      real(wp) :: v(system%n), before
+      real(wp), allocatable :: found(:, :)
+      integer(ip) :: n, i
+
+      allocate (found(system%n, min(MOST_IDLE, system%k)))
+      n = 0
+      associate (first => system%n - system%k + 1)
+         do i = 1, size(found, 2, kind=ip)
+            v = 0.0_wp
+            v(first:) = without_pattern(system%k, i)
+            call orthogonalise(found(first:, :n), v(first:))
+            before = norm2(v)
+            call apply_step(system, multipliers, v)
+            call apply_step(system, multipliers, v)
+            call orthogonalise(found(first:, :n), v(first:))
+            if (norm2(v(first:)) <= NO_PART*before) exit
+            before = norm2(v(first:))
+            call take_out_held(system, multipliers, v)
+            if (norm2(v(first:)) <= STAYS*before) exit
+            n = n + 1
+            found(:, n) = v/norm2(v(first:))
+         end do
+      end associate
+      basis = found(:, :n)
+   end subroutine find_idle_motions
+
+   !> An idle motion strains nothing: what strain there is is round-off of the step, and is taken out.
+   subroutine take_out_held(system, multipliers, v)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(inout) :: v(:)
+      real(wp) :: force(system%n), relative(system%rows%n)
+      integer(ip) :: i
+
+      do i = 1, 2
+         call system%multiply(v, force)
+         call multiply_rows(system%rows, v, relative)
+         call add_transposed(system%rows, 1.0_wp, multipliers%stiffness*relative, force)
+         call system%solve(force)
+         v = v - force
+      end do
+   end subroutine take_out_held
+
+   !> The motion of the space with the fewest amplitudes, those that come first: the basis reduced by columns.
+   pure function simplest(basis) result(motion)
+      real(wp), intent(in) :: basis(:, :)
+      real(wp) :: motion(size(basis, 1))
+      real(wp) :: reduced(size(basis, 1), size(basis, 2)), column(size(basis, 1))
+      real(wp), parameter :: ROUND_OFF = 1.0e-6_wp
+      integer(ip) :: row, j, k, pivot
+
+      reduced = basis
+      k = 0
+      do row = 1, size(basis, 1, kind=ip)
+         if (k == size(basis, 2)) exit
+         pivot = k + maxloc(abs(reduced(row, k + 1:)), dim=1, kind=ip)
+         if (abs(reduced(row, pivot)) < ROUND_OFF) cycle
+         k = k + 1
+         column = reduced(:, pivot)/reduced(row, pivot)
+         reduced(:, pivot) = reduced(:, k)
+         reduced(:, k) = column
+         do j = 1, size(basis, 2, kind=ip)
+            if (j /= k) reduced(:, j) = reduced(:, j) - column*reduced(row, j)
+         end do
+      end do
+      motion = reduced(:, 1)
+      where (abs(motion) < ROUND_OFF*maxval(abs(motion))) motion = 0.0_wp
+   end function simplest
+
+   !> Numbers between -1/2 and 1/2 with no relation to the bodies.
+   pure function without_pattern(n, seed) result(v)
+      integer(ip), intent(in) :: n, seed
+      real(wp) :: v(n)
+      real(wp), parameter :: GOLDEN = 0.6180339887498949_wp
+      integer(ip) :: i
+
+      v = [(modulo(GOLDEN*real(i*(i + 2*seed), wp), 1.0_wp) - 0.5_wp, i=1, n)]
+   end function without_pattern
+
+   pure subroutine orthogonalise(basis, v)
+      real(wp), intent(in) :: basis(:, :)
+      real(wp), intent(inout) :: v(:)
+      integer(ip) :: j
+
+      do j = 1, size(basis, 2, kind=ip)
+         v = v - dot_product(basis(:, j), v)*basis(:, j)
+      end do
+   end subroutine orthogonalise
+
+   !> a <- H^-1 (kappa a), with the displacements that go with it.
+   subroutine apply_step(system, multipliers, v)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(inout) :: v(:)
+
+      associate (n_displacements => system%n - system%k)
+         v(:n_displacements) = 0.0_wp
+         v(n_displacements + 1:) = multipliers%pull*v(n_displacements + 1:)
+      end associate
+      call system%solve(v)
+   end subroutine apply_step
+
+   !> Least squares of B x over the idle motions; those that no row sees get the amplitude zero.
+   subroutine reduce_motion(system, basis, x)
+      class(contact_system_t), intent(in) :: system
+      real(wp), intent(in) :: basis(:, :)
+      real(wp), intent(inout) :: x(:)
+      real(wp) :: moved(system%rows%n, size(basis, 2)), relative(system%rows%n), amplitude(size(basis, 2))
+      integer(ip) :: j, rank, info
+
+      associate (first => system%n - system%k + 1)
+         x = x - matmul(basis, matmul(transpose(basis(first:, :)), x(first:)))
+      end associate
+      do j = 1, size(basis, 2, kind=ip)
+         call multiply_rows(system%rows, basis(:, j), moved(:, j))
+      end do
+      where (abs(moved) < STAYS_PUT) moved = 0.0_wp
+      call multiply_rows(system%rows, x, relative)
+      call least_squares(moved, relative, amplitude, DEPENDENT, rank, info)
+      if (info == 0) x = x - matmul(basis, amplitude)
+   end subroutine reduce_motion
+
+end module atrito_idle_motions

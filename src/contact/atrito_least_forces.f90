@@ -1,0 +1,382 @@
+!> The least of the contact forces that move the bodies alike.
+!>
+!> With the friction bound frozen the displacements of a scene are unique. Its contact forces are not where rows of the constraints
+!> depend on each other: at the joint of three bodies, at a corner of two pairs, at a node with one free dof. All forces q with the
+!> same B' q, within their bounds and 0 or at a bound where a gap or a slip says so, are solutions. Of them the least is given,
+!>
+!>     minimise sum q_i^2 / w_i,     B' q as it is,    lower <= q <= upper,    q_i as it is where the row may not change,
+!>
+!> the limit of a small compliance that is the same at all points. With y = q/sqrt(w) and A = B' W^1/2 it is the shortest y with the
+!> same A y. Without bounds that is the part of y in the range of A'; bounds are met by a primal active set, which keeps A y at
+!> every step. Components that share no dof are solved each by itself (atrito_constraint_rows).
+module atrito_least_forces
+   use atrito_constraint_rows, only: constraint_rows_t, list_components
+   use atrito_dense, only: least_squares
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: find_least_forces
+
+   !> The rows of a component, scaled, over dofs numbered from 1.
+   type :: component_t
+      integer(ip) :: n = 0, k = 0                !< rows, dofs
+      integer(ip), allocatable :: first(:), column(:)
+      real(wp), allocatable :: value(:)          !< entries of A', each dof scaled to one
+      real(wp), allocatable :: y(:), lower(:), upper(:) !< (n) forces over sqrt(w)
+   end type component_t
+
+   integer(ip), parameter :: MOST_DENSE = 100_ip     !< rows of a component that is decomposed
+   integer(ip), parameter :: MOST_SINGLE = 400_ip    !< rows up to which each row at a bound is asked by itself
+   real(wp), parameter :: DEPENDENT = 1.0e-10_wp     !< singular value over the largest that counts as none
+   real(wp), parameter :: NO_PART = 1.0e-7_wp        !< entry of a unit vector's part in the null space that is none
+   real(wp), parameter :: WRONG = 1.0e-10_wp         !< of the largest force: a multiplier of the wrong sign
+   real(wp), parameter :: DONE = 1.0e-15_wp          !< of the first residual of the steps
+
+contains
+
+   !> Replaces q by the least forces; is_shared tells the rows whose force is not unique.
+   subroutine find_least_forces(rows, weight, lower, upper, may_change, q, is_shared)
+      type(constraint_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: weight(:)          !< (n) of the rows' points [L^2]
+      real(wp), intent(in) :: lower(:), upper(:) !< (n) [F]
+      logical, intent(in) :: may_change(:)       !< (n) closed or sticking, r = 0 and no compliance
+      real(wp), intent(inout) :: q(:)            !< (n) [F], admissible
+      logical, intent(out) :: is_shared(:)       !< (n)
+      type(component_t) :: component
+      integer(ip), allocatable :: first(:), member(:)
+      real(wp) :: scale(size(q))
+      integer(ip) :: i
+      logical, allocatable :: shared(:)
+
+      is_shared = .false.
+      call list_components(rows, may_change, first, member)
+      if (size(first) <= 1) return
+      scale = sqrt(weight)
+      do i = 1, size(first, kind=ip) - 1
+         associate (own => member(first(i):first(i + 1) - 1))
+            call extract_component(rows, own, scale, lower, upper, q, component)
+            call find_shared(component, shared)
+            if (.not. any(shared)) cycle
+            call shorten(component)
+            call find_shared(component, shared)
+            q(own) = component%y*scale(own)
+            is_shared(own) = shared
+         end associate
+      end do
+   end subroutine find_least_forces
+
+   !> Rows of a component in its own numbers.
+   subroutine extract_component(rows, own, scale, lower, upper, q, component)
+      type(constraint_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: own(:)
+      real(wp), intent(in) :: scale(:), lower(:), upper(:), q(:)
+      type(component_t), intent(out) :: component
+      integer(ip), allocatable :: dofs(:)
+      integer(ip) :: i, k, n
+
+      component%n = size(own, kind=ip)
+      n = sum(rows%first(own + 1) - rows%first(own))
+      allocate (component%first(component%n + 1), component%column(n), component%value(n))
+      component%first(1) = 1
+      do i = 1, component%n
+         associate (from => rows%first(own(i)), to => rows%first(own(i) + 1) - 1, at => component%first(i))
+            component%first(i + 1) = at + to - from + 1
+            component%column(at:component%first(i + 1) - 1) = rows%column(from:to)
+            component%value(at:component%first(i + 1) - 1) = rows%value(from:to)*scale(own(i))
+         end associate
+      end do
+      dofs = sorted(component%column)
+      do k = 1, n
+         component%column(k) = place_of(dofs, component%column(k))
+      end do
+      component%k = size(dofs, kind=ip)
+      call scale_columns(component)
+      component%y = q(own)/scale(own)
+      ! no bound stays none
+      component%lower = max(lower(own), -0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
+      component%upper = min(upper(own), 0.5_wp*huge(1.0_wp)*min(scale(own), 1.0_wp))/scale(own)
+   end subroutine extract_component
+
+   !> Each dof's entries to length one: the same A y, better conditioned.
+   pure subroutine scale_columns(component)
+      type(component_t), intent(inout) :: component
+      real(wp) :: length(component%k)
+      integer(ip) :: k
+
+      length = 0.0_wp
+      do k = 1, size(component%column, kind=ip)
+         length(component%column(k)) = hypot(length(component%column(k)), component%value(k))
+      end do
+      do k = 1, size(component%column, kind=ip)
+         if (length(component%column(k)) > 0.0_wp) component%value(k) = component%value(k)/length(component%column(k))
+      end do
+   end subroutine scale_columns
+
+   !> The different numbers of a list, rising: merge sort from below.
+   pure function sorted(list) result(values)
+      integer(ip), intent(in) :: list(:)
+      integer(ip), allocatable :: values(:)
+      integer(ip) :: half(size(list)), width, at, n, i
+
+      values = list
+      n = size(list, kind=ip)
+      width = 1
+      do while (width < n)
+         do at = 1, n, 2*width
+            call merge_halves(values(at:min(at + width, n + 1) - 1), values(min(at + width, n + 1):min(at + 2*width, n + 1) - 1), &
+                              half(at:min(at + 2*width, n + 1) - 1))
+         end do
+         values = half
+         width = 2*width
+      end do
+      values = [(pack(values(i:i), i == 1 .or. values(max(i - 1, 1)) /= values(i)), i=1, n)]
+   end function sorted
+
+   pure subroutine merge_halves(a, b, c)
+      integer(ip), intent(in) :: a(:), b(:)
+      integer(ip), intent(out) :: c(:)
+      integer(ip) :: i, j, k
+      logical :: from_a
+
+      i = 1
+      j = 1
+      do k = 1, size(c, kind=ip)
+         from_a = j > size(b)
+         if (.not. from_a .and. i <= size(a)) from_a = a(i) <= b(j)
+         if (from_a) then
+            c(k) = a(i)
+            i = i + 1
+         else
+            c(k) = b(j)
+            j = j + 1
+         end if
+      end do
+   end subroutine merge_halves
+
+   !> Place of a value in a rising list.
+   pure integer(ip) function place_of(list, value) result(low)
+      integer(ip), intent(in) :: list(:), value
+      integer(ip) :: high, middle
+
+      low = 1
+      high = size(list, kind=ip)
+      do while (low < high)
+         middle = (low + high)/2
+         if (list(middle) < value) then
+            low = middle + 1
+         else
+            high = middle
+         end if
+      end do
+   end function place_of
+
+   !> The shortest y with the same A y within the bounds, from the present one.
+   subroutine shorten(component)
+      type(component_t), intent(inout) :: component
+      logical :: free(component%n)
+      real(wp) :: along(component%n), lambda(component%k), step
+      integer(ip) :: i, first, worst
+
+      free = .true.
+      do i = 1, 10*component%n + 10
+         call split(component, free, component%y, along, lambda)
+         call longest_step(component, free, along, step, first)
+         where (free) component%y = component%y - step*along
+         component%y = min(max(component%y, component%lower), component%upper)
+         if (first > 0) then
+            free(first) = .false.
+            component%y(first) = merge(component%lower(first), component%upper(first), along(first) > 0.0_wp)
+         else
+            call find_wrong(component, free, lambda, worst)
+            if (worst == 0) return
+            free(worst) = .true.
+         end if
+      end do
+   end subroutine shorten
+
+   !> How far y can go towards y - along within the bounds, and the row that ends it; 0: none does.
+   pure subroutine longest_step(component, free, along, step, first)
+      type(component_t), intent(in) :: component
+      logical, intent(in) :: free(:)
+      real(wp), intent(in) :: along(:)
+      real(wp), intent(out) :: step
+      integer(ip), intent(out) :: first
+      real(wp) :: room, round_off
+      integer(ip) :: i
+
+      step = 1.0_wp
+      first = 0
+      round_off = 4*epsilon(1.0_wp)*maxval(abs(component%y))
+      do i = 1, component%n
+         if (.not. free(i) .or. abs(along(i)) <= round_off) cycle
+         room = component%y(i) - merge(component%lower(i), component%upper(i), along(i) > 0.0_wp)
+         if (abs(room) + round_off >= step*abs(along(i))) cycle
+         step = room/along(i)
+         first = i
+      end do
+   end subroutine longest_step
+
+   !> The row at its bound that would most like to leave it; 0 where none would.
+   pure subroutine find_wrong(component, free, lambda, worst)
+      type(component_t), intent(in) :: component
+      logical, intent(in) :: free(:)
+      real(wp), intent(in) :: lambda(:)
+      integer(ip), intent(out) :: worst
+      real(wp) :: gradient(component%n), most
+      integer(ip) :: i
+
+      gradient = component%y - transposed_product(component, lambda)
+      worst = 0
+      most = WRONG*maxval(abs(component%y))
+      do i = 1, component%n
+         if (free(i) .or. component%lower(i) >= component%upper(i)) cycle
+         ! at the lower bound y may only grow
+         if (component%y(i) > component%lower(i)) gradient(i) = -gradient(i)
+         if (-gradient(i) <= most) cycle
+         most = -gradient(i)
+         worst = i
+      end do
+   end subroutine find_wrong
+
+   !> y of the free rows is A' lambda plus a part `along` in the null space of A.
+   subroutine split(component, free, y, along, lambda)
+      type(component_t), intent(in) :: component
+      logical, intent(in) :: free(:)
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: along(:)          !< (n), 0 outside the free rows
+      real(wp), intent(out) :: lambda(:)         !< (k)
+
+      if (component%n <= MOST_DENSE .and. component%k <= 4*MOST_DENSE) then
+         call split_dense(component, free, y, along, lambda)
+      else
+         call split_by_steps(component, free, y, along, lambda)
+      end if
+   end subroutine split
+
+   subroutine split_dense(component, free, y, along, lambda)
+      type(component_t), intent(in) :: component
+      logical, intent(in) :: free(:)
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: along(:), lambda(:)
+      real(wp) :: a(component%n, component%k)
+      integer(ip) :: i, k, rank, info
+
+      a = 0.0_wp
+      do i = 1, component%n
+         if (.not. free(i)) cycle
+         do k = component%first(i), component%first(i + 1) - 1
+            a(i, component%column(k)) = a(i, component%column(k)) + component%value(k)
+         end do
+      end do
+      call least_squares(a, merge(y, 0.0_wp, free), lambda, DEPENDENT, rank, info)
+      along = merge(y - matmul(a, lambda), 0.0_wp, free)
+   end subroutine split_dense
+
+   !> Conjugate gradients on the normal equations A A' lambda = A y (CGLS), begun anew once for the digits.
+   subroutine split_by_steps(component, free, y, along, lambda)
+      type(component_t), intent(in) :: component
+      logical, intent(in) :: free(:)
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: along(:), lambda(:)
+      real(wp) :: s(component%k), p(component%k), t(component%n), begin, now, last
+      integer(ip) :: round, step
+
+      lambda = 0.0_wp
+      along = merge(y, 0.0_wp, free)
+      s = product_of(component, along)
+      begin = norm2(s)
+      do round = 1, 2
+         p = s
+         last = norm2(s)
+         do step = 1, 4*(component%n + component%k)
+            if (last <= DONE*begin) exit
+            t = merge(transposed_product(component, p), 0.0_wp, free)
+            if (norm2(t) <= DEPENDENT*norm2(p)) exit
+            lambda = lambda + (last/norm2(t))**2*p
+            along = along - (last/norm2(t))**2*t
+            s = product_of(component, along)
+            now = norm2(s)
+            p = s + (now/last)**2*p
+            last = now
+         end do
+         along = merge(y - transposed_product(component, lambda), 0.0_wp, free)
+         s = product_of(component, along)
+      end do
+   end subroutine split_by_steps
+
+   !> A y.
+   pure function product_of(component, y) result(x)
+      type(component_t), intent(in) :: component
+      real(wp), intent(in) :: y(:)
+      real(wp) :: x(component%k)
+      integer(ip) :: i, k
+
+      x = 0.0_wp
+      do i = 1, component%n
+         do k = component%first(i), component%first(i + 1) - 1
+            x(component%column(k)) = x(component%column(k)) + component%value(k)*y(i)
+         end do
+      end do
+   end function product_of
+
+   !> A' x.
+   pure function transposed_product(component, x) result(y)
+      type(component_t), intent(in) :: component
+      real(wp), intent(in) :: x(:)
+      real(wp) :: y(component%n)
+      integer(ip) :: i
+
+      do i = 1, component%n
+         associate (from => component%first(i), to => component%first(i + 1) - 1)
+            y(i) = dot_product(component%value(from:to), x(component%column(from:to)))
+         end associate
+      end do
+   end function transposed_product
+
+   !> Rows that can change with A y as it is: those between their bounds among themselves, and each row at a bound with them. (Of
+   !> many rows all at bounds are asked at once, which may name some that can only leave their bounds the wrong way.)
+   subroutine find_shared(component, shared)
+      type(component_t), intent(in) :: component
+      logical, allocatable, intent(out) :: shared(:)
+      logical :: inside(component%n)
+      integer(ip) :: i
+
+      inside = is_inside(component%y - component%lower, component%upper - component%y, maxval(abs(component%y)))
+      allocate (shared(component%n), source=.false.)
+      if (component%n > MOST_SINGLE) then
+         call add_shared(component, component%lower < component%upper, shared)
+         return
+      end if
+      call add_shared(component, inside, shared)
+      do i = 1, component%n
+         if (inside(i) .or. component%lower(i) >= component%upper(i)) cycle
+         inside(i) = .true.
+         call add_shared(component, inside, shared, i)
+         inside(i) = .false.
+      end do
+   end subroutine find_shared
+
+   pure elemental logical function is_inside(below, above, size)
+      real(wp), intent(in) :: below, above, size !< distances from the bounds, largest force
+
+      is_inside = min(below, above) > WRONG*size
+   end function is_inside
+
+   !> Rows that the null space touches: seen in the part that any vector has in it. With `asked`, only where that row is touched.
+   subroutine add_shared(component, free, shared, asked)
+      type(component_t), intent(in) :: component
+      logical, intent(in) :: free(:)
+      logical, intent(inout) :: shared(:)
+      integer(ip), intent(in), optional :: asked
+      real(wp) :: along(component%n), lambda(component%k), any_vector(component%n)
+      integer(ip) :: i
+
+      any_vector = [(1.0_wp + 0.5_wp*sin(real(i, wp)**2), i=1, component%n)]
+      call split(component, free, any_vector, along, lambda)
+      if (present(asked)) then
+         if (abs(along(asked)) <= NO_PART) return
+      end if
+      shared = shared .or. abs(along) > NO_PART
+   end subroutine add_shared
+
+end module atrito_least_forces

@@ -1,0 +1,165 @@
+!> How far a step of the multipliers is from a solution, pair by pair and body by body.
+!>
+!> Each pair is measured by its own forces and each body by the forces on it. Round-off of the rows (multipliers%noise) is no
+!> distance, nor is a force that is round-off of those on the bodies that meet at a pair.
+module atrito_multiplier_distance
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use atrito_constraint_rows, only: add_transposed
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_system, only: contact_system_t
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_multiplier_step, only: multiplier_t, pull_of
+   implicit none (type, external)
+   private
+   public :: distance_t, measure_distance, forces_that_are_none
+
+   !> Relative to the forces of the pair or body.
+   type :: distance_t
+      real(wp) :: forces = 0.0_wp                !< |q - q_o|
+      real(wp) :: bound = 0.0_wp                 !< |nu S_rho(p) - tau|
+      real(wp) :: pull = 0.0_wp                  !< kappa |a - a_o|
+      real(wp) :: drive = 0.0_wp                 !< the same over the largest force of the scene
+   end type distance_t
+
+   real(wp), parameter :: NO_FORCE = 1.0e-12_wp  !< of the forces on the bodies that meet: none
+
+contains
+
+   function measure_distance(system, line, multipliers, q, tau, image) result(distance)
+      class(contact_system_t), intent(in) :: system
+      type(contact_line_t), intent(in) :: line
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: q(:)               !< (m) [F]
+      real(wp), intent(in) :: tau(:), image(:)   !< (points) [F/L^2]
+      type(distance_t) :: distance
+      real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs)
+
+      call measure_bodies(system, q, of_body)
+      call measure_pairs(system, multipliers, of_body, least)
+      distance%forces = force_distance(multipliers, q, least)
+      distance%bound = bound_distance(line, multipliers, tau, image, least)
+      distance%pull = pull_distance(system, multipliers, of_body)
+      distance%drive = pull_distance(system, multipliers, spread(maxval(of_body), 1, size(of_body)))
+   end function measure_distance
+
+   !> Which rows are of pairs whose forces are round-off of those on their bodies.
+   function forces_that_are_none(system, multipliers, q) result(none)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: q(:)
+      logical :: none(size(q))
+      real(wp) :: of_body(system%n_bodies), least(multipliers%n_pairs), largest(multipliers%n_pairs)
+      integer(ip) :: i
+
+      call measure_bodies(system, q, of_body)
+      call measure_pairs(system, multipliers, of_body, least)
+      largest = 0.0_wp
+      do i = 1, size(q, kind=ip)
+         largest(multipliers%pair(i)) = max(largest(multipliers%pair(i)), abs(q(i)))
+      end do
+      none = largest(multipliers%pair) <= least(multipliers%pair)
+   end function forces_that_are_none
+
+   !> The largest load and contact force at a displacement of each body; at least a round-off of those on bodies that it touches.
+   subroutine measure_bodies(system, q, of_body)
+      class(contact_system_t), intent(in) :: system
+      real(wp), intent(in) :: q(:)
+      real(wp), intent(out) :: of_body(:)        !< (bodies) [F]
+      real(wp) :: force(system%n), own(size(of_body))
+      integer(ip) :: i, k
+
+      force = 0.0_wp
+      call add_transposed(system%rows, 1.0_wp, q, force)
+      own = 0.0_wp
+      do i = 1, system%n - system%k
+         own(system%body(i)) = max(own(system%body(i)), abs(force(i)), abs(system%load(i)))
+      end do
+      of_body = own
+      do i = 1, system%rows%n
+         associate (bodies => system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1)))
+            do k = 1, size(bodies, kind=ip)
+               of_body(bodies(k)) = max(of_body(bodies(k)), NO_FORCE*maxval(own(bodies)))
+            end do
+         end associate
+      end do
+   end subroutine measure_bodies
+
+   !> The force at each pair that is round-off of those on its bodies.
+   subroutine measure_pairs(system, multipliers, of_body, least)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: of_body(:)
+      real(wp), intent(out) :: least(:)          !< (pairs) [F]
+      integer(ip) :: i
+
+      least = 0.0_wp
+      do i = 1, system%rows%n
+         associate (bodies => system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1)), &
+                    pair => multipliers%pair(i))
+            least(pair) = max(least(pair), NO_FORCE*maxval(of_body(bodies)))
+         end associate
+      end do
+   end subroutine measure_pairs
+
+   pure real(wp) function force_distance(multipliers, q, least) result(distance)
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: q(:), least(:)
+      real(wp) :: force(size(least)), change(size(least))
+      integer(ip) :: i
+
+      force = least
+      change = 0.0_wp
+      do i = 1, size(q, kind=ip)
+         associate (k => multipliers%pair(i))
+            force(k) = max(force(k), abs(q(i)))
+            change(k) = max(change(k), abs(q(i) - multipliers%q_old(i)) - multipliers%noise(i))
+         end associate
+      end do
+      distance = greatest_ratio(change, force)
+   end function force_distance
+
+   real(wp) function bound_distance(line, multipliers, tau, image, least) result(distance)
+      type(contact_line_t), intent(in) :: line
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: tau(:), image(:), least(:)
+      real(wp) :: bound(size(least)), off(size(least)), noise(size(least)), of_force
+      integer(ip) :: j, k
+
+      bound = 0.0_wp
+      off = 0.0_wp
+      noise = 0.0_wp
+      do j = 1, line%n
+         k = 1
+         if (allocated(line%pair)) k = line%pair(j)
+         of_force = line%law(j)%nu/line%weight(j)
+         if (line%normal(j) > 0) noise(k) = max(noise(k), of_force*multipliers%noise(line%normal(j)))
+         bound(k) = max(bound(k), tau(j), image(j), of_force*least(k))
+         off(k) = max(off(k), abs(tau(j) - image(j)))
+      end do
+      distance = greatest_ratio(off - noise, bound)
+      if (.not. all(ieee_is_finite(image))) distance = HUGE_REAL
+   end function bound_distance
+
+   !> The largest pull on a motion, over the forces on its body.
+   pure real(wp) function pull_distance(system, multipliers, of_body) result(distance)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: of_body(:)
+
+      associate (first => system%n - system%k + 1)
+         distance = greatest_ratio(pull_of(multipliers)*abs(multipliers%x(first:) - multipliers%a_old), &
+                                   of_body(system%body(first:)))
+      end associate
+   end function pull_distance
+
+   pure real(wp) function greatest_ratio(part, whole) result(ratio)
+      real(wp), intent(in) :: part(:), whole(:)
+      integer(ip) :: i
+
+      ratio = 0.0_wp
+      do i = 1, size(part, kind=ip)
+         if (whole(i) > 0.0_wp) ratio = max(ratio, part(i)/whole(i))
+      end do
+   end function greatest_ratio
+
+end module atrito_multiplier_distance

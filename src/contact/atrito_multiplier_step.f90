@@ -1,0 +1,325 @@
+!> One step of the proximal method of multipliers (R. T. Rockafellar 1976) on the sparse form of the bodies.
+!>
+!> With the forces q_o and amplitudes a_o of the step before and the friction bound frozen, the step solves
+!>
+!>     A x + kappa (a - a_o) + B' q = f,   q = clip((B x + g0 + rho q_o)/(D + rho)),   rho_i = r c_i
+!>
+!> by Newton's method with an exact line search: the gradient of a convex, piecewise quadratic function. clip puts a force at the
+!> bounds of its law, 0 <= q_n, |q_t| <= w tau. In a solution q = q_o and a = a_o, so rho and kappa have no part in it: hard
+!> contact and rows that depend on each other need neither a penalty nor pivots. c_i is the flexibility of the displacements at the
+!> row, so nothing depends on units, and every pair is treated by its own stiffness.
+module atrito_multiplier_step
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
+   use atrito_contact_system, only: contact_system_t
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_least_forces, only: find_least_forces
+   use atrito_line_search, only: search_line
+   use atrito_solve_history, only: solve_history_t, record_solve
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, set_forces, pull_of, &
+             take_least_forces, clear_round_off
+
+   type :: multiplier_t
+      real(wp) :: r = 1.0e-2_wp                  !< rho over the flexibility of the row
+      real(wp) :: kappa = 1.0e-4_wp              !< pull on a motion over what its rows hold it with
+      real(wp), allocatable :: x(:)              !< (n) [L]
+      real(wp), allocatable :: e(:)              !< (m) B x + g0 [L]
+      real(wp), allocatable :: noise(:)          !< (m) what round-off of e may do to a force [F]
+      real(wp), allocatable :: q_old(:)          !< (m) [F]
+      real(wp), allocatable :: a_old(:)          !< (k) [L]
+      real(wp), allocatable :: hold(:)           !< (k) [F/L] sum of G_ij^2/c_i over the rows of the body
+      integer(ip), allocatable :: pair(:)        !< (m) contact pair of each row
+      integer(ip) :: n_pairs = 0
+      real(wp), allocatable :: stiffness(:)      !< (m) that was factored last
+      real(wp), allocatable :: pull(:)           !< (k) that was factored last
+      logical :: settled = .false.               !< the last step ended with the states that it assumed
+      logical :: changed = .false.               !< the last step changed a state
+      integer(ip) :: factorisations = 0, solves = 0
+   end type multiplier_t
+
+   integer(ip), parameter :: MOST_NEWTON = 200_ip
+   integer(ip), parameter :: PATIENCE = 20_ip         !< Newton steps without a full one
+   real(wp), parameter :: SAME_STATE = 1.0e-12_wp    !< excess over a bound, of the largest force of the pair, that changes nothing
+   real(wp), parameter :: ROUND_OFFS = 20.0_wp       !< of the terms of a row
+   real(wp), parameter :: NO_COMPLIANCE = 1.0e-12_wp !< of the flexibility: a law that does not tell the force of a row
+   real(wp), parameter :: MOST_KAPPA = 1.0e-2_wp
+   real(wp), parameter :: SAME_STIFFNESS = 0.1_wp    !< change of D + rho that the factor bears
+
+contains
+
+   !> At rest: no forces, no displacements.
+   subroutine begin_multipliers(system, pair, multipliers)
+      class(contact_system_t), intent(in) :: system
+      integer(ip), intent(in) :: pair(:)         !< (m) of each row
+      type(multiplier_t), intent(out) :: multipliers
+      integer(ip) :: i, k
+
+      multipliers%pair = pair
+      multipliers%n_pairs = maxval([pair, 0_ip])
+      associate (m => system%rows%n)
+         allocate (multipliers%x(system%n), multipliers%q_old(m), multipliers%noise(m), multipliers%a_old(system%k), &
+                   multipliers%hold(system%k), &
+                   multipliers%stiffness(m), multipliers%pull(system%k), source=0.0_wp)
+         multipliers%e = system%g0
+         do i = 1, m
+            do k = system%rows%first(i), system%rows%first(i + 1) - 1
+               associate (a => system%rows%column(k) - (system%n - system%k))
+                  if (a > 0) multipliers%hold(a) = multipliers%hold(a) + system%rows%value(k)**2/system%flexibility(i)
+               end associate
+            end do
+         end do
+      end associate
+   end subroutine begin_multipliers
+
+   !> All points closed, and stuck where there is friction, whatever their forces.
+   subroutine start_closed(system, bounds, multipliers, state, status)
+      class(contact_system_t), intent(inout) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      type(status_t), intent(out) :: status
+      real(wp) :: residual(system%n)
+
+      state%state = FREE
+      where (bounds%lower == bounds%upper) state%state = FROZEN
+      state%q = 0.0_wp
+      where (state%state == FREE) state%q = multipliers%e/(bounds%d + multipliers%r*system%flexibility)
+      call residual_of(system, multipliers, state%q, residual)
+      call provide_factor(system, bounds, state, multipliers, status)
+      if (.not. is_ok(status)) return
+      call system%solve(residual)
+      multipliers%x = residual
+      multipliers%solves = 1
+      ! where the bodies come to is where they are held at first
+      multipliers%a_old = multipliers%x(system%n - system%k + 1:)
+   end subroutine start_closed
+
+   !> Forces and states from the displacements.
+   subroutine set_forces(system, bounds, multipliers, state, de)
+      class(contact_system_t), intent(in) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      !> B dx of the step that has been taken: of motions far larger than it, round-off alone would be left of e, and the forces
+      !> would lose the balance that the step has given them.
+      real(wp), intent(in), optional :: de(:)
+      integer(ip) :: i
+      real(wp) :: rho, z, e(system%rows%n)
+
+      call multiply_rows(system%rows, multipliers%x, e, multipliers%noise)
+      if (present(de)) then
+         multipliers%e = multipliers%e + de
+      else
+         multipliers%e = e + system%g0
+      end if
+      do i = 1, system%rows%n
+         rho = multipliers%r*system%flexibility(i)
+         multipliers%noise(i) = ROUND_OFFS*EPS_MACH*(multipliers%noise(i) + abs(system%g0(i)))/(bounds%d(i) + rho)
+         z = (multipliers%e(i) + rho*multipliers%q_old(i))/(bounds%d(i) + rho)
+         state%q(i) = min(max(z, bounds%lower(i)), bounds%upper(i))
+         state%r(i) = multipliers%e(i) - bounds%d(i)*state%q(i)
+         if (bounds%lower(i) == bounds%upper(i)) then
+            state%state(i) = FROZEN
+         else if (z <= bounds%lower(i)) then
+            state%state(i) = AT_LOWER
+         else if (z >= bounds%upper(i)) then
+            state%state(i) = AT_UPPER
+         else
+            state%state(i) = FREE
+         end if
+      end do
+      state%a = multipliers%x(system%n - system%k + 1:)
+   end subroutine set_forces
+
+   !> f - A x - kappa (a - a_o) - B' q.
+   subroutine residual_of(system, multipliers, q, residual)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp), intent(in) :: q(:)               !< (m) [F]
+      real(wp), intent(out) :: residual(:)       !< (n) [F]
+
+      call system%multiply(multipliers%x, residual)
+      residual = system%load - residual
+      call add_transposed(system%rows, -1.0_wp, q, residual)
+      associate (first => system%n - system%k)
+         residual(first + 1:) = residual(first + 1:) - pull_of(multipliers)*(multipliers%x(first + 1:) - multipliers%a_old)
+      end associate
+   end subroutine residual_of
+
+   pure function pull_of(multipliers) result(pull)
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp) :: pull(size(multipliers%hold))
+
+      pull = multipliers%kappa*multipliers%hold
+   end function pull_of
+
+   !> Solves for one step. status: as system%factor.
+   subroutine take_multiplier_step(system, shape, bounds, multipliers, state, history, status)
+      class(contact_system_t), intent(inout) :: system
+      type(box_problem_t), intent(in) :: shape   !< numbers of unknowns and weights, for the history
+      type(box_bounds_t), intent(in) :: bounds
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      type(solve_history_t), intent(inout) :: history
+      type(status_t), intent(out) :: status
+      real(wp) :: residual(system%n), dx(system%n), de(system%rows%n), before(system%rows%n)
+      integer(ip) :: newton
+      logical :: stays
+
+      multipliers%settled = .false.
+      multipliers%changed = .false.
+      call set_forces(system, bounds, multipliers, state)
+      do newton = 1, MOST_NEWTON
+         call residual_of(system, multipliers, state%q, residual)
+         call provide_factor(system, bounds, state, multipliers, status)
+         if (.not. is_ok(status)) return
+         dx = residual
+         call system%solve(dx)
+         multipliers%solves = multipliers%solves + 1
+         call multiply_rows(system%rows, dx, de)
+         before = state%q
+         call try_full_step(system, bounds, dx, de, multipliers, state, stays)
+         if (.not. stays) call take_part_of_step(system, bounds, residual, dx, de, multipliers, state)
+         ! points at the edge of contact may change for ever by what is round-off of their forces
+         if (newton >= PATIENCE .and. .not. stays) stays = all(abs(state%q - before) <= multipliers%noise)
+         call record_solve(history, shape, bounds, state)
+         multipliers%settled = stays
+         if (stays) return
+         multipliers%changed = .true.
+      end do
+   end subroutine take_multiplier_step
+
+   !> Factors for the present states, unless the last factor is as good.
+   subroutine provide_factor(system, bounds, state, multipliers, status)
+      class(contact_system_t), intent(inout) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(in) :: state
+      type(multiplier_t), intent(inout) :: multipliers
+      type(status_t), intent(out) :: status
+      real(wp) :: stiffness(system%rows%n), pull(system%k)
+      logical :: is_new
+
+      stiffness = 0.0_wp
+      where (state%state == FREE) stiffness = 1/(bounds%d + multipliers%r*system%flexibility)
+      ! a row whose compliance has changed little keeps the stiffness that was factored
+      where (abs(stiffness - multipliers%stiffness) <= SAME_STIFFNESS*stiffness) stiffness = multipliers%stiffness
+      do
+         pull = pull_of(multipliers)
+         is_new = multipliers%factorisations == 0
+         if (.not. is_new) is_new = any(stiffness /= multipliers%stiffness) .or. any(pull /= multipliers%pull)
+         if (.not. is_new) return
+         call system%factor(stiffness, pull, status)
+         multipliers%factorisations = multipliers%factorisations + 1
+         multipliers%stiffness = stiffness
+         multipliers%pull = pull
+         ! between a stiff body and soft ones a weak pull may be less than round-off
+         if (system%failed <= system%n - system%k .or. multipliers%kappa > MOST_KAPPA) return
+         multipliers%kappa = 100*multipliers%kappa
+      end do
+   end subroutine provide_factor
+
+   !> The full step, where it leads to the states that it was made for.
+   subroutine try_full_step(system, bounds, dx, de, multipliers, state, stays)
+      class(contact_system_t), intent(in) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      real(wp), intent(in) :: dx(:), de(:)
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      logical, intent(out) :: stays
+      integer(ip) :: i
+      real(wp) :: rho, z, slack, scale(multipliers%n_pairs)
+
+      scale = 0.0_wp
+      do i = 1, system%rows%n
+         scale(multipliers%pair(i)) = max(scale(multipliers%pair(i)), abs(state%q(i)))
+      end do
+      stays = .true.
+      do i = 1, system%rows%n
+         rho = multipliers%r*system%flexibility(i)
+         z = (multipliers%e(i) + de(i) + rho*multipliers%q_old(i))/(bounds%d(i) + rho)
+         slack = SAME_STATE*scale(multipliers%pair(i)) + multipliers%noise(i)
+         select case (state%state(i))
+         case (FREE)
+            stays = z >= bounds%lower(i) - slack .and. z <= bounds%upper(i) + slack
+         case (AT_LOWER)
+            stays = z <= bounds%lower(i) + slack
+         case (AT_UPPER)
+            stays = z >= bounds%upper(i) - slack
+         end select
+         if (.not. stays) return
+      end do
+      multipliers%x = multipliers%x + dx
+      call set_forces(system, bounds, multipliers, state, de)
+   end subroutine try_full_step
+
+   !> As far along the step as the convex function falls.
+   subroutine take_part_of_step(system, bounds, residual, dx, de, multipliers, state)
+      class(contact_system_t), intent(in) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      real(wp), intent(in) :: residual(:), dx(:), de(:)
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      real(wp) :: adx(system%n), constant, slope, t
+
+      call system%multiply(dx, adx)
+      slope = dot_product(dx, adx)
+      associate (a => dx(system%n - system%k + 1:))
+         slope = slope + dot_product(a, pull_of(multipliers)*a)
+      end associate
+      constant = -dot_product(dx, residual) - dot_product(de, state%q)
+      associate (rho => multipliers%r*system%flexibility)
+         t = search_line(constant, slope, de, multipliers%e, rho*multipliers%q_old, bounds%d + rho, bounds%lower, bounds%upper)
+      end associate
+      multipliers%x = multipliers%x + t*dx
+      call set_forces(system, bounds, multipliers, state, t*de)
+   end subroutine take_part_of_step
+
+   !> Of the forces that move the bodies alike the least.
+   subroutine take_least_forces(system, rows, weight, bounds, multipliers, state, is_shared)
+      class(contact_system_t), intent(in) :: system
+      type(constraint_rows_t), intent(in) :: rows !< over displacements alone
+      real(wp), intent(in) :: weight(:)          !< (m) of the rows' points [L^2]
+      type(box_bounds_t), intent(in) :: bounds
+      type(multiplier_t), intent(in) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      logical, intent(out) :: is_shared(:)       !< (m)
+      logical :: may_change(system%rows%n)
+
+      may_change = bounds%d <= NO_COMPLIANCE*system%flexibility .and. state%state /= FROZEN
+      where (state%state == AT_LOWER .or. state%state == AT_UPPER)
+         may_change = may_change .and. abs(state%r) <= multipliers%noise*(bounds%d + multipliers%r*system%flexibility)
+      end where
+      call find_least_forces(rows, weight, bounds%lower, bounds%upper, may_change, state%q, is_shared)
+      where (is_shared .and. state%q > bounds%lower .and. state%q < bounds%upper) state%state = FREE
+   end subroutine take_least_forces
+
+   !> A pressure that is round-off is none: the point is open.
+   subroutine clear_round_off(shape, none, multipliers, state)
+      type(box_problem_t), intent(in) :: shape
+      logical, intent(in) :: none(:)             !< (m) of a pair without any force but round-off
+      type(multiplier_t), intent(in) :: multipliers
+      type(box_state_t), intent(inout) :: state
+
+      associate (n => shape%n_normal)
+         where (state%state(:n) == FREE .and. (state%q(:n) <= multipliers%noise(:n) .or. none(:n)))
+            state%q(:n) = 0.0_wp
+            state%state(:n) = AT_LOWER
+            state%r(:n) = min(state%r(:n), 0.0_wp)
+         end where
+      end associate
+   end subroutine clear_round_off
+
+   !> What the step has found is where the next one starts.
+   subroutine accept_step(system, state, multipliers)
+      class(contact_system_t), intent(in) :: system
+      type(box_state_t), intent(in) :: state
+      type(multiplier_t), intent(inout) :: multipliers
+
+      multipliers%q_old = state%q
+      multipliers%a_old = multipliers%x(system%n - system%k + 1:)
+   end subroutine accept_step
+
+end module atrito_multiplier_step

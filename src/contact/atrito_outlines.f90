@@ -1,0 +1,250 @@
+!> The outlines of all bodies, and what each face of them looks at: for contact that is found and not given pair by pair. In linear
+!> time but for the depth of the tree of the faces.
+module atrito_outlines
+   use atrito_face_geometry, only: face_arc_length, outward_normal
+   use atrito_faces, only: face_list_t, node_elements_t, outer_faces
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_master, only: master_t, master_of_faces
+   use atrito_mesh, only: mesh_t, face_nodes, face_end, MOST_FACES => FACES
+   use atrito_piece_tree, only: search_t, begin_search, next_leaf, FACING
+   use atrito_pieces, only: place_at, normal_at, cross_piece, END_TOLERANCE
+   use atrito_points, only: CORNER
+   use atrito_shape_functions, only: face_shape_values
+   implicit none (type, external)
+   private
+   public :: outlines_t, sighting_t, list_outlines, look_around
+
+   !> All faces on the outlines of the bodies.
+   type :: outlines_t
+      type(face_list_t) :: faces
+      integer(ip), allocatable :: body(:)            !< (faces)
+      real(wp), allocatable :: length(:)             !< (faces) [L]
+      integer(ip), allocatable :: next(:)            !< (faces) the one that goes on where it ends; 0: there is a corner
+      integer(ip), allocatable :: place(:, :)        !< (4, elements) where a face stands in this list; 0: inside a body
+   end type outlines_t
+
+   !> What a face looks at from its middle.
+   type :: sighting_t
+      integer(ip) :: face = 0                        !< of another body, its place among the outlines; 0: none
+      integer(ip) :: rigid = 0                       !< of the rigid masters; 0: none
+      real(wp) :: distance = 0.0_wp                  !< [L] along its normal
+   end type sighting_t
+
+   !> Where the line of sight is.
+   type :: line_t
+      real(wp) :: x(2) = 0.0_wp, normal(2) = 0.0_wp
+      real(wp) :: near = 0.0_wp                      !< [L] what is no farther off than this touches
+      real(wp) :: limit = 0.0_wp                     !< [L]
+   end type line_t
+
+   integer(ip), parameter :: FIRST_LENGTH = 16_ip
+   !> Errors of rounding that a distance may have.
+   real(wp), parameter :: ROUND_OFFS = 64.0_wp
+
+contains
+
+   !> The outer faces of all elements in the order of these.
+   subroutine list_outlines(mesh, around, body_of_element, outlines)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: body_of_element(:)
+      type(outlines_t), intent(out) :: outlines
+      integer(ip) :: i
+
+      outlines%faces = outer_faces(mesh, around, [(i, i=1, mesh%n_elements)])
+      associate (faces => outlines%faces)
+         outlines%body = body_of_element(faces%element(:faces%n))
+         allocate (outlines%length(faces%n), outlines%next(faces%n))
+         allocate (outlines%place(MOST_FACES, mesh%n_elements), source=0_ip)
+         do i = 1, faces%n
+            outlines%place(faces%face(i), faces%element(i)) = i
+            outlines%length(i) = face_arc_length(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), 1.0_wp)
+         end do
+      end associate
+      call join_faces(mesh, outlines)
+   end subroutine list_outlines
+
+   !> Where a face ends another one begins; two of them where corners of a body meet, and then neither goes on.
+   subroutine join_faces(mesh, outlines)
+      type(mesh_t), intent(in) :: mesh
+      type(outlines_t), intent(inout) :: outlines
+      integer(ip) :: from(mesh%n_nodes), i, node
+      integer(ip), parameter :: MANY = -1_ip
+
+      from = 0
+      associate (faces => outlines%faces)
+         do i = 1, faces%n
+            node = mesh%nodes(faces%face(i), faces%element(i))
+            from(node) = merge(MANY, i, from(node) /= 0)
+         end do
+         do i = 1, faces%n
+            outlines%next(i) = max(from(mesh%nodes(face_end(faces%face(i)), faces%element(i))), 0_ip)
+            if (outlines%next(i) == 0) cycle
+            if (.not. goes_on(normal_of(mesh, faces, i, 1.0_wp), normal_of(mesh, faces, outlines%next(i), -1.0_wp))) then
+               outlines%next(i) = 0
+            end if
+         end do
+      end associate
+   end subroutine join_faces
+
+   pure logical function goes_on(a, b)
+      real(wp), intent(in) :: a(2), b(2)             !< unit normals
+
+      goes_on = dot_product(a, b) > 0.0_wp .and. abs(a(1)*b(2) - a(2)*b(1)) <= CORNER
+   end function goes_on
+
+   !> Outward unit normal of a face at t in [-1, 1].
+   pure function normal_of(mesh, faces, i, t) result(normal)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: faces
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: t
+      real(wp) :: normal(2)
+
+      normal = outward_normal(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), t)
+   end function normal_of
+
+   !> What each face looks at: the nearest face of another body, or the nearest rigid surface, no farther off than `distance`. Its
+   !> own body hides what lies behind it.
+   subroutine look_around(mesh, outlines, rigid, distance, seen)
+      type(mesh_t), intent(in) :: mesh
+      type(outlines_t), intent(in) :: outlines
+      type(master_t), intent(in) :: rigid(:)
+      real(wp), intent(in) :: distance               !< [L]; 0: half of the longer one of the two faces, of the face for a rigid one
+      type(sighting_t), allocatable, intent(out) :: seen(:)   !< (faces)
+      type(master_t) :: all
+      type(line_t) :: line
+      integer(ip), allocatable :: piece(:)
+      real(wp), allocatable :: away(:)
+      real(wp) :: half_of_longest
+      integer(ip) :: i
+
+      allocate (seen(outlines%faces%n), piece(FIRST_LENGTH), away(FIRST_LENGTH))
+      if (outlines%faces%n == 0) return
+      half_of_longest = 0.5_wp*maxval(outlines%length)
+      call master_of_faces(mesh, outlines%faces, all)
+      do i = 1, outlines%faces%n
+         call aim(mesh, outlines, i, line)
+         line%limit = distance
+         if (.not. distance > 0.0_wp) line%limit = half_of_longest
+         call look_at_bodies(outlines, i, line, all, distance > 0.0_wp, piece, away, seen(i))
+         if (.not. distance > 0.0_wp) line%limit = 0.5_wp*outlines%length(i)
+         call look_at_rigid(line, rigid, piece, away, seen(i))
+      end do
+   end subroutine look_around
+
+   !> From the middle of a face along its normal.
+   pure subroutine aim(mesh, outlines, i, line)
+      type(mesh_t), intent(in) :: mesh
+      type(outlines_t), intent(in) :: outlines
+      integer(ip), intent(in) :: i
+      type(line_t), intent(out) :: line
+      integer(ip), allocatable :: nodes(:)
+
+      nodes = face_nodes(mesh, outlines%faces%element(i), outlines%faces%face(i))
+      line%x = matmul(mesh%x(:, nodes), face_shape_values(size(nodes, kind=ip), 0.0_wp))
+      line%normal = outward_normal(mesh%x(:, nodes), 0.0_wp)
+      line%near = ROUND_OFFS*EPS_MACH*maxval(abs(mesh%x(:, nodes)))
+   end subroutine aim
+
+   !> The nearest face of another body that is not hidden by the own one, in front or behind.
+   pure subroutine look_at_bodies(outlines, i, line, all, is_given, piece, away, seen)
+      type(outlines_t), intent(in) :: outlines
+      integer(ip), intent(in) :: i
+      type(line_t), intent(in) :: line
+      type(master_t), intent(in) :: all              !< all faces of the outlines
+      logical, intent(in) :: is_given                !< the limit is the distance that the user gives
+      integer(ip), allocatable, intent(inout) :: piece(:)
+      real(wp), allocatable, intent(inout) :: away(:)
+      type(sighting_t), intent(inout) :: seen
+      real(wp) :: front, back, limit
+      integer(ip) :: k, n
+
+      call look_both_ways(line, all, piece, away, n)
+      front = huge(front)
+      back = -huge(back)
+      do k = 1, n
+         if (outlines%body(piece(k)) /= outlines%body(i)) cycle
+         if (away(k) > line%near) front = min(front, away(k))
+         if (away(k) < -line%near) back = max(back, away(k))
+      end do
+      do k = 1, n
+         if (outlines%body(piece(k)) == outlines%body(i) .or. away(k) >= front .or. away(k) <= back) cycle
+         limit = line%limit
+         if (.not. is_given) limit = 0.5_wp*max(outlines%length(i), outlines%length(piece(k)))
+         if (abs(away(k)) > limit) cycle
+         if (seen%face > 0) then
+            if (abs(away(k)) > abs(seen%distance)) cycle
+            if (.not. abs(away(k)) < abs(seen%distance) .and. piece(k) >= seen%face) cycle
+         end if
+         seen = sighting_t(face=piece(k), distance=away(k))
+      end do
+   end subroutine look_at_bodies
+
+   !> All pieces of a master that face the line and lie on it, no farther off than the limit on either side; a piece that is
+   !> crossed twice stands there twice.
+   pure subroutine look_both_ways(line, master, piece, away, n)
+      type(line_t), intent(in) :: line
+      type(master_t), intent(in) :: master
+      integer(ip), allocatable, intent(inout) :: piece(:)    !< the first n are they; they grow where they are too short
+      real(wp), allocatable, intent(inout) :: away(:)        !< [L] along the normal
+      integer(ip), intent(out) :: n
+      type(search_t) :: search
+      integer(ip) :: i, first, last
+
+      n = 0
+      call begin_search(master%tree, line%x, line%normal, .true., search)
+      do
+         call next_leaf(master%tree, line%limit, search, first, last)
+         if (last < first) return
+         do i = first, last
+            call add_crossings(line, master, master%tree%order(i), piece, away, n)
+         end do
+      end do
+   end subroutine look_both_ways
+
+   pure subroutine add_crossings(line, master, i, piece, away, n)
+      type(line_t), intent(in) :: line
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i                   !< the piece
+      integer(ip), allocatable, intent(inout) :: piece(:)
+      real(wp), allocatable, intent(inout) :: away(:)
+      integer(ip), intent(inout) :: n
+      real(wp) :: t(2), distance
+      integer(ip) :: k, n_roots
+
+      call cross_piece(master, i, line%x, line%normal, t, n_roots)
+      do k = 1, n_roots
+         if (t(k) < -END_TOLERANCE .or. t(k) > 1 + END_TOLERANCE) cycle
+         distance = dot_product(place_at(master, i, t(k)) - line%x, line%normal)
+         if (abs(distance) > line%limit) cycle
+         if (dot_product(line%normal, normal_at(master, i, min(max(t(k), 0.0_wp), 1.0_wp))) > FACING) cycle
+         if (n == size(piece)) then
+            piece = [piece, piece]
+            away = [away, away]
+         end if
+         n = n + 1
+         piece(n) = i
+         away(n) = distance
+      end do
+   end subroutine add_crossings
+
+   !> A rigid surface that is nearer than what is seen of the bodies.
+   pure subroutine look_at_rigid(line, rigid, piece, away, seen)
+      type(line_t), intent(in) :: line
+      type(master_t), intent(in) :: rigid(:)
+      integer(ip), allocatable, intent(inout) :: piece(:)
+      real(wp), allocatable, intent(inout) :: away(:)
+      type(sighting_t), intent(inout) :: seen
+      integer(ip) :: r, k, n
+
+      do r = 1, size(rigid, kind=ip)
+         call look_both_ways(line, rigid(r), piece, away, n)
+         do k = 1, n
+            if (max(seen%face, seen%rigid) > 0 .and. .not. abs(away(k)) < abs(seen%distance)) cycle
+            seen = sighting_t(rigid=r, distance=away(k))
+         end do
+      end do
+   end subroutine look_at_rigid
+
+end module atrito_outlines

@@ -1,0 +1,271 @@
+!> A tree over the pieces of a surface: those of a branch lie in a box, their normals in another one, so that whole branches are
+!> passed over that a line cannot meet, or would meet from behind. What waits is looked at by its distance, the nearest first.
+module atrito_piece_tree
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_pieces, only: pieces_t, box_of_piece
+   use atrito_sorting, only: sorted_places
+   implicit none (type, external)
+   private
+   public :: piece_tree_t, search_t, plant, begin_search, next_leaf, is_far_off
+   public :: FACING
+
+   !> What holds some of the pieces.
+   type :: branch_t
+      real(wp) :: low(2) = huge(1.0_wp), high(2) = -huge(1.0_wp)              !< [L] box round them
+      real(wp) :: normal_low(2) = 1.0_wp, normal_high(2) = -1.0_wp            !< box round their outward unit normals
+   end type branch_t
+
+   type :: piece_tree_t
+      integer(ip) :: n = 0                          !< pieces
+      integer(ip), allocatable :: order(:)          !< (n) the pieces, branch by branch
+      type(branch_t), allocatable :: branches(:)    !< the halves of branch k are 2 k and 2 k + 1
+      real(wp) :: round_off = 0.0_wp                !< of the coordinates [L]
+   end type piece_tree_t
+
+   !> A branch that is still to be looked at.
+   type :: waiting_t
+      integer(ip) :: branch = 0
+      integer(ip) :: first = 0, last = 0            !< its pieces in the order
+      real(wp) :: bound = 0.0_wp                    !< [L] nothing in the branch is nearer than this
+   end type waiting_t
+
+   !> A line x + s normal on its way through the tree.
+   type :: search_t
+      real(wp) :: x(2) = 0.0_wp, normal(2) = 0.0_wp
+      logical :: crossing = .true.                  !< what the line crosses, by the distance along it; else all, by that from it
+      real(wp) :: margin = 0.0_wp                   !< [L] rounding of what is compared
+      integer(ip) :: n = 0
+      type(waiting_t), allocatable :: waiting(:)    !< the first n are in use; the nearest is the last
+   end type search_t
+
+   !> Cosine below which two surfaces face each other.
+   real(wp), parameter :: FACING = -1.0e-3_wp
+   !> Branches that wait at first.
+   integer(ip), parameter :: FIRST_LENGTH = 64_ip
+   !> So few pieces are not divided any more.
+   integer(ip), parameter :: LEAF = 4_ip
+   !> Errors of rounding that a place may have.
+   real(wp), parameter :: ROUND_OFFS = 64.0_wp
+   !> The same of a product of unit vectors.
+   real(wp), parameter :: NORMAL_ROUND_OFF = 1.0e-9_wp
+
+contains
+
+   !> Puts the pieces into the tree. Those that are near each other come one after the other (Morton's order of their first ends),
+   !> and are halved until few are left.
+   pure subroutine plant(pieces, tree)
+      class(pieces_t), intent(in) :: pieces
+      type(piece_tree_t), intent(out) :: tree
+      integer(lp) :: key(pieces%n)
+      real(wp) :: low(2), extent
+      integer(ip) :: i
+
+      tree%n = pieces%n
+      allocate (tree%branches(n_branches(pieces%n)))
+      if (pieces%n == 0) return
+      low = minval(pieces%a, dim=2)
+      extent = maxval(maxval(pieces%a, dim=2) - low)
+      key = 0_lp
+      if (extent > 0.0_wp) then
+         do i = 1, pieces%n
+            key(i) = morton((pieces%a(:, i) - low)/extent)
+         end do
+      end if
+      tree%order = sorted_places(key)
+      tree%round_off = ROUND_OFFS*EPS_MACH*max(maxval(abs(pieces%a)), maxval(abs(pieces%d)), maxval(abs(pieces%sag)), &
+                                               maxval(abs(pieces%centre)))
+      call enclose(pieces, tree, 1_ip, 1_ip, pieces%n)
+   end subroutine plant
+
+   !> Of a tree over n pieces.
+   pure integer(ip) function n_branches(n)
+      integer(ip), intent(in) :: n
+      integer(ip) :: m
+
+      n_branches = 1
+      m = n
+      do while (m > LEAF)
+         m = (m + 1)/2
+         n_branches = 2*n_branches + 1
+      end do
+   end function n_branches
+
+   !> Place along a curve that passes through a square: the bits of both coordinates in turn.
+   pure integer(lp) function morton(x) result(key)
+      real(wp), intent(in) :: x(2)                  !< 0..1
+      integer, parameter :: BITS = 30
+      integer(lp) :: cell(2)
+      integer :: b
+
+      cell = int(x*real(2_lp**BITS - 1_lp, wp), lp)
+      key = 0_lp
+      do b = BITS - 1, 0, -1
+         key = 4_lp*key + 2_lp*ibits(cell(1), b, 1) + ibits(cell(2), b, 1)
+      end do
+   end function morton
+
+   !> The boxes of a branch and of all below it.
+   pure recursive subroutine enclose(pieces, tree, k, first, last)
+      class(pieces_t), intent(in) :: pieces
+      type(piece_tree_t), intent(inout) :: tree
+      integer(ip), intent(in) :: k                  !< the branch
+      integer(ip), intent(in) :: first, last        !< its pieces in the order
+      integer(ip) :: i, middle
+
+      if (last - first < LEAF) then
+         do i = first, last
+            call widen(tree%branches(k), branch_of(pieces, tree%order(i)))
+         end do
+         return
+      end if
+      middle = (first + last)/2
+      call enclose(pieces, tree, 2*k, first, middle)
+      call enclose(pieces, tree, 2*k + 1, middle + 1, last)
+      call widen(tree%branches(k), tree%branches(2*k))
+      call widen(tree%branches(k), tree%branches(2*k + 1))
+   end subroutine enclose
+
+   pure subroutine widen(branch, other)
+      type(branch_t), intent(inout) :: branch
+      type(branch_t), intent(in) :: other
+
+      branch%low = min(branch%low, other%low)
+      branch%high = max(branch%high, other%high)
+      branch%normal_low = min(branch%normal_low, other%normal_low)
+      branch%normal_high = max(branch%normal_high, other%normal_high)
+   end subroutine widen
+
+   pure type(branch_t) function branch_of(pieces, i) result(branch)
+      class(pieces_t), intent(in) :: pieces
+      integer(ip), intent(in) :: i
+
+      call box_of_piece(pieces, i, branch%low, branch%high, branch%normal_low, branch%normal_high)
+   end function branch_of
+
+   !> Whether all pieces lie farther off the line than `turn` times their greatest distance from x, or turn their backs on it.
+   pure logical function is_far_off(tree, x, normal, turn)
+      type(piece_tree_t), intent(in) :: tree
+      real(wp), intent(in) :: x(2), normal(2)
+      real(wp), intent(in) :: turn                  !< sine of the angle by which the normal may be in doubt
+      type(search_t) :: search
+      real(wp) :: across, along, farthest
+      logical :: facing_it
+
+      is_far_off = tree%n == 0
+      if (is_far_off) return
+      call aim(tree, x, normal, search)
+      call judge_branch(tree%branches(1), search, facing_it, across, along)
+      farthest = norm2(max(abs(tree%branches(1)%low - x), abs(tree%branches(1)%high - x))) + search%margin
+      is_far_off = .not. facing_it .or. across > turn*farthest
+   end function is_far_off
+
+   pure subroutine aim(tree, x, normal, search)
+      type(piece_tree_t), intent(in) :: tree
+      real(wp), intent(in) :: x(2), normal(2)
+      type(search_t), intent(out) :: search
+
+      search%x = x
+      search%normal = normal
+      search%margin = tree%round_off + ROUND_OFFS*EPS_MACH*maxval(abs(x))
+   end subroutine aim
+
+   !> A search for what the line through x along the normal crosses, or (not crossing) comes near.
+   pure subroutine begin_search(tree, x, normal, crossing, search)
+      type(piece_tree_t), intent(in) :: tree
+      real(wp), intent(in) :: x(2), normal(2)
+      logical, intent(in) :: crossing
+      type(search_t), intent(out) :: search
+
+      call aim(tree, x, normal, search)
+      search%crossing = crossing
+      if (tree%n > 0) call add_branch(tree, 1_ip, 1_ip, tree%n, search)
+   end subroutine begin_search
+
+   !> Whether anything in a branch may face the line, and how far off it is at least: across the line and along it.
+   pure subroutine judge_branch(branch, search, facing_it, across, along)
+      type(branch_t), intent(in) :: branch
+      type(search_t), intent(in) :: search
+      logical, intent(out) :: facing_it
+      real(wp), intent(out) :: across, along        !< [L]
+      real(wp) :: low(2), high(2)
+
+      associate (n => search%normal)
+         low = min(n*branch%normal_low, n*branch%normal_high)
+         facing_it = low(1) + low(2) <= FACING + NORMAL_ROUND_OFF
+         low = branch%low - search%x
+         high = branch%high - search%x
+         across = away_from(min(low(1)*n(2), high(1)*n(2)) - max(low(2)*n(1), high(2)*n(1)), &
+                            max(low(1)*n(2), high(1)*n(2)) - min(low(2)*n(1), high(2)*n(1))) - search%margin
+         along = away_from(min(low(1)*n(1), high(1)*n(1)) + min(low(2)*n(2), high(2)*n(2)), &
+                           max(low(1)*n(1), high(1)*n(1)) + max(low(2)*n(2), high(2)*n(2))) - search%margin
+      end associate
+   end subroutine judge_branch
+
+   !> How far 0 lies off an interval.
+   pure real(wp) function away_from(low, high)
+      real(wp), intent(in) :: low, high
+
+      away_from = max(low, -high, 0.0_wp)
+   end function away_from
+
+   !> Adds a branch to those that are to be looked at.
+   pure subroutine add_branch(tree, k, first, last, search)
+      type(piece_tree_t), intent(in) :: tree
+      integer(ip), intent(in) :: k, first, last
+      type(search_t), intent(inout) :: search
+      real(wp) :: across, along
+      logical :: facing_it
+
+      call judge_branch(tree%branches(k), search, facing_it, across, along)
+      if (.not. facing_it .or. (search%crossing .and. across > 0.0_wp)) return
+      call put_in_order(waiting_t(k, first, last, merge(along, across, search%crossing)), search)
+   end subroutine add_branch
+
+   !> The farther ones first; of those that are as near the one that comes later is looked at first.
+   pure subroutine put_in_order(new, search)
+      type(waiting_t), intent(in) :: new
+      type(search_t), intent(inout) :: search
+      type(waiting_t), allocatable :: longer(:)
+      integer(ip) :: i
+
+      if (.not. allocated(search%waiting)) allocate (search%waiting(FIRST_LENGTH))
+      if (search%n == size(search%waiting)) then
+         allocate (longer(2*search%n))
+         longer(:search%n) = search%waiting
+         call move_alloc(longer, search%waiting)
+      end if
+      do i = search%n, 1, -1
+         if (search%waiting(i)%bound >= new%bound) exit
+         search%waiting(i + 1) = search%waiting(i)
+      end do
+      search%waiting(i + 1) = new
+      search%n = search%n + 1
+   end subroutine put_in_order
+
+   !> The next pieces to be looked at: those of the nearest branch, if it is not farther off than what was found.
+   pure subroutine next_leaf(tree, found, search, first, last)
+      type(piece_tree_t), intent(in) :: tree
+      real(wp), intent(in) :: found                 !< [L]
+      type(search_t), intent(inout) :: search
+      integer(ip), intent(out) :: first, last       !< places in the order; none: last < first
+      type(waiting_t) :: next
+      integer(ip) :: middle
+
+      first = 1
+      last = 0
+      do while (search%n > 0)
+         next = search%waiting(search%n)
+         search%n = search%n - 1
+         if (next%bound > found) return
+         if (next%last - next%first < LEAF) then
+            first = next%first
+            last = next%last
+            return
+         end if
+         middle = (next%first + next%last)/2
+         call add_branch(tree, 2*next%branch, next%first, middle, search)
+         call add_branch(tree, 2*next%branch + 1, middle + 1, next%last, search)
+      end do
+   end subroutine next_leaf
+
+end module atrito_piece_tree

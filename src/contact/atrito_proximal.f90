@@ -1,0 +1,98 @@
+!> The box problem where rows of the contact matrix depend on each other: at a joint of three bodies, at a corner of two pairs.
+!>
+!> The displacements are unique, the forces are not, and C + D cannot be factored. The proximal method (R. T. Rockafellar 1976)
+!> solves instead, again and again from the forces q' of the time before,
+!>
+!>     r = g0 - (C + D) q - s c (q - q') + G a,      c = diagonal of C,  s = 1e-5 or less,
+!>
+!> a box problem with a good condition. Where forces are unique the difference q - q' falls by s/(lambda + s) each time, lambda
+!> being an eigenvalue of the scaled matrix; elsewhere q stays where it is. Then the least of the forces that move the bodies alike
+!> is taken (atrito_least_forces), so that the answer does not depend on the way.
+module atrito_proximal
+   use atrito_active_set, only: box_outcome_t, solve_box
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, set_residual, row_round_off, FREE, FROZEN
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_kinds, only: ip, wp
+   use atrito_least_forces, only: find_least_forces
+   use atrito_line_factor, only: line_factor_t
+   use atrito_solve_history, only: solve_history_t
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: solve_box_proximal
+
+   real(wp), parameter :: LARGEST_SHARE = 1.0e-5_wp, LEAST_SHARE = 1.0e-9_wp !< s
+   real(wp), parameter :: SLOW = 0.1_wp              !< of the change before: s is too large for some eigenvalue
+   integer(ip), parameter :: MOST_ROUNDS = 60
+   real(wp), parameter :: ROUND_OFF = 1.0e-2_wp      !< of the slack of r: a change of displacements that is none
+   real(wp), parameter :: SMALL_CHANGE = 1.0e-10_wp  !< of the forces: a change that is none where it is no longer halved
+   real(wp), parameter :: NO_COMPLIANCE = 1.0e-12_wp !< D over C that leaves the force to others
+   real(wp), parameter :: AT_REST = 10.0_wp          !< round-offs of r that are none
+
+contains
+
+   !> Solves from the given state. outcome%solved is false where the rounds do not come to an end.
+   subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, kept, rows, is_shared)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+      type(solve_history_t), intent(inout) :: history
+      type(box_outcome_t), intent(out) :: outcome
+      type(status_t), intent(out) :: status
+      type(line_factor_t), intent(inout) :: kept
+      type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns; without them there are no least forces
+      logical, allocatable, intent(out), optional :: is_shared(:) !< (m), with rows: the force is not unique
+      type(box_bounds_t) :: near
+      real(wp) :: c(problem%m), q(problem%m), share, change, last
+      integer(ip) :: before(problem%m), i
+      logical :: stands
+
+      c = [(problem%c(i, i), i=1, problem%m)]
+      near = bounds
+      share = LARGEST_SHARE
+      last = huge(last)
+      stands = .false.
+      do i = 1, MOST_ROUNDS
+         q = state%q
+         before = state%state
+         near%d = bounds%d + share*c
+         state%shift = share*c*q
+         call solve_box(problem, near, state, history, outcome, status, kept)
+         if (.not. is_ok(status) .or. .not. outcome%solved) exit
+         change = maxval([c*abs(state%q - q), 0.0_wp])
+         stands = share*change <= ROUND_OFF*state%slack .or. &
+                  (change > 0.5_wp*last .and. change <= SMALL_CHANGE*maxval([c*abs(state%q), 0.0_wp]))
+         if (stands) exit
+         if (change > SLOW*last .and. all(state%state == before)) share = max(share/100, LEAST_SHARE)
+         last = change
+      end do
+      deallocate (state%shift)
+      call set_residual(problem, bounds%d, state)
+      if (.not. is_ok(status) .or. .not. outcome%solved) return
+      outcome%solved = stands
+      if (.not. (present(rows) .and. present(is_shared))) return
+      allocate (is_shared(problem%m))
+      call take_least_forces(problem, bounds, rows, state, is_shared)
+   end subroutine solve_box_proximal
+
+   !> Of the forces that move the bodies alike the least.
+   subroutine take_least_forces(problem, bounds, rows, state, is_shared)
+      type(box_problem_t), intent(in) :: problem
+      type(box_bounds_t), intent(in) :: bounds
+      type(constraint_rows_t), intent(in) :: rows
+      type(box_state_t), intent(inout) :: state
+      logical, intent(out) :: is_shared(:)
+      logical :: may_change(problem%m)
+      integer(ip) :: i
+
+      do i = 1, problem%m
+         may_change(i) = bounds%d(i) <= NO_COMPLIANCE*problem%c(i, i) .and. state%state(i) /= FROZEN
+         if (may_change(i) .and. state%state(i) /= FREE) may_change(i) = abs(state%r(i)) <= AT_REST*row_round_off(problem, state, i)
+      end do
+      call find_least_forces(rows, problem%weight, bounds%lower, bounds%upper, may_change, state%q, is_shared)
+      if (.not. any(is_shared)) return
+      where (is_shared .and. state%q > bounds%lower .and. state%q < bounds%upper) state%state = FREE
+      call set_residual(problem, bounds%d, state)
+   end subroutine take_least_forces
+
+end module atrito_proximal

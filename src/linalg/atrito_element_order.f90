@@ -1,0 +1,224 @@
+!> The order of elimination for the sparse solver: which dissection of the elements costs least.
+!>
+!> By the places of the elements first: across the axes, or across the direction that the elements have in common. What its
+!> separators cost is known before anything is factored. Where that is more than METIS would save, the elements are cut by
+!> METIS in place of their places: graded meshes, and flat elements that lie in no direction in particular. Where the mesh is
+!> irregular and large, elements at the cuts change sides (atrito_cut_refinement).
+module atrito_element_order
+   use atrito_cut_refinement, only: list_corners
+   use atrito_dissection, only: dissect, dissection_t, dissection_guide_t
+   use atrito_element_clusters, only: cluster_t, join_elements, link_clusters
+   use atrito_kinds, only: ip, wp
+   use atrito_metis, only: halve_graph
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: order_elements
+
+   !> Some elements with numbers of their own for them and their nodes, in the order of a dissection: what lies together is near
+   !> in memory.
+   type :: compact_mesh_t
+      integer(ip), allocatable :: list(:)        !< (elements) 1, 2, ...
+      integer(ip), allocatable :: nodes(:, :)    !< (most nodes, elements)
+      integer(ip), allocatable :: n_nodes_of(:)  !< (elements)
+      integer(ip), allocatable :: node(:)        !< (n) of all
+      real(wp), allocatable :: x(:, :)           !< (2, n) [L]
+      logical, allocatable :: wanted(:)          !< (n)
+   end type compact_mesh_t
+
+   integer, parameter :: BY_PLACES = 0, BY_PLACES_REFINED = 1, BY_METIS = 2
+   !> Fewer elements are cut by their places.
+   integer(ip), parameter :: LEAST = 2000_ip
+   !> Operations of a factorisation for each unit of a dissection's work, with two equations a node; measured, as all below.
+   real(wp), parameter :: OPERATIONS = 65.0_wp
+   !> Work of METIS's cuts over that of a regular mesh. Work that moving elements saves where they lie irregularly.
+   real(wp), parameter :: METIS_SHARE = 1.45_wp, REFINED_SHARE = 0.9_wp
+   !> What ordering takes for each element, in operations of the factorisation.
+   real(wp), parameter :: METIS_COST = 16000.0_wp, REFINING_COST = 6000.0_wp
+   !> Elements are joined to clusters of 2**ROUNDS, and sets of no more than so many elements are cut by their places.
+   integer, parameter :: ROUNDS = 3
+   real(wp), parameter :: METIS_LEAF = 256.0_wp
+   !> Thousandths by which a part may be heavier than the mean.
+   integer(ip), parameter :: IMBALANCE = 50_ip
+   !> Elements that are looked at for their direction and their likeness.
+   integer(ip), parameter :: MOST_SAMPLES = 1000_ip
+   !> Elements have a direction in common when the mean of exp(4 i angle) of their sides is at least so large, and it counts when it
+   !> is this far [rad] from an axis.
+   real(wp), parameter :: IN_COMMON = 0.9_wp, LEAST_ANGLE = 0.01_wp
+   !> Extents are the same that differ by no more than this share.
+   real(wp), parameter :: SAME = 1.0e-6_wp
+
+contains
+
+   !> Orders the wanted nodes of some elements.
+   subroutine order_elements(elements, nodes, n_nodes_of, x, wanted, parts, text)
+      integer(ip), intent(in) :: elements(:)     !< which
+      integer(ip), intent(in) :: nodes(:, :)     !< (most nodes, all elements)
+      integer(ip), intent(in) :: n_nodes_of(:)   !< (all elements) nodes of each; the first four or all are its corners
+      real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
+      logical, intent(in) :: wanted(:)           !< (all nodes); those that are belong to the elements
+      type(dissection_t), intent(out) :: parts
+      character(len=:), allocatable, intent(out) :: text !< how, for the listing
+      type(dissection_guide_t) :: guide
+      real(wp) :: angle
+      integer :: way
+
+      call find_direction(elements, nodes, x, angle)
+      guide%cosine = cos(angle)
+      guide%sine = sin(angle)
+      call dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
+      text = 'by places'
+      if (abs(angle) > 0.0_wp) text = text//', turned by '//to_text(angle*45.0_wp/atan(1.0_wp), 3)//' degrees'
+      way = choose_way(elements, nodes, x, parts)
+      if (way == BY_PLACES) return
+      call dissect_again(way, nodes, n_nodes_of, x, wanted, guide, parts, text)
+   end subroutine order_elements
+
+   !> The way that is predicted to cost least, ordering and factorisation together.
+   integer function choose_way(elements, nodes, x, parts) result(way)
+      integer(ip), intent(in) :: elements(:), nodes(:, :)
+      real(wp), intent(in) :: x(:, :)
+      type(dissection_t), intent(in) :: parts    !< by places
+      real(wp) :: cost(BY_PLACES:BY_METIS), n
+
+      way = BY_PLACES
+      if (size(elements) < LEAST) return
+      n = real(size(elements), wp)
+      cost(BY_PLACES) = OPERATIONS*parts%work
+      cost(BY_PLACES_REFINED) = REFINED_SHARE*OPERATIONS*parts%work + REFINING_COST*n
+      cost(BY_METIS) = METIS_SHARE*OPERATIONS*parts%regular_work + METIS_COST*n
+      way = minloc(cost, dim=1) - 1
+      if (way == BY_PLACES_REFINED .and. .not. are_irregular(elements, nodes, x)) way = BY_PLACES
+   end function choose_way
+
+   subroutine dissect_again(way, nodes, n_nodes_of, x, wanted, guide, parts, text)
+      integer, intent(in) :: way
+      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
+      real(wp), intent(in) :: x(:, :)
+      logical, intent(in) :: wanted(:)
+      type(dissection_guide_t), intent(inout) :: guide
+      type(dissection_t), intent(inout) :: parts !< another, where that has less work
+      character(len=:), allocatable, intent(inout) :: text
+      type(compact_mesh_t) :: mesh
+      type(dissection_t) :: other
+      logical :: done
+
+      call compact(parts%element, nodes, n_nodes_of, x, wanted, mesh)
+      guide%refines = .true.
+      call list_corners(mesh%list, mesh%nodes, mesh%n_nodes_of, size(mesh%node, kind=ip), guide%lists)
+      done = .true.
+      if (way == BY_METIS) call halve_elements(mesh%list, guide, done)
+      if (.not. done) return
+      call dissect(mesh%list, mesh%nodes, mesh%n_nodes_of, mesh%x, mesh%wanted, guide, other)
+      if (other%work >= parts%work) return
+      text = text//', refined'
+      if (way == BY_METIS) text = 'by METIS'
+      text = text//', predicted operations '//to_text(other%work/parts%work, 2)//' of those by places'
+      parts = other
+      parts%order = mesh%node(other%order)
+   end subroutine dissect_again
+
+   !> Halves, halves of these and so on, by METIS.
+   subroutine halve_elements(list, guide, done)
+      integer(ip), intent(in) :: list(:)
+      type(dissection_guide_t), intent(inout) :: guide
+      logical, intent(out) :: done
+      type(cluster_t) :: clusters
+      integer(ip), allocatable :: half(:)
+
+      call join_elements(guide%lists, list, ROUNDS, clusters)
+      call link_clusters(guide%lists, clusters)
+      guide%n_halvings = max(1, nint(log(real(size(list), wp)/METIS_LEAF)/log(2.0_wp)))
+      allocate (half(clusters%n))
+      call halve_graph(clusters%first, clusters%neighbour, clusters%weight, clusters%shared, guide%n_halvings, &
+                       IMBALANCE, half, done)
+      if (done) guide%half = half(clusters%of_element)
+   end subroutine halve_elements
+
+   subroutine compact(elements, nodes, n_nodes_of, x, wanted, mesh)
+      integer(ip), intent(in) :: elements(:), nodes(:, :), n_nodes_of(:)
+      real(wp), intent(in) :: x(:, :)
+      logical, intent(in) :: wanted(:)
+      type(compact_mesh_t), intent(out) :: mesh
+      integer(ip) :: number(size(wanted)), list(size(wanted)), i, k, n, node
+
+      mesh%list = [(i, i=1, size(elements, kind=ip))]
+      mesh%n_nodes_of = n_nodes_of(elements)
+      allocate (mesh%nodes(size(nodes, 1), size(elements)), source=0_ip)
+      number = 0
+      n = 0
+      do i = 1, size(elements, kind=ip)
+         do k = 1, mesh%n_nodes_of(i)
+            node = nodes(k, elements(i))
+            if (number(node) == 0) then
+               n = n + 1
+               number(node) = n
+               list(n) = node
+            end if
+            mesh%nodes(k, i) = number(node)
+         end do
+      end do
+      mesh%node = list(:n)
+      mesh%x = x(:, mesh%node)
+      mesh%wanted = wanted(mesh%node)
+   end subroutine compact
+
+   !> The angle that the sides of the elements have in common, or that less a right one; 0: none that counts.
+   pure subroutine find_direction(elements, nodes, x, angle)
+      integer(ip), intent(in) :: elements(:), nodes(:, :)
+      real(wp), intent(in) :: x(:, :)
+      real(wp), intent(out) :: angle             !< [rad] -pi/4 to pi/4
+      integer(ip) :: i, n
+      complex(wp) :: total, side
+
+      n = min(MOST_SAMPLES, size(elements, kind=ip))
+      total = 0.0_wp
+      do i = 1, n
+         associate (corner => nodes(:2, elements(sample(i, n, size(elements, kind=ip)))))
+            side = cmplx(x(1, corner(2)) - x(1, corner(1)), x(2, corner(2)) - x(2, corner(1)), wp)
+            if (abs(side) > 0.0_wp) total = total + (side/abs(side))**4
+         end associate
+      end do
+      angle = 0.0_wp
+      if (abs(total) < IN_COMMON*real(n, wp) .or. n == 0) return
+      angle = 0.25_wp*atan2(total%im, total%re)
+      if (abs(angle) < LEAST_ANGLE) angle = 0.0_wp
+   end subroutine find_direction
+
+   !> Most elements have not one extent in common with the next one.
+   pure logical function are_irregular(elements, nodes, x)
+      integer(ip), intent(in) :: elements(:), nodes(:, :)
+      real(wp), intent(in) :: x(:, :)
+      integer(ip) :: i, n, n_different
+      real(wp) :: a(2), b(2)
+
+      n = min(MOST_SAMPLES, size(elements, kind=ip) - 1_ip)
+      n_different = 0
+      do i = 1, n
+         associate (at => sample(i, n, size(elements, kind=ip) - 1_ip))
+            a = extent(elements(at))
+            b = extent(elements(at + 1))
+         end associate
+         if (all(abs(a - b) > SAME*a)) n_different = n_different + 1
+      end do
+      are_irregular = 2*n_different > n
+
+   contains
+
+      pure function extent(e)
+         integer(ip), intent(in) :: e
+         real(wp) :: extent(2)
+
+         extent = abs(x(:, nodes(1, e)) - x(:, nodes(3, e))) + abs(x(:, nodes(2, e)) - x(:, nodes(4, e)))
+      end function extent
+
+   end function are_irregular
+
+   !> The i-th of n places at equal distances in a list.
+   pure integer(ip) function sample(i, n, length)
+      integer(ip), intent(in) :: i, n, length
+
+      sample = 1_ip + int((real(i, wp) - 0.5_wp)*real(length, wp)/real(n, wp), ip)
+   end function sample
+
+end module atrito_element_order

@@ -1,0 +1,355 @@
+!> A symmetric positive definite matrix of which some element matrices change from one factorisation to the next.
+!>
+!> Fronts whose subtrees hold no such element are factored once, equal ones together. The others keep what they leave for their
+!> parents, so a change is followed from its leaf up to the root, and nothing else is factored again.
+!>
+!> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted.
+module atrito_variable_matrix
+   use atrito_element_store, only: element_store_t, pack_matrix, move_store
+   use atrito_elimination, only: elimination_t
+   use atrito_front_factors, only: factor_t, front_bytes_t, begin_factors, factor_class, add_class, CHUNK_BYTES
+   use atrito_front_solves, only: solve_plan_t, plan_solves, forward, backward
+   use atrito_front_tree, only: front_tree_t, build_front_tree, HEADER
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_status, only: status_t, set_status, STATUS_INTERNAL, STATUS_SINGULAR
+   use atrito_threads, only: is_shared
+   implicit none (type, external)
+   private
+   public :: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, solve_variable_matrix, &
+             add_fixed_product, fixed_diagonal, variable_matrix_bytes, expect_variable_factors
+
+   type :: variable_matrix_t
+      integer(ip) :: n = 0                         !< equations
+      integer(ip) :: n_fixed = 0                   !< elements that do not change, the first ones
+      integer(ip) :: n_fronts = 0, n_refactored = 0 !< all that are different; those of the last factorisation
+      integer(ip) :: failed = 0                    !< equation whose pivot was not positive
+      type(elimination_t), private :: elimination
+      type(element_store_t), private :: store
+      type(front_tree_t), private :: tree
+      type(factor_t), allocatable, private :: factors(:) !< (tree%n_classes)
+      type(solve_plan_t), private :: plan
+      integer(ip), private :: first_matrix = 0     !< that of variable element v is first_matrix + v
+      integer(ip), allocatable, private :: class_of(:) !< (variable elements) front that it is assembled in; 0: none
+      logical, allocatable, private :: is_due(:)   !< (tree%n_classes)
+      real(wp), allocatable, private :: front(:)   !< where fronts are assembled
+   end type variable_matrix_t
+
+   !> More parents than there are: what a front leaves is kept.
+   integer(ip), parameter :: FOR_EVER = 1000000000_ip
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8, PART_BYTES = 5*INDEX_BYTES
+
+contains
+
+   !> Sets up the fronts. status: STATUS_INTERNAL when the memory does not suffice.
+   subroutine create_variable_matrix(matrix, n, elimination, fixed, start, equations, status)
+      type(variable_matrix_t), intent(out) :: matrix
+      integer(ip), intent(in) :: n                 !< equations
+      type(elimination_t), intent(in) :: elimination !< of all of them
+      type(element_store_t), intent(inout) :: fixed !< elements that do not change; it is emptied
+      integer(lp), intent(in) :: start(:)          !< (n_variable + 1)
+      integer(ip), intent(in) :: equations(:)      !< of variable element v: start(v) + 1..start(v + 1); 0: prescribed
+      type(status_t), intent(out) :: status
+      logical :: enough
+
+      matrix%n = n
+      matrix%n_fixed = fixed%n
+      matrix%elimination = elimination
+      matrix%first_matrix = fixed%n_matrices
+      call move_store(fixed, matrix%store)
+      call append_variable(start, equations, matrix%store)
+      call build_front_tree(elimination, n, 0_ip, matrix%store, matrix%tree)
+      enough = matrix%tree%enough
+      if (enough) call begin_factors(matrix%tree, matrix%factors, enough)
+      if (enough) call plan_solves(matrix%tree, matrix%plan)
+      if (.not. enough) then
+         call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
+         return
+      end if
+      matrix%n_fronts = matrix%tree%n_classes - 1
+      allocate (matrix%class_of(size(start) - 1), source=0_ip)
+      allocate (matrix%is_due(matrix%tree%n_classes), source=.true.)
+      call find_variable_fronts(matrix)
+   end subroutine create_variable_matrix
+
+   !> Every variable element has a matrix of its own, so the fronts that it reaches have no equals.
+   subroutine append_variable(start, equations, store)
+      integer(lp), intent(in) :: start(:)
+      integer(ip), intent(in) :: equations(:)
+      type(element_store_t), intent(inout) :: store
+      integer(lp) :: length, first
+      integer(ip) :: v, n_variable
+      integer(lp), allocatable :: matrix_start(:)
+      real(wp), allocatable :: values(:)
+
+      n_variable = size(start, kind=ip) - 1
+      first = store%start(store%n + 1)
+      store%start = [store%start(:store%n + 1), start(2:) + first]
+      store%equations = [store%equations(:first), equations]
+      store%matrix_of = [store%matrix_of(:store%n), (store%n_matrices + v, v=1, n_variable)]
+      allocate (matrix_start(store%n_matrices + n_variable + 1))
+      matrix_start(:store%n_matrices + 1) = store%matrix_start(:store%n_matrices + 1)
+      do v = 1, n_variable
+         length = start(v + 1) - start(v)
+         matrix_start(store%n_matrices + v + 1) = matrix_start(store%n_matrices + v) + length*(length + 1)/2
+      end do
+      first = store%matrix_start(store%n_matrices + 1)
+      allocate (values(matrix_start(size(matrix_start))))
+      values(:first) = store%values(:first)
+      values(first + 1:) = 0.0_wp
+      call move_alloc(values, store%values)
+      call move_alloc(matrix_start, store%matrix_start)
+      store%n = store%n + n_variable
+      store%n_matrices = store%n_matrices + n_variable
+   end subroutine append_variable
+
+   !> Where each variable element is assembled. What the children of such fronts, and of those above them, leave is kept.
+   subroutine find_variable_fronts(matrix)
+      type(variable_matrix_t), intent(inout) :: matrix
+      logical :: varies(matrix%tree%n_classes)
+      integer(ip) :: c, i
+      integer(lp) :: k
+
+      varies = .false.
+      associate (record => matrix%tree%record)
+         do c = 1, matrix%n_fronts
+            k = matrix%tree%start(c) + HEADER
+            do i = 1, record(matrix%tree%start(c) + 3)
+               varies(c) = varies(c) .or. varies(record(k + 1))
+               k = k + 2 + record(k + 2)
+            end do
+            do i = 1, record(matrix%tree%start(c) + 4)
+               if (record(k + 1) > matrix%first_matrix) then
+                  varies(c) = .true.
+                  matrix%class_of(record(k + 1) - matrix%first_matrix) = c
+               end if
+               k = k + 2 + record(k + 2)
+            end do
+            if (varies(c)) call keep_children(matrix, c)
+         end do
+      end associate
+   end subroutine find_variable_fronts
+
+   subroutine keep_children(matrix, c)
+      type(variable_matrix_t), intent(inout) :: matrix
+      integer(ip), intent(in) :: c
+      integer(ip) :: i
+      integer(lp) :: k
+
+      associate (record => matrix%tree%record)
+         k = matrix%tree%start(c) + HEADER
+         do i = 1, record(matrix%tree%start(c) + 3)
+            matrix%factors(record(k + 1))%waiting = FOR_EVER
+            k = k + 2 + record(k + 2)
+         end do
+      end associate
+   end subroutine keep_children
+
+   !> The next factorisation takes this matrix for a variable element.
+   subroutine set_variable_element(matrix, v, values)
+      type(variable_matrix_t), intent(inout) :: matrix
+      integer(ip), intent(in) :: v
+      real(wp), intent(in) :: values(:, :)         !< symmetric, of its equations
+      integer(lp) :: first, last
+
+      first = matrix%store%matrix_start(matrix%first_matrix + v)
+      last = matrix%store%matrix_start(matrix%first_matrix + v + 1)
+      call pack_matrix(values, matrix%store%values(first + 1:last))
+      if (matrix%class_of(v) > 0) matrix%is_due(matrix%class_of(v)) = .true.
+   end subroutine set_variable_element
+
+   !> Factors what has changed. status: STATUS_SINGULAR when a pivot is not positive (matrix%failed), STATUS_INTERNAL when the
+   !> memory does not suffice.
+   subroutine factor_variable_matrix(matrix, status)
+      type(variable_matrix_t), intent(inout) :: matrix
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: no_diagonal(:)      ! pivots are judged by their sign alone
+      integer(ip) :: c
+      integer :: no_memory
+
+      matrix%n_refactored = 0
+      matrix%failed = 0
+      allocate (no_diagonal(matrix%n), source=0.0_wp)
+      if (.not. allocated(matrix%front)) allocate (matrix%front(int(maxval(matrix%factors%order), lp)**2), stat=no_memory)
+      if (.not. allocated(matrix%front)) then
+         call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
+         return
+      end if
+      do c = 1, matrix%n_fronts
+         if (.not. matrix%is_due(c)) matrix%is_due(c) = child_was_factored(matrix, c)
+         if (.not. matrix%is_due(c)) cycle
+         matrix%n_refactored = matrix%n_refactored + 1
+         call factor_class(matrix%tree, matrix%store, no_diagonal, c, matrix%factors(c)%order, matrix%factors, matrix%front)
+         if (matrix%factors(c)%done) cycle
+         call report_failure(matrix, c, status)
+         return
+      end do
+      matrix%is_due = .false.
+   end subroutine factor_variable_matrix
+
+   pure logical function child_was_factored(matrix, c) result(was)
+      type(variable_matrix_t), intent(in) :: matrix
+      integer(ip), intent(in) :: c
+      integer(ip) :: i
+      integer(lp) :: k
+
+      was = .false.
+      associate (record => matrix%tree%record)
+         k = matrix%tree%start(c) + HEADER
+         do i = 1, record(matrix%tree%start(c) + 3)
+            was = was .or. matrix%is_due(record(k + 1))
+            k = k + 2 + record(k + 2)
+         end do
+      end associate
+   end function child_was_factored
+
+   subroutine report_failure(matrix, c, status)
+      type(variable_matrix_t), intent(inout) :: matrix
+      integer(ip), intent(in) :: c
+      type(status_t), intent(out) :: status
+      integer(ip) :: place
+
+      matrix%is_due = .true.
+      if (.not. matrix%factors(c)%enough) then
+         call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
+         return
+      end if
+      place = matrix%tree%first(matrix%tree%representative(c)) + max(matrix%factors(c)%failed, 1_ip) - 1
+      matrix%failed = findloc(matrix%elimination%place, place, dim=1, kind=ip)
+      call set_status(status, STATUS_SINGULAR, 'a pivot is not positive')
+   end subroutine report_failure
+
+   !> x <- A^-1 x.
+   subroutine solve_variable_matrix(matrix, x)
+      type(variable_matrix_t), intent(in) :: matrix
+      real(wp), intent(inout) :: x(:)              !< (n)
+      real(wp) :: by_place(matrix%n)
+      integer(ip) :: i
+
+      do i = 1, matrix%n
+         by_place(matrix%elimination%place(i)) = x(i)
+      end do
+      call forward(matrix%tree, matrix%factors, matrix%plan, by_place)
+      call backward(matrix%tree, matrix%factors, matrix%plan, by_place)
+      do i = 1, matrix%n
+         x(i) = by_place(matrix%elimination%place(i))
+      end do
+   end subroutine solve_variable_matrix
+
+   !> y <- y + A x for the elements that do not change, each with the matrix that it has itself.
+   subroutine add_fixed_product(matrix, x, y)
+      type(variable_matrix_t), intent(in) :: matrix
+      real(wp), intent(in) :: x(:)                 !< (n)
+      real(wp), intent(inout) :: y(:)              !< (n)
+      integer(ip) :: e, n
+      integer(lp) :: first
+
+      associate (store => matrix%store)
+         do e = 1, matrix%n_fixed
+            first = store%start(e)
+            n = int(store%start(e + 1) - first, ip)
+            if (e <= store%own%n) then
+               call add_element_product(n, store%equations(first + 1:first + n), &
+                                        store%own%values(store%own%matrix_start(store%own%matrix_of(e)) + 1:), x, y)
+            else
+               call add_element_product(n, store%equations(first + 1:first + n), &
+                                        store%values(store%matrix_start(store%matrix_of(e)) + 1:), x, y)
+            end if
+         end do
+      end associate
+   end subroutine add_fixed_product
+
+   !> With the displacements less those of the first node, whose part in the forces is none: a stiffness is free of forces under
+   !> translation, and what cancels is left out.
+   pure subroutine add_element_product(n, equations, packed, x, y)
+      integer(ip), intent(in) :: n, equations(n)
+      real(wp), intent(in) :: packed(*)
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(inout) :: y(:)
+      real(wp) :: xe(n), ye(n)
+      integer(ip) :: i, j, k
+
+      do i = 1, n
+         xe(i) = 0.0_wp
+         if (equations(i) > 0) xe(i) = x(equations(i))
+      end do
+      if (n > 2) then
+         do i = n, 1, -1
+            xe(i) = xe(i) - xe(2 - mod(i, 2_ip))
+         end do
+      end if
+      ye = 0.0_wp
+      k = 0
+      do j = 1, n
+         ye(j) = ye(j) + packed(k + 1)*xe(j) + dot_product(packed(k + 2:k + 1 + n - j), xe(j + 1:))
+         ye(j + 1:) = ye(j + 1:) + packed(k + 2:k + 1 + n - j)*xe(j)
+         k = k + n - j + 1
+      end do
+      do i = 1, n
+         if (equations(i) > 0) y(equations(i)) = y(equations(i)) + ye(i)
+      end do
+   end subroutine add_element_product
+
+   !> The diagonal of the elements that do not change; and what their first, third, ... equation has with the next one: two
+   !> displacements of a node.
+   pure subroutine fixed_diagonal(matrix, diagonal, coupling)
+      type(variable_matrix_t), intent(in) :: matrix
+      real(wp), intent(out) :: diagonal(:)         !< (n)
+      real(wp), intent(out), optional :: coupling(:) !< (n) at the first of the two
+      integer(ip) :: e, i, n
+      integer(lp) :: first, at
+
+      diagonal = 0.0_wp
+      if (present(coupling)) coupling = 0.0_wp
+      do e = 1, matrix%n_fixed
+         first = matrix%store%start(e)
+         n = int(matrix%store%start(e + 1) - first, ip)
+         at = matrix%store%matrix_start(matrix%store%matrix_of(e)) + 1
+         do i = 1, n
+            associate (k => matrix%store%equations(first + i))
+               if (k > 0) diagonal(k) = diagonal(k) + matrix%store%values(at)
+               if (present(coupling) .and. mod(i, 2_ip) == 1 .and. i < n .and. k > 0) then
+                  coupling(k) = coupling(k) + matrix%store%values(at + 1)
+               end if
+            end associate
+            at = at + n - i + 1
+         end do
+      end do
+   end subroutine fixed_diagonal
+
+   !> What the first factorisation will add to the matrix, before it does.
+   pure subroutine expect_variable_factors(matrix, bytes)
+      type(variable_matrix_t), intent(in) :: matrix
+      type(front_bytes_t), intent(out) :: bytes
+      type(factor_t), allocatable :: factors(:)
+      integer(ip) :: c
+
+      factors = matrix%factors
+      do c = 1, matrix%n_fronts
+         call add_class(matrix%tree, c, factors, bytes)
+      end do
+      associate (front => REAL_BYTES*int(maxval(factors%order), lp)**2)
+         bytes%held = bytes%held + front
+         bytes%most = bytes%most + front
+      end associate
+   end subroutine expect_variable_factors
+
+   !> What the matrix holds now [bytes].
+   pure integer(lp) function variable_matrix_bytes(matrix) result(bytes)
+      type(variable_matrix_t), intent(in) :: matrix
+      integer(ip) :: c
+
+      bytes = INDEX_BYTES*(size(matrix%tree%record, kind=lp) + matrix%n) + PART_BYTES*matrix%tree%n_parts &
+              + INDEX_BYTES*size(matrix%store%equations, kind=lp) + REAL_BYTES*size(matrix%store%values, kind=lp) &
+              + (REAL_BYTES + INDEX_BYTES)*int(matrix%store%n, lp) + matrix%tree%n_classes*(storage_size(matrix%factors, kind=lp)/8)
+      if (matrix%store%own%n > 0) bytes = bytes + REAL_BYTES*size(matrix%store%own%values, kind=lp) &
+                                          + (REAL_BYTES + INDEX_BYTES)*int(matrix%store%own%n, lp)
+      if (allocated(matrix%front)) bytes = bytes + REAL_BYTES*size(matrix%front, kind=lp)
+      do c = 1, matrix%n_fronts
+         associate (factor => matrix%factors(c))
+            if (allocated(factor%columns)) bytes = bytes + REAL_BYTES*size(factor%columns, kind=lp) + CHUNK_BYTES
+            if (allocated(factor%update)) bytes = bytes + REAL_BYTES*size(factor%update, kind=lp) + CHUNK_BYTES
+         end associate
+      end do
+   end function variable_matrix_bytes
+
+end module atrito_variable_matrix

@@ -1,0 +1,34 @@
+!> The twin of src/linalg/atrito_clp.F90 in a build without Clp.
+module atrito_clp
+   use atrito_linear_program, only: linear_program_t, linear_solution_t
+   implicit none (type, external)
+   private
+   public :: solve_linear_program, has_clp, clp_version, clp_trouble
+
+contains
+
+   !> solution%status: LP_NOT_AVAILABLE.
+   subroutine solve_linear_program(program, method, solution)
+      type(linear_program_t), intent(in) :: program
+      integer, intent(in) :: method
+      type(linear_solution_t), intent(out) :: solution
+
+   end subroutine solve_linear_program
+
+   pure logical function has_clp()
+      has_clp = .false.
+   end function has_clp
+
+   pure function clp_version() result(version)
+      character(len=:), allocatable :: version
+
+      version = 'none'
+   end function clp_version
+
+   pure function clp_trouble() result(text)
+      character(len=:), allocatable :: text
+
+      text = 'this build has none'
+   end function clp_trouble
+
+end module atrito_clp

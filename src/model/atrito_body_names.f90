@@ -1,0 +1,58 @@
+!> What bodies are called.
+module atrito_body_names
+   use atrito_bodies, only: bodies_t
+   use atrito_kinds, only: ip
+   use atrito_model, only: model_t
+   use atrito_sets, only: set_count
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: name_bodies
+
+contains
+
+   !> A body is called after the element set of its section. One of several that share a section is called after the first set that
+   !> holds just this body, as those of a *BLOCK do; where there is none, it gets a number.
+   pure subroutine name_bodies(model, bodies)
+      type(model_t), intent(in) :: model
+      type(bodies_t), intent(inout) :: bodies
+      integer(ip) :: section(bodies%n), set(bodies%n), sharing(size(model%sections)), i
+
+      sharing = 0
+      do i = 1, bodies%n
+         section(i) = model%section_of(bodies%list(i)%elements(1))
+         sharing(section(i)) = sharing(section(i)) + 1
+      end do
+      set = 0
+      if (any(sharing > 1)) set = sets_of_bodies(model, bodies)
+      do i = 1, bodies%n
+         associate (elset => model%sections(section(i))%elset)
+            if (sharing(section(i)) == 1) then
+               bodies%list(i)%name = elset
+            else if (set(i) > 0) then
+               bodies%list(i)%name = model%element_sets%sets(set(i))%name
+            else
+               bodies%list(i)%name = elset//'-'//to_text(i)
+            end if
+         end associate
+      end do
+   end subroutine name_bodies
+
+   !> The first set that holds all elements of a body and no others; 0: there is none.
+   pure function sets_of_bodies(model, bodies) result(set)
+      type(model_t), intent(in) :: model
+      type(bodies_t), intent(in) :: bodies
+      integer(ip) :: set(bodies%n), s, b
+
+      set = 0
+      do s = 1, set_count(model%element_sets)
+         associate (members => model%element_sets%sets(s)%members)
+            if (size(members) == 0) cycle
+            b = bodies%of_element(members(1))
+            if (set(b) > 0 .or. size(members) /= size(bodies%list(b)%elements)) cycle
+            if (all(bodies%of_element(members) == b)) set(b) = s
+         end associate
+      end do
+   end function sets_of_bodies
+
+end module atrito_body_names

@@ -1,0 +1,278 @@
+!> *NCOPY and *ELCOPY: nodes and elements once more, elsewhere and with other numbers.
+module atrito_build_copies
+   use atrito_build_elements, only: copy_element_once
+   use atrito_build_nodes, only: place_node, put_node_set
+   use atrito_build_sets, only: try_elset_card
+   use atrito_coordinates, only: get_coordinate
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, line_item, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_draft, only: draft_t, spoil_block
+   use atrito_items, only: get_real, find_option, option_integer, option_text
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_model, only: model_t
+   use atrito_model_memory, only: fits_memory
+   use atrito_references, only: report_unknown
+   use atrito_sets, only: find_set, grow_set
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_ncopy_card, read_elcopy_card
+
+   !> A translation, then a rotation about a point of the plane.
+   type :: motion_t
+      real(wp) :: shift(2) = 0.0_wp                  !< [L]
+      real(wp) :: centre(2) = 0.0_wp                 !< [L]
+      real(wp) :: angle = 0.0_wp                     !< [degrees], counter-clockwise
+   end type motion_t
+
+   real(wp), parameter :: HALF_TURN = 180.0_wp
+
+contains
+
+   !> *NCOPY: the nodes of a set, moved.
+   subroutine read_ncopy_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card              !< place in deck%cards
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(motion_t) :: motion
+      type(token_t) :: token
+      integer(ip), allocatable :: members(:)
+      character(len=:), allocatable :: name
+      integer(ip) :: change, i, first
+      logical :: ok(4), found
+
+      associate (card => deck%cards(i_card))
+         call read_number(deck, card, 'CHANGE NUMBER', change, ok(1))
+         call find_old_set(deck, card, 'node set', model, draft, members, ok(2))
+         call read_motion(deck, card, motion, ok(3))
+         call option_text(deck, card, 'NEW SET', name, found)
+         if (.not. found) name = ''
+         if (.not. all(ok(:3))) then
+            call spoil_block(draft, name)
+            return
+         end if
+         call find_place(deck, card, 'CHANGE NUMBER', token)
+         ok(4) = fits_memory(deck, token, model, draft, size(members, kind=lp), 0_lp, 'NCOPY')
+         first = model%mesh%n_nodes + 1
+         do i = 1, size(members, kind=ip)
+            if (ok(4)) call copy_node(deck, i_card, token, model, draft, members(i), change, motion, ok(4))
+         end do
+         if (.not. ok(4)) call spoil_block(draft, name)
+         if (found) call put_node_set(model, draft, i_card, name, [(i, i=first, model%mesh%n_nodes)])
+      end associate
+   end subroutine read_ncopy_card
+
+   !> ok: .false. for the first number that cannot be: the others would fail for the same reason.
+   subroutine copy_node(deck, i_card, token, model, draft, node, change, motion, ok)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card
+      type(token_t), intent(in) :: token             !< of CHANGE NUMBER=
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      integer(ip), intent(in) :: node, change
+      type(motion_t), intent(in) :: motion
+      logical, intent(out) :: ok
+      integer(lp) :: id
+
+      id = int(model%mesh%node_id(node), lp) + int(change, lp)
+      ok = id > 0_lp .and. id <= int(huge(1_ip), lp)
+      if (ok) then
+         call place_node(deck, model, draft, int(id, ip), moved(motion, model%mesh%x(:, node)), -i_card, ok, 'NCOPY')
+      else
+         call report_error(deck, token, 'E-ID', 'node '//to_text(model%mesh%node_id(node))//' would become '//to_text(id), &
+                           expected='positive node numbers that are not too large', keyword='NCOPY')
+      end if
+   end subroutine copy_node
+
+   pure function moved(motion, x) result(y)
+      type(motion_t), intent(in) :: motion
+      real(wp), intent(in) :: x(2)                   !< [L]
+      real(wp) :: y(2), d(2), c, s
+
+      y = x + motion%shift
+      if (.not. abs(motion%angle) > 0.0_wp) return
+      ! quarter turns are exact
+      c = cos(motion%angle*(acos(-1.0_wp)/HALF_TURN))
+      s = sin(motion%angle*(acos(-1.0_wp)/HALF_TURN))
+      if (.not. abs(modulo(motion%angle, HALF_TURN/2)) > 0.0_wp) then
+         c = anint(c)
+         s = anint(s)
+      end if
+      d = y - motion%centre
+      y = motion%centre + [c*d(1) - s*d(2), s*d(1) + c*d(2)]
+   end function moved
+
+   !> An integer option that must be there.
+   subroutine read_number(deck, card, name, number, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      integer(ip), intent(out) :: number
+      logical, intent(out) :: ok
+
+      number = 0
+      call option_integer(deck, card, name, 'difference of the numbers, an integer', number, ok)
+   end subroutine read_number
+
+   subroutine find_place(deck, card, name, place)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: name
+      type(token_t), intent(out) :: place            !< of the value of an option
+      type(option_t) :: option
+      logical :: found
+
+      call find_option(deck, card, name, option, found)
+      place = card%place
+      if (found) place = option%value
+   end subroutine find_place
+
+   !> The members of OLD SET=, which is defined above.
+   subroutine find_old_set(deck, card, noun, model, draft, members, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: noun           !< 'node set' or 'element set'
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), allocatable, intent(out) :: members(:)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      integer(ip) :: i
+
+      allocate (members(0))
+      call option_text(deck, card, 'OLD SET', name, ok, place)
+      if (.not. ok) return
+      if (noun == 'node set') then
+         i = find_set(model%node_sets, name)
+         if (i > 0) members = model%node_sets%sets(i)%members
+         if (i == 0) call report_unknown(deck, draft, place, 'earlier node set', 'E-SET', model%node_sets%names, 'NCOPY')
+      else
+         i = find_set(model%element_sets, name)
+         if (i > 0) members = model%element_sets%sets(i)%members
+         if (i == 0) call report_unknown(deck, draft, place, 'earlier element set', 'E-SET', model%element_sets%names, 'ELCOPY')
+      end if
+      ok = i > 0
+   end subroutine find_old_set
+
+   !> The translation, and the rotation as often as MULTIPLE= says.
+   subroutine read_motion(deck, card, motion, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(motion_t), intent(out) :: motion
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'how often the rotation is done, a positive integer'
+      type(token_t) :: place
+      integer(ip) :: times, k
+      logical :: good
+
+      ok = card%n_lines > 0
+      times = 1
+      call option_integer(deck, card, 'MULTIPLE', WHAT, times, good)
+      if (times < 1) then
+         ok = .false.
+         call find_place(deck, card, 'MULTIPLE', place)
+         call report_error(deck, place, 'E-VALUE', 'MULTIPLE = '//to_text(times), expected=WHAT, keyword='NCOPY')
+      end if
+      do k = card%first_line, card%first_line + card%n_lines - 1
+         ok = ok .and. deck%lines(k)%ok
+      end do
+      if (.not. ok) return
+      call read_shift(deck, deck%lines(card%first_line), motion, ok)
+      if (card%n_lines > 1) then
+         call read_rotation(deck, deck%lines(card%first_line + 1), motion, good)
+         ok = ok .and. good
+      end if
+      motion%angle = motion%angle*real(times, wp)
+   end subroutine read_motion
+
+   subroutine read_shift(deck, line, motion, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(motion_t), intent(inout) :: motion
+      logical, intent(out) :: ok
+      real(wp) :: z
+      logical :: good(3)
+
+      call get_coordinate(deck, line_item(deck, line, 1_ip), 'translation along x, a real [L]', motion%shift(1), good(1), 'NCOPY')
+      call get_coordinate(deck, line_item(deck, line, 2_ip), 'translation along y, a real [L]', motion%shift(2), good(2), 'NCOPY')
+      z = 0.0_wp
+      good(3) = .true.
+      if (.not. is_empty_token(line_item(deck, line, 3_ip))) then
+         call get_coordinate(deck, line_item(deck, line, 3_ip), 'translation along z, 0 [L]', z, good(3), 'NCOPY')
+      end if
+      ok = all(good)
+      if (.not. ok .or. .not. abs(z) > 0.0_wp) return
+      ok = .false.
+      call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', 'the scene is plane: the translation along z is not 0', &
+                        expected='0 [L], or no third item', keyword='NCOPY')
+   end subroutine read_shift
+
+   !> The axis stands upright on the plane; the angle is positive round its direction.
+   subroutine read_rotation(deck, line, motion, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(motion_t), intent(inout) :: motion
+      logical, intent(out) :: ok
+      real(wp) :: axis(6), angle
+      integer(ip) :: k
+      logical :: good
+
+      ok = .true.
+      do k = 1, 6
+         call get_coordinate(deck, line_item(deck, line, k), 'coordinate of the axis, a real [L]', axis(k), good, 'NCOPY')
+         ok = ok .and. good
+      end do
+      call get_real(deck, line_item(deck, line, 7_ip), 'angle, a real [degrees]', angle, good, keyword='NCOPY')
+      ok = ok .and. good
+      if (.not. ok) return
+      ok = .not. any(abs(axis(4:5) - axis(1:2)) > 0.0_wp) .and. abs(axis(6) - axis(3)) > 0.0_wp
+      if (.not. ok) then
+         call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the axis does not stand upright on the plane', &
+                           expected='xa, ya, za, xb, yb, zb with xb = xa, yb = ya, zb other than za [L]', keyword='NCOPY')
+         return
+      end if
+      motion%centre = axis(1:2)
+      motion%angle = sign(1.0_wp, axis(6) - axis(3))*angle
+   end subroutine read_rotation
+
+   !> *ELCOPY: the elements of a set on other nodes, which are there already.
+   subroutine read_elcopy_card(deck, i_card, model, draft)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: i_card
+      type(model_t), intent(inout) :: model
+      type(draft_t), intent(inout) :: draft
+      type(token_t) :: token
+      integer(ip), allocatable :: members(:)
+      character(len=:), allocatable :: name
+      integer(ip) :: shift, node_shift, i, first
+      logical :: ok(4), found
+
+      ! sets of elements are read after all elements, those that are wanted here before
+      do i = 1, i_card - 1
+         if (keyword_name(deck%cards(i)) == 'ELSET' .and. .not. draft%card_done(i)) call try_elset_card(deck, i, model, draft)
+      end do
+      associate (card => deck%cards(i_card))
+         call read_number(deck, card, 'ELEMENT SHIFT', shift, ok(1))
+         call read_number(deck, card, 'SHIFT NODES', node_shift, ok(2))
+         call find_old_set(deck, card, 'element set', model, draft, members, ok(3))
+         call option_text(deck, card, 'NEW SET', name, found)
+         if (.not. found) name = ''
+         if (.not. all(ok(:3))) then
+            call spoil_block(draft, name)
+            return
+         end if
+         call find_place(deck, card, 'SHIFT NODES', token)
+         ok(4) = fits_memory(deck, token, model, draft, 0_lp, size(members, kind=lp), 'ELCOPY')
+         first = model%mesh%n_elements + 1
+         do i = 1, size(members, kind=ip)
+            if (ok(4)) call copy_element_once(deck, token, -i_card, 'ELCOPY', model, draft, members(i), &
+                                              [int(node_shift, lp), int(shift, lp)], ok(4))
+         end do
+         if (.not. ok(4)) call spoil_block(draft, name)
+         if (found) call grow_set(model%element_sets, name, [(i, i=first, model%mesh%n_elements)])
+      end associate
+   end subroutine read_elcopy_card
+
+end module atrito_build_copies

@@ -1,0 +1,249 @@
+!> *CONTACT and what belongs to it: which surfaces may touch, and by which law.
+module atrito_contact_rules
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_draft, only: draft_t, place_text, has_errors
+   use atrito_items, only: find_option, has_option, option_real
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_model, only: model_t, SURFACE_SEGMENTS
+   use atrito_name_list, only: find_name
+   use atrito_references, only: report_unknown
+   use atrito_sorting, only: sorted_places
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: contact_rules_t, rule_list_t, read_contact_rules, add_rule, last_rule, sort_rules, ANY_BODY
+
+   !> Stands for the outlines of all bodies in the place of a surface.
+   integer(ip), parameter :: ANY_BODY = 0_ip
+
+   !> Pairs of surfaces, and a number for each.
+   type :: rule_list_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: surface(:, :)      !< (2, n) places in the model's list, or ANY_BODY
+      integer(ip), allocatable :: value(:)           !< (n)
+      integer(lp), allocatable :: key(:)             !< (n) sorted: of the surfaces
+      integer(ip), allocatable :: order(:)           !< (n) the rules by their keys; of equal ones the last is the last
+   end type rule_list_t
+
+   type :: contact_rules_t
+      logical :: given = .false.
+      type(token_t) :: place                         !< of the *CONTACT
+      real(wp) :: distance = 0.0_wp                  !< [L]; 0: half a face
+      logical :: quadrature_given = .false.
+      type(rule_list_t) :: included, excluded
+      type(rule_list_t) :: assigned                  !< value: place of the interaction
+   end type contact_rules_t
+
+contains
+
+   !> All rules of a deck.
+   subroutine read_contact_rules(deck, model, draft, rules)
+      type(deck_t), intent(in) :: deck
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(contact_rules_t), intent(out) :: rules
+      integer(ip) :: i
+
+      do i = 1, deck%n_cards
+         select case (keyword_name(deck%cards(i)))
+         case ('CONTACT')
+            call read_contact_card(deck, deck%cards(i), rules)
+         case ('CONTACT INCLUSIONS')
+            if (has_option(deck, deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
+            call read_lines(deck, deck%cards(i), model, draft, rules%included)
+         case ('CONTACT EXCLUSIONS')
+            call read_lines(deck, deck%cards(i), model, draft, rules%excluded)
+         case ('CONTACT PROPERTY ASSIGNMENT')
+            call read_lines(deck, deck%cards(i), model, draft, rules%assigned)
+         end select
+      end do
+      if (.not. rules%given .or. rules%included%n > 0 .or. has_errors()) return
+      call report_error(deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
+                        expected='*CONTACT INCLUSIONS, ALL EXTERIOR, or lines of surfaces', keyword='CONTACT INCLUSIONS')
+   end subroutine read_contact_rules
+
+   subroutine read_contact_card(deck, card, rules)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(contact_rules_t), intent(inout) :: rules
+      character(len=*), parameter :: WHAT = 'farthest distance of faces that may touch, a real > 0 [L]'
+      type(option_t) :: option
+      logical :: found
+
+      if (rules%given) then
+         call report_error(deck, card%place, 'E-TWICE', '*CONTACT is given twice, first in '// &
+                           place_text(deck, rules%place, card%place), expected='one *CONTACT, with all that belongs to it', &
+                           keyword='CONTACT')
+         return
+      end if
+      rules%given = .true.
+      rules%place = card%place
+      rules%quadrature_given = has_option(deck, card, 'QUADRATURE')
+      call option_real(deck, card, 'DISTANCE', WHAT, rules%distance, found)
+      if (.not. found .or. rules%distance > 0.0_wp) return
+      call find_option(deck, card, 'DISTANCE', option, found)
+      call report_error(deck, option%value, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
+   end subroutine read_contact_card
+
+   !> Lines of two surfaces, and of an interaction where one belongs.
+   subroutine read_lines(deck, card, model, draft, rules)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      type(rule_list_t), intent(inout) :: rules
+      integer(ip) :: i, surface(2), value
+      logical :: ok(3)
+
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         if (.not. deck%lines(i)%ok) cycle
+         associate (line => deck%lines(i))
+            call find_surface(deck, card, line_item(deck, line, 1_ip), model, draft, ANY_BODY, surface(1), ok(1))
+            call find_surface(deck, card, line_item(deck, line, 2_ip), model, draft, surface(1), surface(2), ok(2))
+            value = 1
+            ok(3) = .true.
+            if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
+               call find_interaction(deck, line_item(deck, line, 3_ip), draft, value, ok(3))
+            end if
+            if (all(ok(:2))) ok(1) = has_body(deck, card, line, model, surface)
+            if (all(ok)) call add_rule(rules, surface(1), surface(2), value)
+         end associate
+      end do
+   end subroutine read_lines
+
+   subroutine find_surface(deck, card, token, model, draft, default, surface, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(token_t), intent(in) :: token
+      type(model_t), intent(in) :: model
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(in) :: default             !< of an empty item
+      integer(ip), intent(out) :: surface            !< place, or ANY_BODY
+      logical, intent(out) :: ok                     !< .false.: unknown, reported
+
+      surface = default
+      ok = .true.
+      if (is_empty_token(token)) return
+      surface = find_name(draft%surface_names, token_text(deck, token))
+      ok = surface > 0
+      if (.not. ok) then
+         call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', draft%surface_names, keyword_name(card))
+      else if (model%surfaces(surface)%kind == SURFACE_SEGMENTS .and. .not. model%surfaces(surface)%is_rigid_body) then
+         if (draft%rigid_unsure .and. has_errors()) return
+         ok = .false.
+         call report_error(deck, token, 'E-PAIR', 'the drawn surface '//model%surfaces(surface)%name//' belongs to no body', &
+                           expected='*RIGID BODY, ANALYTICAL SURFACE='//model%surfaces(surface)%name, keyword='RIGID BODY')
+      end if
+   end subroutine find_surface
+
+   !> Two rigid surfaces cannot touch each other.
+   logical function has_body(deck, card, line, model, surface)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(data_line_t), intent(in) :: line
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface(2)
+      integer(ip) :: i
+
+      has_body = .false.
+      do i = 1, 2
+         if (surface(i) == ANY_BODY) then
+            has_body = .true.
+         else
+            has_body = has_body .or. model%surfaces(surface(i))%kind /= SURFACE_SEGMENTS
+         end if
+      end do
+      if (.not. has_body) call report_error(deck, line_item(deck, line, 1_ip), 'E-PAIR', 'rigid surfaces do not touch each other', &
+                                            expected='a surface of elements, or an empty item, and a rigid surface', &
+                                            keyword=keyword_name(card))
+   end function has_body
+
+   subroutine find_interaction(deck, token, draft, interaction, ok)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      type(draft_t), intent(in) :: draft
+      integer(ip), intent(out) :: interaction
+      logical, intent(out) :: ok
+
+      interaction = find_name(draft%interaction_names, token_text(deck, token))
+      ok = interaction > 0
+      if (.not. ok) call report_unknown(deck, draft, token, 'surface interaction', 'E-INTERACTION', draft%interaction_names, &
+                                        'CONTACT PROPERTY ASSIGNMENT')
+   end subroutine find_interaction
+
+   !> Adds a rule to those that there are.
+   pure subroutine add_rule(rules, a, b, value)
+      type(rule_list_t), intent(inout) :: rules
+      integer(ip), intent(in) :: a, b, value
+      integer(ip), allocatable :: surface(:, :), values(:)
+
+      if (.not. allocated(rules%value)) allocate (rules%surface(2, 16), rules%value(16))
+      if (rules%n == size(rules%value)) then
+         allocate (surface(2, 2*rules%n), values(2*rules%n))
+         surface(:, :rules%n) = rules%surface
+         values(:rules%n) = rules%value
+         call move_alloc(surface, rules%surface)
+         call move_alloc(values, rules%value)
+      end if
+      rules%n = rules%n + 1
+      rules%surface(:, rules%n) = [a, b]
+      rules%value(rules%n) = value
+   end subroutine add_rule
+
+   !> To be called before last_rule.
+   pure subroutine sort_rules(rules)
+      type(rule_list_t), intent(inout) :: rules
+      integer(lp) :: key(rules%n)
+      integer(ip) :: i
+
+      do i = 1, rules%n
+         key(i) = key_of(rules%surface(1, i), rules%surface(2, i))
+      end do
+      rules%order = sorted_places(key)
+      rules%key = key(rules%order)
+   end subroutine sort_rules
+
+   pure integer(lp) function key_of(a, b)
+      integer(ip), intent(in) :: a, b
+
+      key_of = int(min(a, b), lp)*(int(huge(a), lp) + 1_lp) + int(max(a, b), lp)
+   end function key_of
+
+   !> The last rule for two things that belong to some surfaces each; 0: none.
+   pure integer(ip) function last_rule(rules, a, b) result(last)
+      type(rule_list_t), intent(in) :: rules         !< sorted
+      integer(ip), intent(in) :: a(:), b(:)          !< surfaces, ANY_BODY one of them for a body
+      integer(ip) :: i, k
+
+      last = 0
+      if (rules%n == 0) return
+      do i = 1, size(a, kind=ip)
+         do k = 1, size(b, kind=ip)
+            last = max(last, find_rule(rules, key_of(a(i), b(k))))
+         end do
+      end do
+   end function last_rule
+
+   !> The last rule of a key; 0: none.
+   pure integer(ip) function find_rule(rules, key) result(rule)
+      type(rule_list_t), intent(in) :: rules
+      integer(lp), intent(in) :: key
+      integer(ip) :: low, high, middle
+
+      low = 0
+      high = rules%n + 1
+      do while (high - low > 1)
+         middle = (low + high)/2
+         if (rules%key(middle) > key) then
+            high = middle
+         else
+            low = middle
+         end if
+      end do
+      rule = 0
+      if (low == 0) return
+      if (rules%key(low) == key) rule = rules%order(low)
+   end function find_rule
+
+end module atrito_contact_rules

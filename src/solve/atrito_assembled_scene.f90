@@ -1,0 +1,518 @@
+!> All bodies of a scene in one sparse matrix, with the contact points as elements that change: the sparse form of the contact
+!> system (atrito_contact_system).
+!>
+!> A point is an element over the displacements of its row and the rigid motions of its bodies. Nested dissection takes it like any
+!> other element, so the factorisation follows the contact line as it follows the bodies, and a point that changes costs the fronts
+!> above it.
+module atrito_assembled_scene
+   use atrito_assembly, only: fem_t, collect_elements
+   use atrito_bodies, only: mode_at, body_t
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t, row_value, ROW_ENTRIES
+   use atrito_contact_system, only: contact_system_t
+   use atrito_elimination, only: elimination_t
+   use atrito_element_store, only: element_store_t, add_to_store, take_own_matrices
+   use atrito_front_factors, only: front_bytes_t
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_strings, only: to_text
+   use atrito_variable_matrix, only: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
+                                     solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
+                                     variable_matrix_bytes
+   implicit none (type, external)
+   private
+   public :: assembled_scene_t, assemble_scene, set_scene_load, displacements_of
+
+   type, extends(contact_system_t) :: assembled_scene_t
+      type(scene_numbering_t) :: numbering
+      type(variable_matrix_t) :: matrix
+      logical :: is_near = .false.                          !< fronts have one matrix for elements that are near, and not equal
+      character(len=:), allocatable :: order                !< how the order of elimination was found
+      integer(ip), allocatable, private :: point_row(:, :)  !< (2, points with a row) normal and tangential row; 0: none
+      integer(lp), allocatable, private :: start(:)         !< (variable elements + 1) their unknowns
+      integer(ip), allocatable, private :: unknown(:)
+      real(wp), allocatable, private :: stiffness(:)        !< (rows) of the last factorisation
+      real(wp), allocatable, private :: pull(:)             !< (k) of the last factorisation
+   contains
+      procedure :: multiply => multiply_scene
+      procedure :: factor => factor_scene
+      procedure :: solve => solve_scene
+      procedure :: memory_bytes => scene_bytes
+      procedure :: solving_bytes
+   end type assembled_scene_t
+
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
+
+   !> Entries of B Z below this are round-off: motions are of size one.
+   real(wp), parameter :: MOTION_ROUND_OFF = 1.0e-13_wp
+   !> A load on a motion of at most this share of what it is the sum of is none.
+   real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp
+
+contains
+
+   !> Numbers the unknowns, assembles the bodies and finds the fronts. status: STATUS_INTERNAL when the memory does not suffice.
+   subroutine assemble_scene(fem, rows, line, value, scene, status)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
+      type(assembled_scene_t), intent(out) :: scene
+      type(status_t), intent(out) :: status
+      type(element_store_t) :: store
+      type(elimination_t) :: elimination
+      integer(ip) :: i
+
+      call number_scene(fem, scene%numbering)
+      scene%n = scene%numbering%n
+      scene%k = scene%numbering%k
+      scene%n_bodies = fem%bodies%n
+      scene%body = scene%numbering%body
+      call build_constraints(fem, rows, line, scene%numbering, scene%rows)
+      allocate (scene%g0(scene%rows%n))
+      do i = 1, scene%rows%n
+         scene%g0(i) = row_value(rows, line%point(i), direction_of(rows, line, i), value)
+         if (line%normal(line%point(i)) == i) scene%g0(i) = scene%g0(i) - rows%gap(line%point(i))
+      end do
+      call list_variable_elements(line, scene)
+      call collect_scene(fem, scene%numbering, store)
+      scene%is_near = store%is_near
+      elimination = eliminate_scene(fem, rows, line, scene%numbering)
+      call create_variable_matrix(scene%matrix, scene%n, elimination, store, scene%start, scene%unknown, status)
+      call move_alloc(elimination%text, scene%order)
+      if (is_ok(status)) call set_flexibility(fem, rows, line, scene)
+   end subroutine assemble_scene
+
+   pure function direction_of(rows, line, i) result(d)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: i               !< unknown force
+      real(wp) :: d(2)
+
+      if (line%normal(line%point(i)) == i) then
+         d = rows%normal(:, line%point(i))
+      else
+         d = rows%tangent(:, line%point(i))
+      end if
+   end function direction_of
+
+   !> B in rows over displacements and rigid motions.
+   subroutine build_constraints(fem, rows, line, numbering, constraints)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(scene_numbering_t), intent(in) :: numbering
+      type(constraint_rows_t), intent(out) :: constraints
+      integer(ip), parameter :: MOST = 2*ROW_ENTRIES + 3*ROW_ENTRIES
+      integer(ip) :: i, n, m, unknown(MOST)
+      real(wp) :: coefficient(MOST)
+
+      m = size(line%point, kind=ip)
+      constraints%n = m
+      constraints%n_columns = numbering%n
+      allocate (constraints%first(m + 1), constraints%column(m*MOST), constraints%value(m*MOST))
+      constraints%point = line%point
+      constraints%first(1) = 1
+      do i = 1, m
+         n = 0
+         call add_row(fem, rows, line%point(i), direction_of(rows, line, i), numbering, n, unknown, coefficient)
+         associate (first => constraints%first(i))
+            constraints%column(first:first + n - 1) = unknown(:n)
+            constraints%value(first:first + n - 1) = coefficient(:n)
+            constraints%first(i + 1) = first + n
+         end associate
+      end do
+      constraints%column = constraints%column(:constraints%first(m + 1) - 1)
+      constraints%value = constraints%value(:constraints%first(m + 1) - 1)
+   end subroutine build_constraints
+
+   !> The entries of one row: displacements, then the motions of each body.
+   pure subroutine add_row(fem, rows, j, direction, numbering, n, unknown, coefficient)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j               !< point
+      real(wp), intent(in) :: direction(2)
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(inout) :: n            !< entries so far
+      integer(ip), intent(inout) :: unknown(:)
+      real(wp), intent(inout) :: coefficient(:)
+      integer(ip) :: k, dof, node, b, mode, n_displacements
+      real(wp) :: z
+
+      do k = 1, rows%entries(j)
+         node = rows%node(k, j)
+         do dof = 1, 2
+            if (direction(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) == 0) cycle
+            n = n + 1
+            unknown(n) = numbering%before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
+            coefficient(n) = rows%coefficient(k, j)*direction(dof)
+         end do
+      end do
+      n_displacements = n
+      do k = 1, rows%entries(j)
+         node = rows%node(k, j)
+         b = fem%bodies%of_node(node)
+         do mode = 1, numbering%n_motions(b)
+            z = rows%coefficient(k, j)*along_motion(fem, fem%bodies%list(b), mode, node, direction)
+            call add_entry(n_displacements, numbering%first_motion(b) + mode - 1, z, n, unknown, coefficient)
+         end do
+      end do
+      call drop_round_off(n_displacements, n, unknown, coefficient)
+   end subroutine add_row
+
+   !> The displacement of a node along a direction in a rigid motion; 0 where the node is held.
+   pure real(wp) function along_motion(fem, body, mode, node, direction) result(z)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      integer(ip), intent(in) :: mode, node
+      real(wp), intent(in) :: direction(2)
+      integer(ip) :: dof
+
+      z = 0.0_wp
+      do dof = 1, 2
+         if (fem%bodies%equation(dof, node) == 0) cycle
+         z = z + direction(dof)*mode_at(body, body%modes(:, mode), fem%mesh%x(:, node), dof)
+      end do
+   end function along_motion
+
+   !> Adds to the entry of an unknown, which is new or stands behind the first ones.
+   pure subroutine add_entry(n_before, place, z, n, unknown, coefficient)
+      integer(ip), intent(in) :: n_before, place
+      real(wp), intent(in) :: z
+      integer(ip), intent(inout) :: n, unknown(:)
+      real(wp), intent(inout) :: coefficient(:)
+      integer(ip) :: at
+
+      do at = n_before + 1, n
+         if (unknown(at) == place) exit
+      end do
+      if (at > n) then
+         n = at
+         unknown(at) = place
+         coefficient(at) = 0.0_wp
+      end if
+      coefficient(at) = coefficient(at) + z
+   end subroutine add_entry
+
+   pure subroutine drop_round_off(n_displacements, n, unknown, coefficient)
+      integer(ip), intent(in) :: n_displacements
+      integer(ip), intent(inout) :: n, unknown(:)
+      real(wp), intent(inout) :: coefficient(:)
+      integer(ip) :: k, kept
+
+      kept = n_displacements
+      do k = n_displacements + 1, n
+         if (abs(coefficient(k)) < MOTION_ROUND_OFF) cycle
+         kept = kept + 1
+         unknown(kept) = unknown(k)
+         coefficient(kept) = coefficient(k)
+      end do
+      n = kept
+   end subroutine drop_round_off
+
+   !> The elements that change: the points with the unknowns of their rows, then the motions of each floating body.
+   subroutine list_variable_elements(line, scene)
+      type(contact_line_t), intent(in) :: line
+      type(assembled_scene_t), intent(inout) :: scene
+      integer(ip) :: j, b, n, v, i
+      integer(lp) :: first
+
+      n = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
+      associate (floating => count(scene%numbering%n_motions > 0, kind=ip))
+         allocate (scene%point_row(2, n), scene%start(n + floating + 1), scene%unknown(size(scene%rows%column) + scene%k))
+      end associate
+      scene%start(1) = 0
+      v = 0
+      do j = 1, line%n
+         if (line%normal(j) == 0 .and. line%tangential(j) == 0) cycle
+         v = v + 1
+         scene%point_row(:, v) = [line%normal(j), line%tangential(j)]
+         first = scene%start(v)
+         scene%start(v + 1) = first
+         do i = 1, 2
+            if (scene%point_row(i, v) > 0) call add_unknowns(scene, scene%point_row(i, v), v)
+         end do
+      end do
+      do b = 1, scene%n_bodies
+         if (scene%numbering%n_motions(b) == 0) cycle
+         v = v + 1
+         first = scene%start(v)
+         scene%start(v + 1) = first + scene%numbering%n_motions(b)
+         scene%unknown(first + 1:scene%start(v + 1)) = scene%numbering%first_motion(b) &
+                                                       + [(i, i=0, scene%numbering%n_motions(b) - 1)]
+      end do
+      scene%unknown = scene%unknown(:scene%start(size(scene%start)))
+   end subroutine list_variable_elements
+
+   !> Adds the unknowns of a row that its point does not have yet.
+   pure subroutine add_unknowns(scene, row, v)
+      type(assembled_scene_t), intent(inout) :: scene
+      integer(ip), intent(in) :: row, v
+      integer(ip) :: k
+
+      do k = scene%rows%first(row), scene%rows%first(row + 1) - 1
+         if (any(scene%unknown(scene%start(v) + 1:scene%start(v + 1)) == scene%rows%column(k))) cycle
+         scene%start(v + 1) = scene%start(v + 1) + 1
+         scene%unknown(scene%start(v + 1)) = scene%rows%column(k)
+      end do
+   end subroutine add_unknowns
+
+   !> Elements of all bodies in the numbers of the scene, and the springs that say which part of u is u_e.
+   subroutine collect_scene(fem, numbering, store)
+      type(fem_t), intent(in) :: fem
+      type(scene_numbering_t), intent(in) :: numbering
+      type(element_store_t), intent(out) :: store
+      type(element_store_t) :: own
+      integer(ip) :: e, b, i
+      integer(lp) :: k
+      real(wp) :: diagonal(numbering%n)
+
+      call collect_elements(fem, [(e, e=1, fem%mesh%n_elements)], store, fem%grain)
+      if (store%is_near) then
+         ! fronts of the one, products of the other: every step of the iteration refines
+         call collect_elements(fem, [(e, e=1, fem%mesh%n_elements)], own)
+         call take_own_matrices(own, store)
+      end if
+      do e = 1, store%n
+         b = fem%bodies%of_element(e)
+         do k = store%start(e) + 1, store%start(e + 1)
+            if (store%equations(k) > 0) store%equations(k) = store%equations(k) + numbering%before(b)
+         end do
+      end do
+      if (numbering%k == 0) return
+      call diagonal_of(store, diagonal)
+      do i = 1, numbering%k
+         call add_to_store(store, [numbering%spring(i)], reshape([diagonal(numbering%spring(i))], [1, 1]))
+      end do
+   end subroutine collect_scene
+
+   pure subroutine diagonal_of(store, diagonal)
+      type(element_store_t), intent(in) :: store
+      real(wp), intent(out) :: diagonal(:)
+      integer(ip) :: e, n
+      integer(lp) :: k, at
+
+      diagonal = 0.0_wp
+      do e = 1, store%n
+         at = store%matrix_start(store%matrix_of(e)) + 1
+         n = int(store%start(e + 1) - store%start(e), ip)
+         do k = store%start(e) + 1, store%start(e + 1)
+            if (store%equations(k) > 0) diagonal(store%equations(k)) = diagonal(store%equations(k)) + store%values(at)
+            at = at + n
+            n = n - 1
+         end do
+      end do
+   end subroutine diagonal_of
+
+   !> b' K^-1 b over the displacements of a row, with the stiffness of each node by itself: the same however the scene is turned.
+   subroutine set_flexibility(fem, rows, line, scene)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(assembled_scene_t), intent(inout) :: scene
+      real(wp) :: diagonal(scene%n), coupling(scene%n), d(2)
+      integer(ip) :: i, j, k, node, first
+
+      call fixed_diagonal(scene%matrix, diagonal, coupling)
+      allocate (scene%flexibility(scene%rows%n), source=0.0_wp)
+      do i = 1, scene%rows%n
+         j = line%point(i)
+         do k = 1, rows%entries(j)
+            node = rows%node(k, j)
+            d = rows%coefficient(k, j)*direction_of(rows, line, i)
+            first = scene%numbering%before(fem%bodies%of_node(node))
+            scene%flexibility(i) = scene%flexibility(i) &
+                                   + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)
+         end do
+      end do
+   end subroutine set_flexibility
+
+   !> d' K^-1 d for the free displacements of a node.
+   pure real(wp) function node_flexibility(equation, before, diagonal, coupling, d) result(c)
+      integer(ip), intent(in) :: equation(2), before
+      real(wp), intent(in) :: diagonal(:), coupling(:) !< coupling: of a displacement with the other one of its node, at the first
+      real(wp), intent(in) :: d(2)
+      real(wp) :: k11, k22, k12
+
+      c = 0.0_wp
+      if (all(equation > 0)) then
+         k11 = diagonal(before + equation(1))
+         k22 = diagonal(before + equation(2))
+         k12 = coupling(before + equation(1))
+         c = d(1)*(d(1)/k11) + (d(2) - d(1)*(k12/k11))**2/(k22 - k12*(k12/k11))
+      else if (equation(1) > 0) then
+         c = d(1)**2/diagonal(before + equation(1))
+      else if (equation(2) > 0) then
+         c = d(2)**2/diagonal(before + equation(2))
+      end if
+   end function node_flexibility
+
+   !> Takes the applied forces, and those less the forces of the prescribed displacements.
+   subroutine set_scene_load(fem, f, free_load, scene)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: f(:, :), free_load(:, :) !< (2, n_nodes) [F]
+      type(assembled_scene_t), intent(inout) :: scene
+      integer(ip) :: node, dof, b, k, mode, motion
+      real(wp) :: part
+
+      if (allocated(scene%load)) deallocate (scene%load, scene%size_of_load)
+      allocate (scene%load(scene%n), scene%size_of_load(scene%n), source=0.0_wp)
+      do node = 1, fem%mesh%n_nodes
+         b = fem%bodies%of_node(node)
+         if (b == 0) cycle
+         do dof = 1, 2
+            if (fem%bodies%equation(dof, node) == 0) cycle
+            k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
+            scene%load(k) = free_load(dof, node)
+            scene%size_of_load(k) = abs(free_load(dof, node))
+            do mode = 1, scene%numbering%n_motions(b)
+               motion = scene%numbering%first_motion(b) + mode - 1
+               part = f(dof, node)*mode_at(fem%bodies%list(b), fem%bodies%list(b)%modes(:, mode), fem%mesh%x(:, node), dof)
+               scene%load(motion) = scene%load(motion) + part
+               scene%size_of_load(motion) = scene%size_of_load(motion) + abs(part)
+            end do
+         end do
+      end do
+      associate (motions => scene%load(scene%n - scene%k + 1:))
+         where (abs(motions) <= LOAD_ROUND_OFF*scene%size_of_load(scene%n - scene%k + 1:)) motions = 0.0_wp
+      end associate
+   end subroutine set_scene_load
+
+   subroutine multiply_scene(self, x, y)
+      class(assembled_scene_t), intent(in) :: self
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(out) :: y(:)
+
+      y = 0.0_wp
+      call add_fixed_product(self%matrix, x, y)
+   end subroutine multiply_scene
+
+   !> Only points and bodies whose numbers have changed are taken anew.
+   subroutine factor_scene(self, stiffness, pull, status)
+      class(assembled_scene_t), intent(inout) :: self
+      real(wp), intent(in) :: stiffness(:), pull(:)
+      type(status_t), intent(out) :: status
+      integer(ip) :: v, b, n_points
+
+      n_points = size(self%point_row, 2, kind=ip)
+      if (.not. allocated(self%stiffness)) then
+         allocate (self%stiffness(self%rows%n), self%pull(self%k), source=-1.0_wp)
+      end if
+      do v = 1, n_points
+         if (is_changed(self, v, stiffness)) call set_point(self, v, stiffness)
+      end do
+      v = n_points
+      do b = 1, self%n_bodies
+         if (self%numbering%n_motions(b) == 0) cycle
+         v = v + 1
+         associate (first => self%numbering%first_motion(b) - (self%n - self%k), n => self%numbering%n_motions(b))
+            if (any(self%pull(first:first + n - 1) /= pull(first:first + n - 1))) then
+               call set_variable_element(self%matrix, v, diagonal_matrix(pull(first:first + n - 1)))
+            end if
+         end associate
+      end do
+      self%stiffness = stiffness
+      self%pull = pull
+      call factor_variable_matrix(self%matrix, status)
+      self%failed = self%matrix%failed
+      if (is_ok(status)) return
+      self%stiffness = -1.0_wp
+      self%pull = -1.0_wp
+   end subroutine factor_scene
+
+   pure logical function is_changed(self, v, stiffness)
+      class(assembled_scene_t), intent(in) :: self
+      integer(ip), intent(in) :: v
+      real(wp), intent(in) :: stiffness(:)
+      integer(ip) :: i
+
+      is_changed = .false.
+      do i = 1, 2
+         associate (row => self%point_row(i, v))
+            if (row > 0) is_changed = is_changed .or. self%stiffness(row) /= stiffness(row)
+         end associate
+      end do
+   end function is_changed
+
+   pure function diagonal_matrix(d) result(matrix)
+      real(wp), intent(in) :: d(:)
+      real(wp) :: matrix(size(d), size(d))
+      integer(ip) :: i
+
+      matrix = 0.0_wp
+      do i = 1, size(d, kind=ip)
+         matrix(i, i) = d(i)
+      end do
+   end function diagonal_matrix
+
+   !> The element of a point: the sum of stiffness b b' over its rows b.
+   subroutine set_point(self, v, stiffness)
+      class(assembled_scene_t), intent(inout) :: self
+      integer(ip), intent(in) :: v
+      real(wp), intent(in) :: stiffness(:)
+      real(wp), allocatable :: row(:), matrix(:, :)
+      integer(ip) :: i, j, k, at
+
+      associate (n => self%start(v + 1) - self%start(v))
+         allocate (row(n), matrix(n, n))
+      end associate
+      matrix = 0.0_wp
+      do i = 1, 2
+         j = self%point_row(i, v)
+         if (j == 0) cycle
+         row = 0.0_wp
+         do k = self%rows%first(j), self%rows%first(j + 1) - 1
+            at = findloc(self%unknown(self%start(v) + 1:self%start(v + 1)), self%rows%column(k), dim=1, kind=ip)
+            row(at) = row(at) + self%rows%value(k)
+         end do
+         do k = 1, size(row, kind=ip)
+            matrix(:, k) = matrix(:, k) + row*(stiffness(j)*row(k))
+         end do
+      end do
+      call set_variable_element(self%matrix, v, matrix)
+   end subroutine set_point
+
+   subroutine solve_scene(self, x)
+      class(assembled_scene_t), intent(in) :: self
+      real(wp), intent(inout) :: x(:)
+
+      call solve_variable_matrix(self%matrix, x)
+   end subroutine solve_scene
+
+   pure integer(lp) function scene_bytes(self) result(bytes)
+      class(assembled_scene_t), intent(in) :: self
+
+      bytes = variable_matrix_bytes(self%matrix) + (REAL_BYTES + INDEX_BYTES)*size(self%rows%value, kind=lp) &
+              + INDEX_BYTES*size(self%unknown, kind=lp)
+   end function scene_bytes
+
+   !> What solving will take beyond what the scene holds before its first factorisation [bytes]: factors, and the vectors of the
+   !> iteration.
+   pure integer(lp) function solving_bytes(self) result(bytes)
+      class(assembled_scene_t), intent(in) :: self
+      integer(lp), parameter :: OF_UNKNOWNS = 10_lp, OF_ROWS = 40_lp
+      type(front_bytes_t) :: factors
+
+      call expect_variable_factors(self%matrix, factors)
+      bytes = factors%most + REAL_BYTES*(OF_UNKNOWNS*int(self%n, lp) + OF_ROWS*int(self%rows%n, lp))
+   end function solving_bytes
+
+   !> Displacements without rigid motions at the free dofs, (2, n_nodes).
+   pure subroutine displacements_of(fem, scene, x, u)
+      type(fem_t), intent(in) :: fem
+      type(assembled_scene_t), intent(in) :: scene
+      real(wp), intent(in) :: x(:)               !< (n) [L]
+      real(wp), intent(inout) :: u(:, :)         !< (2, n_nodes) [L]: the free dofs are set
+      integer(ip) :: node, dof, b
+
+      do node = 1, fem%mesh%n_nodes
+         b = fem%bodies%of_node(node)
+         if (b == 0) cycle
+         do dof = 1, 2
+            if (fem%bodies%equation(dof, node) > 0) u(dof, node) = x(scene%numbering%before(b) + fem%bodies%equation(dof, node))
+         end do
+      end do
+   end subroutine displacements_of
+
+end module atrito_assembled_scene

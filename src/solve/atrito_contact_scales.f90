@@ -1,0 +1,62 @@
+!> What the fields of a contact pair are measured by when they are judged: its own stresses and motions, and what double precision
+!> leaves uncertain of them.
+module atrito_contact_scales
+   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   implicit none (type, external)
+   private
+   public :: contact_scales_t, measure_places, printed_as_none, usual_growth
+
+   type :: contact_scales_t
+      real(wp) :: friction = 0.0_wp              !< largest friction bound [F/L^2]
+      real(wp) :: slip = 0.0_wp, gap = 0.0_wp    !< that are none [L]
+   end type contact_scales_t
+
+   real(wp), parameter :: PLACE_TOLERANCE = 1.0e-9_wp  !< of the largest motion of a pair's sides against each other
+   real(wp), parameter :: USUAL_CONDITION = 5.0e4_wp   !< of small bodies: a solution is wrong by its condition times EPS_MACH
+   real(wp), parameter :: CONDITION_A_DOF = 10.0_wp    !< of fine meshes
+   real(wp), parameter :: ROUND_OFFS = 8.0_wp          !< EPS_MACH of the largest coordinate in an initial distance
+
+   real(wp), parameter :: PRINTED_ZERO = 1.0e-14_wp    !< of the largest displacement: it is printed as none (atrito_number_text)
+
+contains
+
+   !> The displacement of a body that moves so much less than others that none of it is printed; else 0 [L].
+   elemental real(wp) function printed_as_none(of_body, of_all)
+      real(wp), intent(in) :: of_body            !< largest displacement of the body [L]
+      real(wp), intent(in) :: of_all             !< of all [L]
+
+      printed_as_none = merge(PRINTED_ZERO*of_all, 0.0_wp, of_body <= PRINTED_ZERO*of_all)
+   end function printed_as_none
+
+   !> By how much round-off grows in the displacements of a body.
+   elemental real(wp) function usual_growth(n, digits_lost) result(growth)
+      integer(ip), intent(in) :: n               !< equations
+      real(wp), intent(in) :: digits_lost        !< by its worst pivot
+
+      growth = max(USUAL_CONDITION, CONDITION_A_DOF*n, 10.0_wp**digits_lost)
+   end function usual_growth
+
+   !> Slips and gaps of a pair that are none, scales%slip and %gap.
+   pure subroutine measure_places(rows, u, uncertain, first, last, overlap, far, scales)
+      type(contact_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
+      real(wp), intent(in) :: uncertain(:)       !< (n_nodes) of the displacements of the node's body [L]
+      integer(ip), intent(in) :: first, last     !< points of the pair
+      real(wp), intent(in) :: overlap            !< largest delta p [L]
+      real(wp), intent(in) :: far                !< largest coordinate [L]
+      type(contact_scales_t), intent(inout) :: scales
+      real(wp) :: motion, unsure
+      integer(ip) :: j
+
+      motion = overlap
+      unsure = 0.0_wp
+      do j = first, last
+         motion = max(motion, abs(row_value(rows, j, rows%normal(:, j), u)), abs(row_value(rows, j, rows%tangent(:, j), u)))
+         unsure = max(unsure, maxval(uncertain(rows%node(:rows%entries(j), j))))
+      end do
+      scales%slip = PLACE_TOLERANCE*motion + unsure
+      scales%gap = scales%slip + ROUND_OFFS*EPS_MACH*far
+   end subroutine measure_places
+
+end module atrito_contact_scales

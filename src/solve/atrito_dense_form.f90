@@ -1,0 +1,117 @@
+!> Solving with the dense form: bodies condensed to their contact dofs, and the flexibility of all points.
+module atrito_dense_form
+   use atrito_body_store, only: body_store_t, provide_bodies, release_bodies, forget_bodies
+   use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
+   use atrito_contact_problem, only: build_problem
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_dense_refinement, only: refine_dense_solution
+   use atrito_kinds, only: ip, wp
+   use atrito_outer_loop, only: solve_contact_line
+   use atrito_recovery, only: contact_forces, elastic_displacements
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: results_t
+   use atrito_scene_data, only: scene_data_t, free_load
+   use atrito_shared_points, only: has_dependent_points, solve_shared_points
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
+   use atrito_uniqueness, only: estimate_contraction
+   implicit none (type, external)
+   private
+   public :: solve_dense_form
+
+contains
+
+   !> u: displacements without rigid motions. status: STATUS_SINGULAR of provide_bodies and solve_contact_line.
+   subroutine solve_dense_form(data, controls, reporter, store, results, solution, u, status)
+      type(scene_data_t), intent(inout) :: data
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: u(:, :)
+      type(status_t), intent(out) :: status
+      type(box_problem_t) :: problem
+      logical :: is_right
+
+      call solve_condensed(data, controls, reporter, store, results, problem, solution, u, status)
+      if (is_ok(status) .and. solution%converged .and. results%scene%near_elements) then
+         call start_phase('refine')
+         call refine_dense_solution(data, controls, reporter, store%bodies, problem, solution, u, is_right)
+         call stop_phase('refine')
+         if (.not. is_right) then
+            call report_progress(reporter, 'refinement does not converge; each element with its own last digits')
+            data%fem%grain = 0.0_wp
+            call forget_bodies(store)
+            call solve_condensed(data, controls, reporter, store, results, problem, solution, u, status)
+         end if
+      end if
+      call release_bodies(store)
+   end subroutine solve_dense_form
+
+   !> Solves with the bodies as they are factored.
+   subroutine solve_condensed(data, controls, reporter, store, results, problem, solution, u, status)
+      type(scene_data_t), intent(in) :: data
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(body_store_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(box_problem_t), intent(out) :: problem
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: u(:, :)
+      type(status_t), intent(out) :: status
+
+      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%storage_kind, reporter, &
+                          results%scene%bodies, status)
+      results%factorisations = store%factorisations
+      if (.not. is_ok(status)) return
+      results%scene%near_elements = any(store%bodies%is_near)
+      call start_phase('iterate')
+      call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
+      problem%is_coarse = controls%is_coarse
+      call solve_contact_line(problem, data%line, controls, reporter, solution, status)
+      if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, reporter, &
+                                                                 solution, status)
+      if (is_ok(status)) results%contraction_estimate = estimate_contraction(problem, data%line, solution%bounds%d, &
+                                                                             solution%state%state)
+      call stop_phase('iterate')
+      if (.not. is_ok(status)) call explain_failure(data, problem, solution, status)
+      if (allocated(solution%p)) call expand_bodies(data, store, solution, u)
+   end subroutine solve_condensed
+
+   !> Puts a failure of the contact line into words.
+   subroutine explain_failure(data, problem, solution, status)
+      type(scene_data_t), intent(in) :: data
+      type(box_problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      type(status_t), intent(inout) :: status
+      integer(ip) :: node
+
+      if (status%text == DEPENDENT_POINTS) then
+         node = data%rows%node(1, data%line%point(solution%inner%dependent))
+         call set_status(status, STATUS_SINGULAR, 'the contact point at node '//to_text(data%fem%mesh%node_id(node)) &
+                         //trim(merge(' (normal)    ', ' (tangential)', solution%inner%dependent <= problem%n_normal)) &
+                         //' repeats what other points ask: two pairs share it, or the slave is finer than its own dofs')
+      end if
+   end subroutine explain_failure
+
+   !> The displacements of all bodies without their rigid motions.
+   subroutine expand_bodies(data, store, solution, u)
+      type(scene_data_t), intent(in) :: data
+      type(body_store_t), intent(in) :: store
+      type(contact_solution_t), intent(in) :: solution
+      real(wp), allocatable, intent(out) :: u(:, :)
+      real(wp), allocatable :: contact(:, :)
+      integer(ip) :: b
+
+      call start_phase('recover')
+      contact = contact_forces(data%fem, data%rows, data%line, solution)
+      u = data%value
+      do b = 1, data%fem%bodies%n
+         call elastic_displacements(data%fem, b, store%bodies(b), contact, u)
+      end do
+      call stop_phase('recover')
+   end subroutine expand_bodies
+
+end module atrito_dense_form

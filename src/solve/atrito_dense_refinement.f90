@@ -1,0 +1,141 @@
+!> Puts a solution of the dense form right where elements that are near have one stiffness (atrito_assembly).
+!>
+!> The bodies were factored with K~ in place of K. With the forces q and the displacements u that were found with it,
+!>
+!>     r = f - B' q - K u                 by the stiffnesses of the elements themselves,
+!>     g0 <- g0 + B K~^-1 r               the contact line is solved again, from its solution: q + dq,
+!>     u <- u + K~^-1 (r - B' dq),
+!>
+!> which leaves K~^-1 (K~ - K) times the error. Where a body floats K~^-1 is the inverse of atrito_condensed_body; r is in balance.
+module atrito_dense_refinement
+   use atrito_box_problem, only: box_problem_t
+   use atrito_condensed_body, only: condensed_body_t, set_load
+   use atrito_contact_problem, only: add_displacements
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_internal_forces, only: internal_forces
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_outer_loop, only: continue_contact_line
+   use atrito_recovery, only: contact_forces, elastic_displacements
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_scene_data, only: scene_data_t
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: refine_dense_solution
+
+   !> The reduced load of a body, put aside.
+   type :: load_t
+      real(wp), allocatable :: reduced(:, :)
+   end type load_t
+
+   integer(ip), parameter :: MOST_STEPS = 4_ip
+   !> A residual of this share of the largest force is round-off.
+   real(wp), parameter :: ENOUGH = 1.0e-13_wp
+   !> With more than this share before the first step, slenderness makes too much of the digits.
+   real(wp), parameter :: TOO_MUCH = 1.0e-4_wp
+   !> A step that leaves more than this of a residual has come to round-off.
+   real(wp), parameter :: FALLS = 0.1_wp
+
+contains
+
+   !> Refines as often as it takes. Where `is_right` is false the solution is of no use.
+   subroutine refine_dense_solution(data, controls, reporter, bodies, problem, solution, u, is_right)
+      type(scene_data_t), intent(in) :: data
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
+      type(box_problem_t), intent(inout) :: problem
+      type(contact_solution_t), intent(inout) :: solution !< converged
+      real(wp), intent(inout) :: u(:, :)                  !< without rigid motions, (2, n_nodes) [L]
+      logical, intent(out) :: is_right
+      type(load_t) :: loads(size(bodies))
+      type(status_t) :: status
+      real(wp), allocatable :: contact(:, :), residual(:, :)
+      real(wp) :: share, last_share
+      integer(ip) :: step, b
+
+      do b = 1, size(bodies, kind=ip)
+         call move_alloc(bodies(b)%load, loads(b)%reduced)
+      end do
+      contact = contact_forces(data%fem, data%rows, data%line, solution)
+      last_share = HUGE_REAL
+      do step = 1, MOST_STEPS
+         call find_residual(data, u, contact, residual, share)
+         is_right = share <= TOO_MUCH
+         if (.not. is_right .or. share <= ENOUGH .or. share > FALLS*last_share) exit
+         call report_progress(reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
+         call correct(data, controls, reporter, residual, bodies, problem, solution, contact, u, status)
+         is_right = is_ok(status) .and. solution%converged
+         if (.not. is_right .or. share**2 <= ENOUGH) exit ! the next one will be no more than round-off
+         last_share = share
+      end do
+      do b = 1, size(bodies, kind=ip)
+         call move_alloc(loads(b)%reduced, bodies(b)%load)
+      end do
+   end subroutine refine_dense_solution
+
+   !> f - B'q - K u at the free dofs, 0 at the others; and its largest entry over the largest force.
+   subroutine find_residual(data, u, contact, residual, share)
+      type(scene_data_t), intent(in) :: data
+      real(wp), intent(in) :: u(:, :)
+      real(wp), intent(in) :: contact(:, :)               !< B'q (2, n_nodes) [F]
+      real(wp), allocatable, intent(out) :: residual(:, :) !< (2, n_nodes) [F]
+      real(wp), intent(out) :: share
+      real(wp) :: energy, largest
+      integer(ip) :: node, dof
+
+      allocate (residual, mold=u)
+      residual = 0.0_wp
+      energy = 0.0_wp
+      call internal_forces(data%fem, u, residual, energy)
+      share = 0.0_wp
+      largest = 0.0_wp
+      do node = 1, size(u, 2, kind=ip)
+         do dof = 1, 2
+            residual(dof, node) = data%f(dof, node) - contact(dof, node) - residual(dof, node)
+            largest = max(largest, abs(data%f(dof, node)), abs(contact(dof, node)))
+            if (data%held(dof, node)) then
+               largest = max(largest, abs(residual(dof, node)))
+               residual(dof, node) = 0.0_wp
+            else
+               share = max(share, abs(residual(dof, node)))
+            end if
+         end do
+      end do
+      share = share/max(largest, tiny(largest))
+   end subroutine find_residual
+
+   !> One step.
+   subroutine correct(data, controls, reporter, residual, bodies, problem, solution, contact, u, status)
+      type(scene_data_t), intent(in) :: data
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      real(wp), intent(in) :: residual(:, :)
+      type(condensed_body_t), intent(inout) :: bodies(:)
+      type(box_problem_t), intent(inout) :: problem
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), intent(inout) :: contact(:, :)            !< that of the solution
+      real(wp), intent(inout) :: u(:, :)
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: change(:, :), moved(:, :)
+      integer(ip) :: b
+
+      do b = 1, size(bodies, kind=ip)
+         call set_load(data%fem, b, residual, bodies(b))
+         call add_displacements(data%fem, b, bodies(b), data%rows, data%line, problem)
+      end do
+      call continue_contact_line(problem, data%line, controls, reporter, solution, status)
+      if (.not. is_ok(status)) return
+      change = -contact
+      contact = contact_forces(data%fem, data%rows, data%line, solution)
+      change = change + contact
+      allocate (moved, mold=u)
+      moved = 0.0_wp
+      do b = 1, size(bodies, kind=ip)
+         call elastic_displacements(data%fem, b, bodies(b), change, moved)
+      end do
+      u = u + moved
+   end subroutine correct
+
+end module atrito_dense_refinement

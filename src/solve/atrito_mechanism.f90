@@ -1,0 +1,212 @@
+!> What the motion of a certificate is like: which bodies move how, over which pairs, and by how much friction falls short.
+!>
+!> The motion v of a certificate lifts a sliding body by nu |T v|, so that friction is overcome by the work of the normal forces.
+!> What is told is the sliding v~ without the lift, the projection of v on N v~ = 0 at the points that slide or stay closed. The
+!> loads drive it with h'v~, and the excess h'v is what friction falls short by.
+module atrito_mechanism
+   use atrito_assembly, only: fem_t
+   use atrito_certificate, only: certificate_t, friction_work
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_dense, only: least_squares
+   use atrito_kinds, only: ip, wp
+   use atrito_motion_rows, only: motion_rows_t, motion_rates
+   use atrito_recovery, only: add_rigid_motions
+   implicit none (type, external)
+   private
+   public :: mechanism_t, describe_motion
+
+   type :: mechanism_t
+      integer(ip), allocatable :: bodies(:)      !< that move, the fastest first
+      real(wp), allocatable :: mode(:, :)        !< (3, bodies) their translations along 1 and 2 and rotation, without lift
+      logical :: together = .false.              !< they move as one rigid body
+      logical :: turns = .false.                 !< which rotates
+      logical :: touches = .false.               !< some of them have points of contact
+      logical, allocatable :: slides(:)          !< (pairs) points slide
+      logical, allocatable :: opens(:)           !< (pairs) points open
+      !> Of bodies that move together, a displacement [F] or a rotation [F L] of one; else of any size:
+      real(wp) :: load = 0.0_wp                  !< what drives it
+      real(wp) :: friction = 0.0_wp              !< the most that friction can hold
+      real(wp) :: normal = 0.0_wp                !< the force on the pairs that slide, of bodies that move together without rotation
+   end type mechanism_t
+
+   real(wp), parameter :: SMALL = 1.0e-6_wp      !< part of a motion that is none
+   real(wp), parameter :: MUCH = 0.1_wp          !< part of a motion that must remain without its lift
+   integer(ip), parameter :: FEW = 120_ip        !< motions whose lift is removed
+
+contains
+
+   subroutine describe_motion(fem, rows, line, motions, certificate, mechanism)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(motion_rows_t), intent(in) :: motions
+      type(certificate_t), intent(in) :: certificate
+      type(mechanism_t), intent(out) :: mechanism
+      real(wp) :: v(motions%k), by_friction(line%n), rate(motions%m), known_work
+      logical :: closed(line%n)
+
+      v = certificate%motion
+      rate = motion_rates(motions, v, .false.)
+      call friction_work(line, rate, by_friction, known_work)
+      call look_at_points(fem, rows, line, v, by_friction, closed, mechanism)
+      call remove_lift(line, motions, closed, rate, v)
+      call list_bodies(fem, v, mechanism)
+      call compare_bodies(fem, mechanism)
+      call measure_forces(fem, motions, certificate, v, mechanism)
+   end subroutine describe_motion
+
+   !> Which pairs slide or open, and which points stay closed but for the lift.
+   subroutine look_at_points(fem, rows, line, v, by_friction, closed, mechanism)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(in) :: by_friction(:)     !< (n) the lift that friction asks for
+      logical, intent(out) :: closed(:)
+      type(mechanism_t), intent(inout) :: mechanism
+      real(wp), allocatable :: u(:, :)
+      real(wp) :: least, apart, along
+      integer(ip) :: j, k
+
+      allocate (u(2, fem%mesh%n_nodes), source=0.0_wp)
+      call add_rigid_motions(fem, v, u)
+      least = SMALL*maxval(abs(u))
+      k = 0
+      if (line%n > 0) k = maxval(line%pair)
+      allocate (mechanism%slides(k), mechanism%opens(k), source=.false.)
+      closed = .false.
+      do j = 1, line%n
+         if (line%normal(j) == 0) cycle
+         apart = row_value(rows, j, rows%normal(:, j), u) + by_friction(j)
+         along = row_value(rows, j, rows%tangent(:, j), u)
+         closed(j) = apart >= -least
+         do k = 1, rows%entries(j)
+            mechanism%touches = mechanism%touches .or. any(abs(u(:, rows%node(k, j))) > least)
+         end do
+         if (.not. closed(j)) mechanism%opens(line%pair(j)) = .true.
+         if (closed(j) .and. abs(along) > least) mechanism%slides(line%pair(j)) = .true.
+      end do
+   end subroutine look_at_points
+
+   !> v less the least motion that closes what is lifted, where no closed point slides that did not before, and where much remains.
+   subroutine remove_lift(line, motions, closed, rate, v)
+      type(contact_line_t), intent(in) :: line
+      type(motion_rows_t), intent(in) :: motions
+      logical, intent(in) :: closed(:)
+      real(wp), intent(in) :: rate(:)            !< (m) of the motion with its lift
+      real(wp), intent(inout) :: v(:)
+      real(wp), allocatable :: a(:, :), b(:), lift(:)
+      integer(ip), allocatable :: moving(:)
+      logical :: kept(motions%m)
+      integer(ip) :: i, e, n, place(motions%k), rank, info
+
+      moving = pack([(i, i=1, motions%k)], abs(v) > 0.0_wp)
+      if (size(moving) > FEW) return
+      do i = 1, motions%m
+         associate (j => line%point(i))
+            kept(i) = closed(j) .and. (line%normal(j) == i .or. abs(rate(i)) <= SMALL*maxval(abs(v)))
+         end associate
+      end do
+      place = 0
+      place(moving) = [(i, i=1, size(moving, kind=ip))]
+      allocate (a(count(kept), size(moving)), source=0.0_wp)
+      b = pack(rate, kept)
+      n = 0
+      do i = 1, motions%m
+         if (.not. kept(i)) cycle
+         n = n + 1
+         do e = motions%first(i), motions%first(i + 1) - 1
+            if (place(motions%motion(e)) > 0) a(n, place(motions%motion(e))) = motions%value(e)
+         end do
+      end do
+      allocate (lift(size(moving)), source=0.0_wp)
+      if (n == 0) return
+      call least_squares(a, b, lift, SMALL, rank, info)
+      if (info /= 0 .or. maxval(abs(v(moving) - lift)) < MUCH*maxval(abs(v))) return
+      v(moving) = v(moving) - lift
+      where (abs(v) <= SMALL*SMALL*maxval(abs(v))) v = 0.0_wp
+   end subroutine remove_lift
+
+   !> The bodies that move, the fastest first, those alike in their order.
+   subroutine list_bodies(fem, v, mechanism)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: v(:)
+      type(mechanism_t), intent(inout) :: mechanism
+      real(wp) :: mode(3, fem%bodies%n), speed(fem%bodies%n), greatest
+      integer(ip) :: b, first, n, i
+
+      mode = 0.0_wp
+      first = 1
+      do b = 1, fem%bodies%n
+         n = size(fem%bodies%list(b)%modes, 2, kind=ip)
+         mode(:, b) = matmul(fem%bodies%list(b)%modes, v(first:first + n - 1))
+         first = first + n
+      end do
+      speed = norm2(mode, dim=1)
+      greatest = maxval(speed)
+      n = count(speed > SMALL*greatest, kind=ip)
+      allocate (mechanism%bodies(n), mechanism%mode(3, n))
+      do i = 1, n
+         b = findloc(speed >= (1.0_wp - SMALL)*maxval(speed), .true., dim=1, kind=ip)
+         mechanism%bodies(i) = b
+         mechanism%mode(:, i) = mode(:, b)
+         speed(b) = 0.0_wp
+      end do
+   end subroutine list_bodies
+
+   !> Whether all move as the first one does, taken as a rigid plane; and whether that turns.
+   subroutine compare_bodies(fem, mechanism)
+      type(fem_t), intent(in) :: fem
+      type(mechanism_t), intent(inout) :: mechanism
+      real(wp) :: rotation, arm(2), expected(3), span
+      integer(ip) :: i
+
+      associate (one => fem%bodies%list(mechanism%bodies(1)), mode => mechanism%mode)
+         mechanism%turns = abs(mode(3, 1)) > SMALL*maxval(abs(mode(:, 1)))
+         rotation = mode(3, 1)/one%size
+         mechanism%together = .true.
+         do i = 2, size(mechanism%bodies, kind=ip)
+            associate (other => fem%bodies%list(mechanism%bodies(i)))
+               arm = other%centre - one%centre
+               expected = [mode(1, 1) - rotation*arm(2), mode(2, 1) + rotation*arm(1), rotation*other%size]
+               span = maxval(abs([mode(:, 1), expected]))
+               mechanism%together = mechanism%together .and. all(abs(mode(:, i) - expected) <= SMALL*span)
+            end associate
+         end do
+      end associate
+   end subroutine compare_bodies
+
+   !> What drives the motion without its lift, what friction can hold of it, and the force that lifting it takes.
+   subroutine measure_forces(fem, motions, certificate, v, mechanism)
+      type(fem_t), intent(in) :: fem
+      type(motion_rows_t), intent(in) :: motions
+      type(certificate_t), intent(in) :: certificate
+      real(wp), intent(in) :: v(:)
+      type(mechanism_t), intent(inout) :: mechanism
+      real(wp) :: scale, lift(3)
+
+      scale = norm2(mechanism%mode(:2, 1))
+      if (mechanism%turns .and. mechanism%together) scale = abs(mechanism%mode(3, 1))/fem%bodies%list(mechanism%bodies(1))%size
+      mechanism%load = dot_product(motions%work, v)/scale
+      mechanism%friction = max(0.0_wp, mechanism%load - certificate%excess/scale)
+      if (mechanism%turns .or. .not. mechanism%together) return
+      lift = lift_of(fem, mechanism%bodies(1), certificate%motion - v)
+      if (norm2(lift(:2)) > 0.0_wp) mechanism%normal = -dot_product(motions%work, certificate%motion - v)/norm2(lift(:2))
+   end subroutine measure_forces
+
+   pure function lift_of(fem, b, v) result(mode)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b
+      real(wp), intent(in) :: v(:)
+      real(wp) :: mode(3)
+      integer(ip) :: first, i
+
+      first = 1
+      do i = 1, b - 1
+         first = first + size(fem%bodies%list(i)%modes, 2, kind=ip)
+      end do
+      mode = matmul(fem%bodies%list(b)%modes, v(first:first + size(fem%bodies%list(b)%modes, 2, kind=ip) - 1))
+   end function lift_of
+
+end module atrito_mechanism

@@ -1,0 +1,316 @@
+!> The outer loop on the sparse form of the bodies: the Picard loop on the weighted normal stress and the steps of the multipliers
+!> (atrito_multiplier_step) in one.
+module atrito_multiplier_loop
+   use atrito_accelerator, only: anderson_t
+   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, normal_bounds, set_friction_bounds
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_system, only: contact_system_t
+   use atrito_idle_motions, only: settle_idle_motions
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_multiplier_distance, only: distance_t, measure_distance, forces_that_are_none
+   use atrito_multiplier_step, only: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, &
+                                     take_least_forces, clear_round_off
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_solve_history, only: begin_outer, end_outer
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: solve_by_multipliers
+
+   !> What the loop remembers.
+   type :: loop_t
+      real(wp) :: best = HUGE_REAL, drive = 0.0_wp
+      integer(ip) :: best_outer = 0, moving = 0
+      real(wp), allocatable :: drift(:)          !< (m) change of the forces in the last step, when no state changed [F]
+      logical :: asked = .false.                 !< whether forces are unique
+      logical :: shares = .false.                !< some are not, and the least are taken
+      integer(ip) :: standing = 0                !< steps without a change of states
+      logical :: slow = .false.                  !< states went on changing: smaller steps
+      real(wp), allocatable :: share(:)          !< (points) of the way to Picard's bound that the next one goes
+      real(wp), allocatable :: off(:)            !< (points) Picard's bound less the last one [F/L^2]
+   end type loop_t
+
+   integer(ip), parameter :: OUTERS_A_MAXIT = 4_ip    !< steps for each iteration that a user allows
+   integer(ip), parameter :: FACTORISATIONS_A_MAXIT = 20_ip !< the same of factorisations
+   integer(ip), parameter :: STALE = 12_ip
+   real(wp), parameter :: STALE_DISTANCE = 1.0e-8_wp
+   real(wp), parameter :: MOST_MIXING = 5.0_wp        !< times Picard's bound
+   integer(ip), parameter :: MANY_STEPS = 100_ip      !< after which states that still change ask for smaller steps:
+   real(wp), parameter :: SLOW_R = 1.0_wp             !< rho over the flexibility of a row then
+   integer(ip), parameter :: SLOW_STANDS = 3_ip       !< steps without a change of states before the mixing begins then
+   real(wp), parameter :: LESS = 0.7_wp, MORE = 1.2_wp !< of the share of a point whose bound oscillates, and of one whose does not
+   real(wp), parameter :: LEAST_SHARE = 0.05_wp
+   real(wp), parameter :: STEADY = 0.02_wp             !< change of a drift from one step to the next
+   real(wp), parameter :: MOST_DRIFT = 1.0e9_wp        !< steps
+   real(wp), parameter :: LEAST_KAPPA = 1.0e-11_wp
+   real(wp), parameter :: NO_LOAD = 1.0e-9_wp         !< pull over the forces of a body that is none
+   real(wp), parameter :: MOVES = 1.0e-6_wp           !< pull over the forces of a body that moves, when it does not fall:
+   real(wp), parameter :: STEADY_PULL = 0.8_wp        !< of that of the step before
+   real(wp), parameter :: SMALL_PULL = 1.0e-3_wp, USUAL_KAPPA = 2.0e-8_wp !< a pull that may become weaker, and how weak
+   integer(ip), parameter :: MOST_MOVING = 5_ip
+
+contains
+
+   !> Solves. x: the unknowns of the system. status: STATUS_SINGULAR with FREE_MOTION in words of atrito_outer_loop when a body
+   !> moves under every step; that of system%factor.
+   subroutine solve_by_multipliers(system, rows, line, controls, free_motion, reporter, solution, x, factorisations, status)
+      class(contact_system_t), intent(inout) :: system
+      type(constraint_rows_t), intent(in) :: rows !< over displacements alone
+      type(contact_line_t), intent(in) :: line
+      type(outer_controls_t), intent(in) :: controls
+      character(len=*), intent(in) :: free_motion !< text of the status when a body moves
+      type(reporter_t), intent(in) :: reporter
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: x(:)
+      integer(ip), intent(out) :: factorisations
+      type(status_t), intent(out) :: status
+      type(box_problem_t) :: shape
+      type(multiplier_t) :: multipliers
+      type(loop_t) :: loop
+      type(distance_t) :: distance
+      type(anderson_t) :: anderson
+      real(wp) :: tau(line%n), image(line%n)
+      integer(ip) :: outer, i
+
+      factorisations = 0
+      call begin_solution(system, line, shape, solution)
+      call begin_multipliers(system, [(pair_of(line, line%point(i)), i=1, shape%m)], multipliers)
+      if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
+      tau = 0.0_wp
+      where (line%tangential > 0) tau = HUGE_REAL
+      call set_friction_bounds(line, shape, tau, solution%bounds, solution%state)
+      call start_closed(system, solution%bounds, multipliers, solution%state, status)
+      if (.not. is_ok(status)) return
+      do outer = 1, OUTERS_A_MAXIT*controls%max_iterations
+         call begin_outer(solution%history)
+         solution%tau = tau
+         call set_friction_bounds(line, shape, tau, solution%bounds, solution%state)
+         call take_multiplier_step(system, shape, solution%bounds, multipliers, solution%state, solution%history, status)
+         factorisations = multipliers%factorisations
+         if (.not. is_ok(status)) return
+         x = multipliers%x
+         solution%inner%solved = multipliers%settled
+         if (loop%shares) call take_least_forces(system, rows, shape%weight, solution%bounds, multipliers, solution%state, &
+                                                 solution%is_shared)
+         solution%p = pressure_of(line, solution%state%q)
+         solution%t = shear_force_of(line, solution%state%q, tau)
+         image = friction_bound(line, solution%p)
+         distance = measure_distance(system, line, multipliers, solution%state%q, tau, image)
+         solution%residual = distance%bound
+         call end_outer(solution%history, distance%bound)
+         call tell(reporter, outer, distance, multipliers, solution)
+         call judge(controls%tolerance, outer, distance, multipliers, loop, solution)
+         if (solution%converged) call look_for_shared(system, rows, shape, multipliers, loop, solution)
+         if (solution%converged .or. multipliers%factorisations > FACTORISATIONS_A_MAXIT*controls%max_iterations) exit
+         if (loop%moving > MOST_MOVING) then
+            solution%inner%moves = .true.
+            solution%inner%motion = multipliers%x(system%n - system%k + 1:) - multipliers%a_old
+            call set_status(status, STATUS_SINGULAR, free_motion)
+            return
+         end if
+         call follow_drift(solution%bounds, multipliers, loop, solution%state)
+         call accept_step(system, solution%state, multipliers)
+         call choose_steps(outer, multipliers, loop)
+         call next_bound(image, loop, anderson, tau)
+      end do
+      if (solution%converged) then
+         call finish(system, line, shape, multipliers, solution)
+         x = multipliers%x
+         return
+      end if
+      solution%verdict = 'the multipliers did not converge in '//to_text(solution%history%outer)//' steps (bound '// &
+                         to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
+   end subroutine solve_by_multipliers
+
+   !> Forces of rows that depend on each other, and whose gaps contradict each other a little, change by the same amount in every
+   !> step until one comes to its bound. They go there at once: the bodies do not feel it.
+   subroutine follow_drift(bounds, multipliers, loop, state)
+      type(box_bounds_t), intent(in) :: bounds
+      type(multiplier_t), intent(in) :: multipliers
+      type(loop_t), intent(inout) :: loop
+      type(box_state_t), intent(inout) :: state
+      real(wp) :: change(size(state%q)), steps, bound
+      integer(ip) :: i
+
+      change = state%q - multipliers%q_old
+      if (allocated(loop%drift) .and. .not. multipliers%changed) then
+         if (norm2(change) > 0.0_wp .and. norm2(change - loop%drift) <= STEADY*norm2(change)) then
+            steps = HUGE_REAL
+            do i = 1, size(change, kind=ip)
+               if (state%state(i) /= FREE .or. change(i) == 0.0_wp) cycle
+               bound = merge(bounds%lower(i), bounds%upper(i), change(i) < 0.0_wp)
+               if (abs(bound) < HUGE_REAL) steps = min(steps, (bound - state%q(i))/change(i))
+            end do
+            if (steps < MOST_DRIFT) state%q = state%q + steps*change
+         end if
+      end if
+      loop%drift = change
+   end subroutine follow_drift
+
+   !> States that still change after many steps may do so for ever. With rho of the size of the flexibility, a step moves the
+   !> forces about half of the way only.
+   subroutine choose_steps(outer, multipliers, loop)
+      integer(ip), intent(in) :: outer
+      type(multiplier_t), intent(inout) :: multipliers
+      type(loop_t), intent(inout) :: loop
+
+      loop%standing = merge(0_ip, loop%standing + 1_ip, multipliers%changed)
+      if (loop%slow .or. outer < MANY_STEPS .or. .not. multipliers%changed) return
+      loop%slow = .true.
+      multipliers%r = SLOW_R
+   end subroutine choose_steps
+
+   !> The friction bound of the next step: Picard's as long as states change, then Anderson's mixing within a range of it.
+   subroutine next_bound(image, loop, anderson, tau)
+      real(wp), intent(in) :: image(:)
+      type(loop_t), intent(inout) :: loop
+      type(anderson_t), intent(inout) :: anderson
+      real(wp), intent(inout) :: tau(:)
+      real(wp) :: mixed(size(tau))
+
+      if (loop%standing >= merge(SLOW_STANDS, 1_ip, loop%slow) .and. all(tau < HUGE_REAL)) then
+         call anderson%update(tau, image, mixed)
+         tau = min(max(mixed, image/MOST_MIXING), MOST_MIXING*image)
+         return
+      end if
+      call anderson%reset()
+      if (loop%slow) then
+         call go_part_of_the_way(image, loop, tau)
+      else
+         tau = image
+      end if
+   end subroutine next_bound
+
+   !> A point whose bound goes up and down goes a part of the way to Picard's: with much friction, more of it may leave less
+   !> pressure there, and the point would slip and open in turn for ever.
+   subroutine go_part_of_the_way(image, loop, tau)
+      real(wp), intent(in) :: image(:)
+      type(loop_t), intent(inout) :: loop
+      real(wp), intent(inout) :: tau(:)
+
+      if (.not. allocated(loop%share)) then
+         allocate (loop%share(size(tau)), source=1.0_wp)
+         allocate (loop%off(size(tau)), source=0.0_wp)
+      end if
+      where ((image - tau)*loop%off < 0.0_wp)
+         loop%share = max(LESS*loop%share, LEAST_SHARE)
+      else where
+         loop%share = min(MORE*loop%share, 1.0_wp)
+      end where
+      loop%off = image - tau
+      tau = tau + loop%share*loop%off
+      where (loop%share >= 1.0_wp) tau = image
+   end subroutine go_part_of_the_way
+
+   !> Forces that are round-off are none, motions that nothing holds are least, and slipping points have the friction of the
+   !> pressure that is there.
+   subroutine finish(system, line, shape, multipliers, solution)
+      class(contact_system_t), intent(in) :: system
+      type(contact_line_t), intent(in) :: line
+      type(box_problem_t), intent(in) :: shape
+      type(multiplier_t), intent(inout) :: multipliers
+      type(contact_solution_t), intent(inout) :: solution
+
+      call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
+      if (system%k > 0) call settle_idle_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
+                                                 solution%inner%idle)
+      solution%p = pressure_of(line, solution%state%q)
+      solution%tau = friction_bound(line, solution%p)
+      call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+      associate (state => solution%state, n => shape%n_normal)
+         where (state%state(n + 1:) == FROZEN) state%q(n + 1:) = 0.0_wp
+         where (state%state(n + 1:) == AT_LOWER) state%q(n + 1:) = solution%bounds%lower(n + 1:)
+         where (state%state(n + 1:) == AT_UPPER) state%q(n + 1:) = solution%bounds%upper(n + 1:)
+         state%q(n + 1:) = min(max(state%q(n + 1:), solution%bounds%lower(n + 1:)), solution%bounds%upper(n + 1:))
+         where (state%state(n + 1:) /= FREE) state%r(n + 1:) = multipliers%e(n + 1:) - solution%bounds%d(n + 1:)*state%q(n + 1:)
+      end associate
+      solution%t = shear_force_of(line, solution%state%q, solution%tau)
+   end subroutine finish
+
+   !> Before the first solution is taken: where its forces are not unique, the loop goes on with the least ones.
+   subroutine look_for_shared(system, rows, shape, multipliers, loop, solution)
+      class(contact_system_t), intent(in) :: system
+      type(constraint_rows_t), intent(in) :: rows
+      type(box_problem_t), intent(in) :: shape
+      type(multiplier_t), intent(in) :: multipliers
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+
+      if (loop%asked) return
+      loop%asked = .true.
+      allocate (solution%is_shared(shape%m))
+      call take_least_forces(system, rows, shape%weight, solution%bounds, multipliers, solution%state, solution%is_shared)
+      loop%shares = any(solution%is_shared)
+      solution%converged = .not. loop%shares
+      if (loop%shares) loop%best = HUGE_REAL
+   end subroutine look_for_shared
+
+   pure integer(ip) function pair_of(line, j)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j
+
+      pair_of = 1
+      if (allocated(line%pair)) pair_of = line%pair(j)
+   end function pair_of
+
+   !> Bounds, states and history of a solution that has none yet.
+   subroutine begin_solution(system, line, shape, solution)
+      class(contact_system_t), intent(in) :: system
+      type(contact_line_t), intent(in) :: line
+      type(box_problem_t), intent(out) :: shape
+      type(contact_solution_t), intent(inout) :: solution
+
+      shape%m = size(line%point, kind=ip)
+      shape%n_normal = count(line%normal > 0, kind=ip)
+      shape%k = system%k
+      shape%weight = line%weight(line%point)
+      solution%history%tangential_of = line%tangential(line%point(:shape%n_normal))
+      call normal_bounds(line, shape, solution%bounds, solution%state)
+   end subroutine begin_solution
+
+   !> Whether the loop has converged, and what the next step takes.
+   subroutine judge(tolerance, outer, distance, multipliers, loop, solution)
+      real(wp), intent(in) :: tolerance
+      integer(ip), intent(in) :: outer
+      type(distance_t), intent(in) :: distance
+      type(multiplier_t), intent(inout) :: multipliers
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp) :: whole
+
+      whole = max(distance%forces, distance%bound)
+      if (distance%pull > NO_LOAD) whole = max(whole, distance%pull)
+      solution%converged = multipliers%settled .and. whole <= tolerance
+      if (whole < 0.5_wp*loop%best) then
+         loop%best = whole
+         loop%best_outer = outer
+      end if
+      if (multipliers%settled .and. outer - loop%best_outer >= STALE .and. whole <= STALE_DISTANCE) solution%converged = .true.
+      loop%moving = merge(loop%moving + 1_ip, 0_ip, distance%drive > MOVES .and. distance%drive > STEADY_PULL*loop%drive)
+      loop%drive = distance%drive
+      if (loop%moving > 1) then
+         multipliers%kappa = max(0.1_wp*multipliers%kappa, LEAST_KAPPA)
+      else if (distance%drive < SMALL_PULL .and. multipliers%kappa > USUAL_KAPPA) then
+         multipliers%kappa = 0.01_wp*multipliers%kappa
+      end if
+   end subroutine judge
+
+   subroutine tell(reporter, outer, distance, multipliers, solution)
+      type(reporter_t), intent(in) :: reporter
+      integer(ip), intent(in) :: outer
+      type(distance_t), intent(in) :: distance
+      type(multiplier_t), intent(in) :: multipliers
+      type(contact_solution_t), intent(in) :: solution
+
+      associate (record => solution%history%records(solution%history%n))
+         call report_progress(reporter, 'step '//to_text(outer)//'  solves '//to_text(record%inner)//'  factorisations ' &
+                              //to_text(multipliers%factorisations)//'  open '//to_text(record%open)//'  stick '// &
+                              to_text(record%stick)//'  slip '//to_text(record%slip)//'  forces '//to_text(distance%forces, 2) &
+                              //'  bound '//to_text(distance%bound, 2)//'  pull '//to_text(distance%pull, 2))
+      end associate
+   end subroutine tell
+
+end module atrito_multiplier_loop

@@ -1,0 +1,135 @@
+!> The scene with everything that the phases of a solution share.
+module atrito_scene_data
+   use atrito_assembled_scene, only: assembled_scene_t, assemble_scene, set_scene_load
+   use atrito_assembly, only: fem_t
+   use atrito_body_store, only: body_store_t, take_numbering
+   use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_problem, only: average_entries, build_line
+   use atrito_contact_rows, only: contact_rows_t, build_rows
+   use atrito_internal_forces, only: internal_forces
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_memory, only: available_memory
+   use atrito_model, only: model_t, METHOD_ANDERSON
+   use atrito_nodal_loads, only: nodal_loads
+   use atrito_points, only: contact_points_t
+   use atrito_scene_builder, only: build_scene, build_bodies
+   use atrito_scene_memory, only: check_average_memory, most_average_entries
+   use atrito_solver_choice, only: STORAGE_SPARSE
+   use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: scene_data_t, asked_t, prepare, assemble, free_load, check_known_points
+
+   type :: scene_data_t
+      type(fem_t) :: fem
+      logical, allocatable :: held(:, :)                    !< (2, n_nodes)
+      real(wp), allocatable :: value(:, :)                  !< (2, n_nodes) prescribed displacements [L]
+      type(contact_points_t), allocatable :: points(:)
+      type(contact_rows_t) :: rows
+      type(contact_line_t) :: line
+      real(wp), allocatable :: f(:, :)                      !< (2, n_nodes) applied forces [F]
+      integer :: contact_form = CONTACT_DENSE
+      character(len=:), allocatable :: reason               !< why this form
+      integer :: storage_kind = 0                           !< that the bodies are numbered for
+      type(assembled_scene_t) :: assembled                  !< the sparse form, before any factorisation
+      logical :: is_assembled = .false.
+   end type scene_data_t
+
+   !> What the user asks for.
+   type :: asked_t
+      integer :: storage_kind = 0                           !< STORAGE_* or 0
+      integer :: contact_form = CONTACT_AUTO
+      integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
+   end type asked_t
+
+contains
+
+   !> From the model to bodies, points, laws and loads, and the form of the contact system. status: STATUS_DECK, which is told by a
+   !> message, when the averages need more memory than there is.
+   subroutine prepare(model, store, asked, data, status)
+      type(model_t), intent(in), target :: model
+      type(body_store_t), intent(in) :: store
+      type(asked_t), intent(in) :: asked
+      type(scene_data_t), intent(out) :: data
+      type(status_t), intent(out) :: status
+      logical :: known
+
+      call build_scene(model, data%fem, data%held, data%value, data%points)
+      call choose_form(model, asked, data)
+      data%storage_kind = asked%storage_kind
+      ! all bodies in one matrix: none is numbered for a profile of its own
+      if (data%contact_form == CONTACT_SPARSE) data%storage_kind = STORAGE_SPARSE
+      call take_numbering(store, data%held, data%points, data%storage_kind, data%fem, known)
+      if (.not. known) call build_bodies(model, data%held, data%points, data%storage_kind, data%fem)
+      call build_rows(data%points, data%rows)
+      if (any(model%interactions%rho > 0.0_wp)) then
+         call check_average_memory(model%deck_path, data%rows%n, &
+                                   average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)
+         if (.not. is_ok(status)) return
+      end if
+      call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
+      call nodal_loads(model, data%f)
+   end subroutine prepare
+
+   !> The form of the contact system, by the numbers of points and nodes.
+   subroutine choose_form(model, asked, data)
+      type(model_t), intent(in) :: model
+      type(asked_t), intent(in) :: asked
+      type(scene_data_t), intent(inout) :: data
+      integer(ip) :: i, n
+
+      n = 0
+      do i = 1, size(data%points, kind=ip)
+         n = n + data%points(i)%n
+         if (model%interactions(model%pairs(i)%interaction)%nu > 0.0_wp) n = n + data%points(i)%n
+      end do
+      call choose_contact_form(n, 2*model%mesh%n_nodes, asked%contact_form, model%controls%method /= METHOD_ANDERSON, &
+                               min(asked%memory, available_memory()), data%contact_form, data%reason)
+   end subroutine choose_form
+
+   !> All bodies in one matrix, and its fronts; nothing is factored. status: STATUS_INTERNAL when the memory does not suffice.
+   subroutine assemble(data, status)
+      type(scene_data_t), intent(inout) :: data
+      type(status_t), intent(inout) :: status
+
+      if (data%is_assembled) return
+      call assemble_scene(data%fem, data%rows, data%line, data%value, data%assembled, status)
+      if (.not. is_ok(status)) return
+      call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
+      data%is_assembled = .true.
+   end subroutine assemble
+
+   !> Hard contact cannot take an overlap of prescribed dofs.
+   pure subroutine check_known_points(data, status)
+      type(scene_data_t), intent(in) :: data
+      type(status_t), intent(out) :: status
+      integer(ip) :: j
+
+      do j = 1, data%line%n
+         if (data%line%normal(j) > 0 .or. data%line%delta(j) > 0.0_wp) cycle
+         if (data%line%known_overlap(j) <= 1.0e-12_wp*(maxval(abs(data%fem%mesh%x)))) cycle
+         call set_status(status, STATUS_DECK, 'node '//to_text(data%fem%mesh%node_id(data%rows%node(1, j))) &
+                         //' is prescribed to penetrate a hard contact by '//to_text(data%line%known_overlap(j)) &
+                         //' [L]; a penalty (PRESSURE-OVERCLOSURE=LINEAR) could take it')
+         return
+      end do
+   end subroutine check_known_points
+
+   !> Applied forces less those of the prescribed displacements.
+   function free_load(data) result(load)
+      type(scene_data_t), intent(in) :: data
+      real(wp), allocatable :: load(:, :), force(:, :)
+      real(wp) :: energy
+
+      load = data%f
+      if (all(data%value == 0.0_wp)) return
+      allocate (force, mold=load)
+      force = 0.0_wp
+      energy = 0.0_wp
+      call internal_forces(data%fem, data%value, force, energy)
+      load = load - force
+   end function free_load
+
+end module atrito_scene_data

@@ -1,0 +1,236 @@
+!> Numbers and order of elimination of all bodies of a scene together, with the contact points as elements.
+module atrito_scene_elimination
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: body_t, mode_at
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t, ROW_ENTRIES
+   use atrito_dissection, only: dissection_t
+   use atrito_element_order, only: order_elements
+   use atrito_elimination, only: elimination_t
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: scene_numbering_t, number_scene, eliminate_scene
+
+   !> The unknowns of a scene: the displacements body by body, then the amplitudes of the rigid motions.
+   type :: scene_numbering_t
+      integer(ip) :: n = 0, k = 0                !< unknowns; of them amplitudes
+      integer(ip), allocatable :: before(:)      !< (bodies) unknowns of the bodies before
+      integer(ip), allocatable :: first_motion(:) !< (bodies) unknown of the first motion
+      integer(ip), allocatable :: n_motions(:)   !< (bodies)
+      integer(ip), allocatable :: spring(:)      !< (k) displacement at which a motion is held, so that u_e has no part in it
+      integer(ip), allocatable :: body(:)        !< (n)
+   end type scene_numbering_t
+
+   !> Corners that the dissection takes the centre of an element from.
+   integer(ip), parameter :: CORNERS = 4_ip
+
+contains
+
+   subroutine number_scene(fem, numbering)
+      type(fem_t), intent(in) :: fem
+      type(scene_numbering_t), intent(out) :: numbering
+      integer(ip) :: b, n, k
+
+      associate (bodies => fem%bodies)
+         allocate (numbering%before(bodies%n), numbering%first_motion(bodies%n), numbering%n_motions(bodies%n))
+         n = 0
+         do b = 1, bodies%n
+            numbering%before(b) = n
+            n = n + bodies%list(b)%n
+            numbering%n_motions(b) = size(bodies%list(b)%modes, 2, kind=ip)
+         end do
+         numbering%k = sum(numbering%n_motions)
+         numbering%n = n + numbering%k
+         allocate (numbering%body(numbering%n), numbering%spring(numbering%k))
+         k = 0
+         do b = 1, bodies%n
+            numbering%body(numbering%before(b) + 1:numbering%before(b) + bodies%list(b)%n) = b
+            numbering%first_motion(b) = n + k + 1
+            if (numbering%n_motions(b) == 0) cycle
+            numbering%body(n + k + 1:n + k + numbering%n_motions(b)) = b
+            call choose_springs(fem, bodies%list(b), numbering%before(b), numbering%spring(k + 1:k + numbering%n_motions(b)))
+            k = k + numbering%n_motions(b)
+         end do
+      end associate
+   end subroutine number_scene
+
+   !> As many displacements as there are motions, by which the motions are best told apart: the largest row of Z, what is left of
+   !> the others without it, and so on.
+   pure subroutine choose_springs(fem, body, before, spring)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      integer(ip), intent(in) :: before
+      integer(ip), intent(out) :: spring(:)
+      real(wp), allocatable :: z(:, :)
+      real(wp) :: direction(size(spring))
+      integer(ip) :: i, dof, m, at
+
+      allocate (z(size(spring), body%n))
+      do i = 1, size(body%nodes, kind=ip)
+         do dof = 1, 2
+            at = fem%bodies%equation(dof, body%nodes(i))
+            if (at == 0) cycle
+            do m = 1, size(spring, kind=ip)
+               z(m, at) = mode_at(body, body%modes(:, m), fem%mesh%x(:, body%nodes(i)), dof)
+            end do
+         end do
+      end do
+      do m = 1, size(spring, kind=ip)
+         at = maxloc(sum(z**2, dim=1), dim=1, kind=ip)
+         spring(m) = before + at
+         direction = z(:, at)/max(norm2(z(:, at)), tiny(1.0_wp))
+         do i = 1, body%n
+            z(:, i) = z(:, i) - direction*dot_product(direction, z(:, i))
+         end do
+      end do
+   end subroutine choose_springs
+
+   !> Nested dissection of the elements and the points; the rigid motions of a body are one more node of its points.
+   function eliminate_scene(fem, rows, line, numbering) result(elimination)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(scene_numbering_t), intent(in) :: numbering
+      type(elimination_t) :: elimination
+      type(dissection_t) :: parts
+      integer(ip), allocatable :: nodes(:, :), n_nodes_of(:)
+      real(wp), allocatable :: x(:, :)
+      logical, allocatable :: wanted(:), changes(:)
+      character(len=:), allocatable :: text
+      integer(ip) :: e, n
+
+      call list_elements(fem, rows, line, numbering, nodes, n_nodes_of)
+      n = fem%mesh%n_nodes
+      allocate (x(2, n + fem%bodies%n), wanted(n + fem%bodies%n), changes(n + fem%bodies%n))
+      x(:, :n) = fem%mesh%x(:, :n)
+      x(:, n + 1:) = 0.0_wp
+      wanted(:n) = any(fem%bodies%equation > 0, dim=1)
+      wanted(n + 1:) = numbering%n_motions > 0
+      changes = .false.
+      do e = fem%mesh%n_elements + 1, size(n_nodes_of, kind=ip)
+         changes(nodes(:n_nodes_of(e), e)) = .true.
+      end do
+      call order_elements([(e, e=1, size(n_nodes_of, kind=ip))], nodes, n_nodes_of, x, wanted, parts, text)
+      call build_elimination(fem, numbering, parts, changes, elimination)
+      call move_alloc(text, elimination%text)
+   end function eliminate_scene
+
+   !> The elements of the mesh, then the points that have a row.
+   subroutine list_elements(fem, rows, line, numbering, nodes, n_nodes_of)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), allocatable, intent(out) :: nodes(:, :), n_nodes_of(:)
+      integer(ip), parameter :: MOST = max(CORNERS, ROW_ENTRIES) + ROW_ENTRIES
+      integer(ip) :: j, e, n_elements, n_points
+
+      n_elements = fem%mesh%n_elements
+      n_points = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
+      allocate (nodes(max(size(fem%mesh%nodes, 1, kind=ip), MOST), n_elements + n_points), n_nodes_of(n_elements + n_points))
+      nodes(:size(fem%mesh%nodes, 1), :n_elements) = fem%mesh%nodes(:, :n_elements)
+      n_nodes_of(:n_elements) = fem%mesh%shape(:n_elements)
+      e = n_elements
+      do j = 1, line%n
+         if (line%normal(j) == 0 .and. line%tangential(j) == 0) cycle
+         e = e + 1
+         call list_nodes_of_point(fem, rows, numbering, j, nodes(:, e), n_nodes_of(e))
+      end do
+   end subroutine list_elements
+
+   !> The nodes of the row, as often as it takes to have four corners, and the motions of their bodies.
+   pure subroutine list_nodes_of_point(fem, rows, numbering, j, nodes, n)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(in) :: j
+      integer(ip), intent(inout) :: nodes(:)
+      integer(ip), intent(out) :: n
+      integer(ip) :: k, b
+
+      n = max(rows%entries(j), CORNERS)
+      do k = 1, n
+         nodes(k) = rows%node(1 + mod(k - 1, rows%entries(j)), j)
+      end do
+      do k = 1, rows%entries(j)
+         b = fem%bodies%of_node(rows%node(k, j))
+         if (numbering%n_motions(b) == 0) cycle
+         if (any(nodes(:n) == fem%mesh%n_nodes + b)) cycle
+         n = n + 1
+         nodes(n) = fem%mesh%n_nodes + b
+      end do
+   end subroutine list_nodes_of_point
+
+   !> From parts of nodes to parts of equations. A leaf is cut in two: first the nodes that no point touches, whose front never
+   !> changes and has equals, then the others.
+   subroutine build_elimination(fem, numbering, parts, changes, elimination)
+      type(fem_t), intent(in) :: fem
+      type(scene_numbering_t), intent(in) :: numbering
+      type(dissection_t), intent(in) :: parts
+      logical, intent(in) :: changes(:)          !< (nodes) a point touches it
+      type(elimination_t), intent(out) :: elimination
+      integer(ip) :: new_part(parts%n), p, q, n, first
+      logical :: is_leaf(parts%n)
+
+      is_leaf = .true.
+      do p = 1, parts%n
+         if (parts%parent(p) > 0) is_leaf(parts%parent(p)) = .false.
+      end do
+      allocate (elimination%place(numbering%n), elimination%last(2*parts%n), elimination%parent(2*parts%n))
+      q = 0
+      n = 0
+      first = 1
+      do p = 1, parts%n
+         associate (nodes => parts%order(first:parts%last(p)))
+            if (is_leaf(p) .and. any(changes(nodes)) .and. .not. all(changes(nodes))) then
+               q = q + 1
+               call place_nodes(fem, numbering, pack(nodes,.not. changes(nodes)), n, elimination%place)
+               elimination%last(q) = n
+               elimination%parent(q) = q + 1
+               call place_nodes(fem, numbering, pack(nodes, changes(nodes)), n, elimination%place)
+            else
+               call place_nodes(fem, numbering, nodes, n, elimination%place)
+            end if
+         end associate
+         q = q + 1
+         elimination%last(q) = n
+         new_part(p) = q
+         first = parts%last(p) + 1
+      end do
+      do p = 1, parts%n
+         elimination%parent(new_part(p)) = 0
+         if (parts%parent(p) > 0) elimination%parent(new_part(p)) = new_part(parts%parent(p))
+      end do
+      elimination%last = elimination%last(:q)
+      elimination%parent = elimination%parent(:q)
+   end subroutine build_elimination
+
+   pure subroutine place_nodes(fem, numbering, nodes, n, place)
+      type(fem_t), intent(in) :: fem
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip), intent(inout) :: n            !< places taken so far
+      integer(ip), intent(inout) :: place(:)
+      integer(ip) :: i, dof, b, equation
+
+      do i = 1, size(nodes, kind=ip)
+         if (nodes(i) > fem%mesh%n_nodes) then
+            b = nodes(i) - fem%mesh%n_nodes
+            do dof = 1, numbering%n_motions(b)
+               n = n + 1
+               place(numbering%first_motion(b) + dof - 1) = n
+            end do
+            cycle
+         end if
+         b = fem%bodies%of_node(nodes(i))
+         do dof = 1, 2
+            equation = fem%bodies%equation(dof, nodes(i))
+            if (equation == 0) cycle
+            n = n + 1
+            place(numbering%before(b) + equation) = n
+         end do
+      end do
+   end subroutine place_nodes
+
+end module atrito_scene_elimination

@@ -1,0 +1,130 @@
+!> The memory that the process will hold at the most, before anything is factored.
+!>
+!> What is there by then is not counted but asked of the system: libraries, mesh, model, points, averages. To that comes the
+!> largest of what the phases hold that follow: bodies and contact line, or factors of the sparse form; displacements, stresses
+!> and what their recovery works with. Left out are the certificate, a second form where the first finds no solution, and bodies
+!> kept for a next run.
+module atrito_scene_forecast
+   use atrito_contact_form, only: CONTACT_SPARSE
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_mesh, only: Q1_NODES
+   use atrito_model, only: model_t
+   use atrito_results, only: scene_t
+   use atrito_scene_data, only: scene_data_t
+   use atrito_shape_functions, only: gauss_count
+   use atrito_solver_choice, only: STORAGE_SPARSE
+   implicit none (type, external)
+   private
+   public :: forecast_memory, share_of
+
+   integer(lp), parameter :: REAL_BYTES = 8_lp
+   !> Code and places for work that are first touched later; of BLAS with large matrices.
+   integer(lp), parameter :: LATER = 3000000_lp, MOST_OF_BLAS = 3000000_lp
+   !> The library of field files, which is loaded when it is wanted.
+   integer(lp), parameter :: FIELD_LIBRARY = 4500000_lp
+   !> Measured shares: holes between the factors of fronts; what the bodies leave of themselves in the process, when they have been
+   !> given back; and what the C library rounds up.
+   real(wp), parameter :: HOLES = 0.12_wp, LEFT_BEHIND = 0.2_wp, ROUNDING_UP = 0.04_wp
+
+contains
+
+   !> The most that the process will hold [bytes].
+   pure integer(lp) function forecast_memory(model, data, scene) result(bytes)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(in) :: scene             !< with its bodies, and what was held so far
+      integer(lp) :: solving, recovering
+
+      recovering = recovery_bytes(model, data)
+      if (data%contact_form == CONTACT_SPARSE) then
+         solving = max(scene%solving + load_bytes(model), recovering)
+      else
+         solving = dense_solving_bytes(scene) + load_bytes(model)
+         solving = max(solving, recovering) + share_of(LEFT_BEHIND, min(solving, recovering))
+      end if
+      bytes = scene%memory_before + LATER + solving
+      associate (fields => model%requests%fields)
+         if (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact) bytes = bytes + FIELD_LIBRARY
+      end associate
+      bytes = max(scene%peak_before, bytes)
+   end function forecast_memory
+
+   !> Bodies one after the other, then the flexibility, its factor and a copy, and as many motions of each row.
+   pure integer(lp) function dense_solving_bytes(scene) result(most)
+      type(scene_t), intent(in) :: scene
+      integer(lp), parameter :: MATRICES = 3_lp, MOTIONS = 6_lp
+      integer(lp) :: held, m, rows
+      integer(ip) :: b
+
+      m = scene%n_normal + scene%n_tangential
+      held = 0
+      most = 0
+      rows = 0
+      do b = 1, size(scene%bodies, kind=ip)
+         associate (body => scene%bodies(b))
+            most = max(most, held + with_holes(body%storage_kind, body%most_memory))
+            held = held + with_holes(body%storage_kind, body%memory) + REAL_BYTES*int(body%n_equations, lp)
+            rows = max(rows, body%n_contact_equations*min(m, 2*int(body%n_contact_equations, lp)))
+         end associate
+      end do
+      most = max(most, held + REAL_BYTES*max(m*(m + scene%n_rigid) + rows, m*(MATRICES*m + MOTIONS*scene%n_rigid)))
+      most = most + share_of(ROUNDING_UP, most) + min(MOST_OF_BLAS, REAL_BYTES*m**2)
+   end function dense_solving_bytes
+
+   !> With what the updates of fronts leave behind between the factors when they are given back: nothing else fits there.
+   pure integer(lp) function with_holes(storage_kind, bytes)
+      integer, intent(in) :: storage_kind
+      integer(lp), intent(in) :: bytes
+
+      with_holes = bytes
+      if (storage_kind >= STORAGE_SPARSE) with_holes = bytes + share_of(HOLES, bytes)
+   end function with_holes
+
+   pure integer(lp) function share_of(share, bytes)
+      real(wp), intent(in) :: share
+      integer(lp), intent(in) :: bytes
+
+      share_of = int(share*real(bytes, wp), lp)
+   end function share_of
+
+   !> Forces and displacements while it is solved.
+   pure integer(lp) function load_bytes(model) result(bytes)
+      type(model_t), intent(in) :: model
+      integer(lp), parameter :: VECTORS = 2_lp
+
+      bytes = VECTORS*2*REAL_BYTES*int(model%mesh%n_nodes, lp)
+   end function load_bytes
+
+   !> Displacements, reactions, stresses at Gauss points and at nodes, and the patches of their recovery.
+   pure integer(lp) function recovery_bytes(model, data) result(bytes)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      integer(lp), parameter :: NODE_BYTES = 310_lp, ELEMENT_BYTES = 60_lp, SAMPLE_BYTES = 5*REAL_BYTES, ROW_BYTES = 64_lp, &
+                                POINT_BYTES = 250_lp
+      integer(lp) :: samples
+
+      samples = 1
+      if (any(model%mesh%shape /= Q1_NODES)) samples = 4
+      bytes = NODE_BYTES*model%mesh%n_nodes + (ELEMENT_BYTES + samples*SAMPLE_BYTES)*model%mesh%n_elements &
+              + ROW_BYTES*stress_rows(model) + POINT_BYTES*data%line%n
+   end function recovery_bytes
+
+   !> Gauss points at which stresses are asked for.
+   pure integer(lp) function stress_rows(model) result(rows)
+      type(model_t), intent(in) :: model
+      integer(ip) :: e
+      logical :: wanted
+
+      rows = 0
+      associate (requests => model%requests)
+         if (.not. (requests%stress .or. requests%fields%stress)) return
+         do e = 1, model%mesh%n_elements
+            wanted = .false.
+            if (requests%stress) wanted = requests%element_s(e)
+            if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s(e)
+            if (wanted) rows = rows + gauss_count(model%mesh%shape(e))**2
+         end do
+      end associate
+   end function stress_rows
+
+end module atrito_scene_forecast

@@ -1,0 +1,155 @@
+!> What a scene needs, and what it does without: for `check` and for the listing.
+module atrito_scene_survey
+   use atrito_assembly, only: body_profile
+   use atrito_body_memory, only: estimate_body_memory, count_body_memory
+   use atrito_condensed_body, only: choose_storage
+   use atrito_contact_form, only: contact_form_name, CONTACT_SPARSE
+   use atrito_heap, only: reusable_memory
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_memory, only: available_memory, resident_memory
+   use atrito_model, only: model_t
+   use atrito_profile, only: profile_t
+   use atrito_results, only: scene_t, body_result_t
+   use atrito_scene_data, only: scene_data_t
+   use atrito_scene_forecast, only: forecast_memory, share_of
+   use atrito_scene_memory, only: check_memory
+   use atrito_solver_choice, only: STORAGE_SPARSE
+   use atrito_status, only: status_t
+   use atrito_strings, only: to_text, append_string
+   use atrito_timers, only: peak_memory
+   implicit none (type, external)
+   private
+   public :: describe_scene, count_fronts, check_scene
+
+   !> Share of the memory that was given back before that will be taken again: the rest lies in pieces between what is held.
+   real(wp), parameter :: SERVES_AGAIN = 0.5_wp
+
+contains
+
+   !> Fills what `check` and the listing print of a scene.
+   subroutine describe_scene(model, data, scene)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(out) :: scene
+      integer(ip) :: b
+
+      allocate (scene%bodies(data%fem%bodies%n))
+      do b = 1, data%fem%bodies%n
+         call describe_body(data, b, scene%bodies(b))
+         scene%n_dofs = scene%n_dofs + scene%bodies(b)%n_equations
+         scene%n_rigid = scene%n_rigid + scene%bodies(b)%n_free_motions
+      end do
+      call describe_pairs(model, data, scene)
+      scene%n_normal = count(data%line%normal > 0, kind=ip)
+      scene%n_tangential = count(data%line%tangential > 0, kind=ip)
+      scene%outer_loop = data%line%has_friction
+      scene%contact_form = contact_form_name(data%contact_form)
+      scene%contact_reason = data%reason
+      if (data%contact_form == CONTACT_SPARSE) then
+         scene%solving = data%assembled%solving_bytes()
+         scene%order = data%assembled%order
+      end if
+      scene%peak_before = max(peak_memory(), resident_memory())
+      scene%memory_before = resident_memory() - share_of(SERVES_AGAIN, reusable_memory())
+      scene%memory = forecast_memory(model, data, scene)
+      call list_left_out(data, scene)
+   end subroutine describe_scene
+
+   !> A body, and the storage of its matrix where it has one of its own.
+   subroutine describe_body(data, b, result)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: b
+      type(body_result_t), intent(inout) :: result
+      type(profile_t) :: profile
+      integer :: kind
+
+      associate (body => data%fem%bodies%list(b))
+         result%name = body%name
+         result%n_nodes = size(body%nodes, kind=ip)
+         result%n_elements = size(body%elements, kind=ip)
+         result%n_equations = body%n
+         result%n_contact_equations = body%n_kept
+         result%n_free_motions = size(body%modes, 2, kind=ip)
+      end associate
+      if (data%contact_form == CONTACT_SPARSE) then
+         result%storage = 'scene'
+      else
+         call body_profile(data%fem, b, profile)
+         call choose_storage(profile, data%storage_kind, kind, result)
+         call estimate_body_memory(data%fem, b, result)
+      end if
+   end subroutine describe_body
+
+   !> Counts what could be estimated only: the fronts of bodies with the sparse storage. A run, which makes them itself in a while,
+   !> wants it where the estimate does not fit.
+   subroutine count_fronts(model, data, always, scene)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      logical, intent(in) :: always
+      type(scene_t), intent(inout) :: scene
+      integer(ip) :: b
+
+      if (.not. any(scene%bodies%storage_kind == STORAGE_SPARSE)) return
+      if (.not. always) then
+         if (scene%memory - scene%memory_before <= available_memory()) return
+      end if
+      do b = 1, size(scene%bodies, kind=ip)
+         if (scene%bodies(b)%storage_kind == STORAGE_SPARSE) call count_body_memory(data%fem, b, scene%bodies(b))
+      end do
+      scene%peak_before = max(scene%peak_before, peak_memory())
+      scene%memory = forecast_memory(model, data, scene)
+   end subroutine count_fronts
+
+   !> status: STATUS_DECK when the matrices of the scene need more memory than there is.
+   subroutine check_scene(model, memory, scene, status)
+      type(model_t), intent(in) :: model
+      integer(lp), intent(in) :: memory                     !< bytes there are
+      type(scene_t), intent(in) :: scene
+      type(status_t), intent(inout) :: status
+
+      call check_memory(model%deck_path, 'the scene, '//to_text(scene%n_dofs)//' free displacements and '// &
+                        to_text(scene%n_normal + scene%n_tangential)//' contact unknowns,', scene%memory, memory, status, &
+                        held=scene%memory_before)
+   end subroutine check_scene
+
+   subroutine describe_pairs(model, data, scene)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(inout) :: scene
+      integer(ip) :: i
+
+      allocate (scene%pairs(size(data%points)))
+      do i = 1, size(data%points, kind=ip)
+         associate (pair => scene%pairs(i), points => data%points(i))
+            pair%slave = model%surfaces(model%pairs(i)%slave)%name
+            pair%master = model%surfaces(model%pairs(i)%master)%name
+            pair%interaction = model%interactions(model%pairs(i)%interaction)%name
+            pair%n_points = points%n
+            pair%n_left_out = points%n_left_out
+            pair%matching = points%matching
+            pair%master_is_rigid = points%rigid
+            if (points%n > 0) pair%least_gap = minval(points%gap)
+            if (points%n > 0) pair%greatest_gap = maxval(points%gap)
+         end associate
+      end do
+   end subroutine describe_pairs
+
+   !> What the scene does not need, in sentences.
+   subroutine list_left_out(data, scene)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(inout) :: scene
+
+      allocate (scene%left_out(0))
+      if (size(data%points) == 0) call append_string(scene%left_out, 'no contact pair: no contact line, one solve a body')
+      if (size(data%points) > 0 .and. .not. data%line%has_friction) then
+         call append_string(scene%left_out, 'no friction: no tangential unknowns, no outer loop')
+      end if
+      if (any(data%points%rigid)) then
+         call append_string(scene%left_out, 'rigid surface: no second body and no matrix for it')
+      end if
+      if (data%line%has_friction .and. data%line%average%is_identity) then
+         call append_string(scene%left_out, 'local friction: no averaging of the pressure')
+      end if
+   end subroutine list_left_out
+
+end module atrito_scene_survey

@@ -1,0 +1,96 @@
+!> Solving with the sparse form: all bodies in one matrix, the contact points as elements that change.
+module atrito_sparse_form
+   use atrito_assembled_scene, only: assembled_scene_t, displacements_of
+   use atrito_assembly, only: fem_t
+   use atrito_condensed_body, only: check_held
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_kinds, only: ip, wp
+   use atrito_multiplier_loop, only: solve_by_multipliers
+   use atrito_outer_loop, only: FREE_MOTION
+   use atrito_reporter, only: reporter_t
+   use atrito_results, only: results_t
+   use atrito_scene_data, only: scene_data_t, assemble
+   use atrito_shared_points, only: build_constraint_rows
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
+   implicit none (type, external)
+   private
+   public :: solve_sparse_form
+
+contains
+
+   !> u: displacements without rigid motions. status: STATUS_SINGULAR with FREE_MOTION, or with a body that is singular by itself.
+   subroutine solve_sparse_form(data, controls, reporter, results, solution, u, status)
+      type(scene_data_t), intent(inout) :: data
+      type(outer_controls_t), intent(in) :: controls
+      type(reporter_t), intent(in) :: reporter
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: u(:, :)
+      type(status_t), intent(out) :: status
+      type(constraint_rows_t) :: rows
+      real(wp), allocatable :: x(:)
+
+      call start_phase('assemble')
+      call check_bodies(data%fem, status)
+      if (is_ok(status)) call assemble(data, status)
+      call stop_phase('assemble')
+      if (.not. is_ok(status)) return
+      results%scene%near_elements = data%assembled%is_near
+      call start_phase('iterate')
+      call build_constraint_rows(data%fem, data%rows, data%line, rows)
+      call solve_by_multipliers(data%assembled, rows, data%line, controls, FREE_MOTION, reporter, solution, x, &
+                                results%factorisations, status)
+      call stop_phase('iterate')
+      if (data%assembled%matrix%failed > 0) call name_failure(data, status)
+      if (.not. allocated(x)) return
+      u = data%value
+      call displacements_of(data%fem, data%assembled, x, u)
+      call release(data)
+   end subroutine solve_sparse_form
+
+   !> Gives the memory of the factors back before the stresses want theirs.
+   subroutine release(data)
+      type(scene_data_t), intent(inout) :: data
+      type(assembled_scene_t) :: nothing
+
+      data%assembled = nothing
+      data%is_assembled = .false.
+   end subroutine release
+
+   !> A floating body that no contact point touches is held by nothing.
+   subroutine check_bodies(fem, status)
+      type(fem_t), intent(in) :: fem
+      type(status_t), intent(inout) :: status
+      integer(ip) :: b
+
+      do b = 1, fem%bodies%n
+         if (is_ok(status)) call check_held(fem, b, status)
+      end do
+   end subroutine check_bodies
+
+   !> A pivot that is not positive, by its body, node and dof.
+   subroutine name_failure(data, status)
+      type(scene_data_t), intent(in) :: data
+      type(status_t), intent(inout) :: status
+      integer(ip) :: b, node, dof
+
+      associate (failed => data%assembled%matrix%failed, bodies => data%fem%bodies)
+         do node = 1, data%fem%mesh%n_nodes
+            b = bodies%of_node(node)
+            if (b == 0) cycle
+            do dof = 1, 2
+               if (bodies%equation(dof, node) == 0) cycle
+               if (data%assembled%numbering%before(b) + bodies%equation(dof, node) /= failed) cycle
+               call set_status(status, STATUS_SINGULAR, 'body '//bodies%list(b)%name//': '//status%text//', node ' &
+                               //to_text(data%fem%mesh%node_id(node))//' dof '//to_text(dof) &
+                               //': a part of the body can move by itself there (elements joined at one node only, or distorted)')
+               return
+            end do
+         end do
+      end associate
+   end subroutine name_failure
+
+end module atrito_sparse_form

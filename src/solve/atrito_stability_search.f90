@@ -1,0 +1,420 @@
+!> Where between two values of a parameter a scene ceases to stand: which value is to be looked at next, and what is known so far.
+!>
+!> Two questions can be asked of a value. The balance is cheap: whether any forces that the contact can take balance the loads. A
+!> solution costs a run. The balance narrows the limit from both sides; the last value that can be balanced is then solved, with
+!> some between it and the end that stands, for the curve. Where runs find neither a solution nor a proof, the last value that
+!> stands is looked for by halving; such values narrow neither bound.
+module atrito_stability_search
+   use atrito_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: search_t, tried_t, begin_search, next_step, record_balance, record_solution, standing_value, falling_value, &
+             balanced_value, allowed_width
+   public :: STEP_BALANCE, STEP_SOLVE, STEP_DONE
+   public :: UNKNOWN, STANDS, FALLS, UNDECIDED
+   public :: FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL, NO_END_STANDS
+
+   integer, parameter :: STEP_DONE = 0, STEP_BALANCE = 1, STEP_SOLVE = 2
+   !> Answers. Of the balance STANDS means that there are forces; UNDECIDED: neither forces or a solution, nor a proof.
+   integer, parameter :: UNKNOWN = 0, STANDS = 1, FALLS = 2, UNDECIDED = 3
+   !> How a search ends: the limit is known as well as asked; only an interval; there is none between the ends.
+   integer, parameter :: FOUND_LIMIT = 1, FOUND_INTERVAL = 2, BOTH_STAND = 3, BOTH_FALL = 4, NO_END_STANDS = 5
+
+   !> A value that was looked at.
+   type :: tried_t
+      real(wp) :: x = 0.0_wp
+      integer :: balance = UNKNOWN
+      integer :: solution = UNKNOWN                 !< STANDS or UNDECIDED; what falls is not solved
+      real(wp) :: excess = 0.0_wp                   !< of the balance, where it falls: by which share the loads are too much
+   end type tried_t
+
+   type :: search_t
+      real(wp) :: ends(2) = 0.0_wp
+      real(wp) :: tolerance = 0.0_wp                !< relative, of the interval in the end
+      integer :: found = 0                          !< once done: FOUND_LIMIT, ...
+      type(tried_t), allocatable :: tried(:)        !< in the order in which they were looked at
+      real(wp), private :: widths(2) = huge(1.0_wp) !< of the interval before the last two questions of balance
+   end type search_t
+
+   !> Values of the curve, as shares of the way from the end that stands to the limit.
+   real(wp), parameter :: SHARES(12) = [0.125_wp, 0.25_wp, 0.375_wp, 0.5_wp, 0.625_wp, 0.75_wp, 0.875_wp, 0.95_wp, 0.98_wp, &
+                                        0.99_wp, 0.995_wp, 0.999_wp]
+   !> A limit that is zero is found to the tolerance times this share of the larger end.
+   real(wp), parameter :: LEAST_SIZE = 1.0e-3_wp
+   !> The part of the interval to which the last value that stands is found where runs below the limit find nothing.
+   real(wp), parameter :: UNDECIDED_SHARE = 0.02_wp
+   !> A value beyond the root that the excess predicts is this share of the allowed width away from it.
+   real(wp), parameter :: OVERSHOOT = 1.0_wp/3.0_wp
+   !> Of the interval, from the value that can be balanced, where both values about the root can be balanced.
+   real(wp), parameter :: NEARER = 0.1_wp
+
+contains
+
+   pure subroutine begin_search(first, second, tolerance, search)
+      real(wp), intent(in) :: first, second         !< different
+      real(wp), intent(in) :: tolerance             !< > 0
+      type(search_t), intent(out) :: search
+
+      search%ends = [first, second]
+      search%tolerance = tolerance
+      allocate (search%tried(0))
+   end subroutine begin_search
+
+   !> What to ask next, and of which value. STEP_DONE: nothing, search%found tells what came of it.
+   pure subroutine next_step(search, x, step)
+      type(search_t), intent(inout) :: search
+      real(wp), intent(out) :: x
+      integer, intent(out) :: step
+      integer :: standing
+
+      call look_at_ends(search, x, step, standing)
+      if (step /= STEP_DONE .or. search%found /= 0) return
+      call narrow_balance(search, standing, x, step)
+      if (step == STEP_DONE) call follow_curve(search, standing, x, step)
+      if (step == STEP_DONE) call narrow_solutions(search, standing, x, step)
+      if (step == STEP_SOLVE) call ask_balance_first(search, x, step)
+      if (step /= STEP_DONE) return
+      search%found = FOUND_INTERVAL
+      if (abs(falling_value(search) - standing_value(search)) <= allowed_width(search)) search%found = FOUND_LIMIT
+   end subroutine next_step
+
+   !> A value between two that can be balanced need not be one itself; where it falls, the limit is sought on this side of it.
+   pure subroutine ask_balance_first(search, x, step)
+      type(search_t), intent(in) :: search
+      real(wp), intent(in) :: x
+      integer, intent(inout) :: step
+      type(tried_t) :: known
+
+      known = known_of(search, x)
+      if (known%balance == UNKNOWN) step = STEP_BALANCE
+   end subroutine ask_balance_first
+
+   !> The ends come first. Two that can be balanced are both solved, to tell what they are.
+   pure subroutine look_at_ends(search, x, step, standing)
+      type(search_t), intent(inout) :: search
+      real(wp), intent(out) :: x
+      integer, intent(out) :: step, standing        !< standing: 1 or 2, the end that does
+      type(tried_t) :: at(2)
+      integer :: i
+
+      step = STEP_DONE
+      standing = 0
+      x = search%ends(1)
+      do i = 1, 2
+         at(i) = known_of(search, search%ends(i))
+         if (at(i)%balance /= UNKNOWN) cycle
+         x = search%ends(i)
+         step = STEP_BALANCE
+         return
+      end do
+      do i = 1, 2
+         if (has_fallen(at(i)) .or. at(i)%solution /= UNKNOWN) cycle
+         x = search%ends(i)
+         step = STEP_SOLVE
+         return
+      end do
+      if (all(has_fallen(at))) then
+         search%found = BOTH_FALL
+      else if (all(at%solution == STANDS)) then
+         search%found = BOTH_STAND
+      else if (.not. any(has_fallen(at)) .or. any(at%solution == UNDECIDED)) then
+         search%found = NO_END_STANDS
+      else
+         standing = findloc(has_fallen(at), .false., dim=1)
+      end if
+   end subroutine look_at_ends
+
+   !> Asks the balance until the values that can and cannot be balanced are as close as allowed, or as what is undecided lets them.
+   pure subroutine narrow_balance(search, standing, x, step)
+      type(search_t), intent(inout) :: search
+      integer, intent(in) :: standing
+      real(wp), intent(out) :: x
+      integer, intent(out) :: step
+      type(tried_t) :: known
+      real(wp) :: start, reach, fall, low, high, at, allowed
+      integer :: i
+
+      start = search%ends(standing)
+      fall = distance_of_fall(search, start)
+      reach = abs(reached_value(search, start, fall) - start)
+      allowed = width_of([start + signed(search, standing, reach), start + signed(search, standing, fall)], search)
+      low = fall
+      high = reach
+      do i = 1, size(search%tried)                  ! what is undecided between them is left out
+         at = abs(search%tried(i)%x - start)
+         if (search%tried(i)%balance /= UNDECIDED .or. at <= reach .or. at >= fall) cycle
+         low = min(low, at)
+         high = max(high, at)
+      end do
+      x = start
+      step = STEP_DONE
+      if (low >= fall) then
+         if (fall - reach <= allowed) return
+         call choose_trial(search, start, reach, fall, allowed, at)
+      else
+         if (max(low - reach, fall - high) <= 0.25_wp*allowed) return
+         at = 0.5_wp*(reach + low)
+         if (fall - high > low - reach) at = 0.5_wp*(high + fall)
+      end if
+      x = start + signed(search, standing, at)
+      known = known_of(search, x)
+      if (known%balance == UNKNOWN) step = STEP_BALANCE   ! else: rounding leaves no value between
+   end subroutine narrow_balance
+
+   !> The next distance from the end that stands: a little on either side of the root that the excess predicts, or half way where
+   !> that has not halved the interval lately.
+   pure subroutine choose_trial(search, start, reach, fall, allowed, at)
+      type(search_t), intent(inout) :: search
+      real(wp), intent(in) :: start, reach, fall, allowed
+      real(wp), intent(out) :: at
+      real(wp) :: root, aside
+      logical :: slow, found
+
+      slow = fall - reach > 0.5_wp*search%widths(1)
+      search%widths = [search%widths(2), fall - reach]
+      call predict_root(search, start, fall, root, found)
+      at = 0.5_wp*(reach + fall)
+      if (.not. found) return
+      aside = OVERSHOOT*allowed
+      if (slow) then                                ! the line is no good from so far, a nearer value makes a better one
+         if (root - aside <= reach + 0.1_wp*aside) at = reach + NEARER*(fall - reach)
+      else if (root - aside > reach + 0.1_wp*aside) then
+         if (root - aside < fall) at = root - aside
+      else if (root + aside < fall .and. root + aside > reach) then
+         at = root + aside
+      end if
+   end subroutine choose_trial
+
+   !> Where the line through the excess of the two nearest values that fall is zero.
+   pure subroutine predict_root(search, start, fall, root, found)
+      type(search_t), intent(in) :: search
+      real(wp), intent(in) :: start, fall
+      real(wp), intent(out) :: root
+      logical, intent(out) :: found
+      real(wp) :: at, beyond, excess(2)
+      integer :: i
+
+      beyond = huge(beyond)
+      excess = 0.0_wp
+      do i = 1, size(search%tried)
+         associate (one => search%tried(i))
+            at = abs(one%x - start)
+            if (one%balance /= FALLS .or. at < fall .or. at >= beyond) cycle
+            if (at <= fall) then
+               excess(1) = one%excess
+            else
+               beyond = at
+               excess(2) = one%excess
+            end if
+         end associate
+      end do
+      root = fall
+      found = excess(1) > 0.0_wp .and. excess(2) > excess(1)
+      if (found) root = fall - excess(1)*(beyond - fall)/(excess(2) - excess(1))
+   end subroutine predict_root
+
+   !> The last value that can be balanced, then those of the curve.
+   pure subroutine follow_curve(search, standing, x, step)
+      type(search_t), intent(in) :: search
+      integer, intent(in) :: standing
+      real(wp), intent(out) :: x
+      integer, intent(out) :: step
+      real(wp) :: start, reach
+      integer :: i
+
+      start = search%ends(standing)
+      x = reached_value(search, start, distance_of_fall(search, start))
+      reach = abs(x - start)
+      step = STEP_SOLVE
+      if (is_unsolved(search, x)) return
+      do i = 1, size(SHARES)
+         x = start + signed(search, standing, SHARES(i)*reach)
+         if (is_unsolved(search, x)) return
+      end do
+      step = STEP_DONE
+   end subroutine follow_curve
+
+   !> Half way between the last value that stands and the undecided one next to it.
+   pure subroutine narrow_solutions(search, standing, x, step)
+      type(search_t), intent(in) :: search
+      integer, intent(in) :: standing
+      real(wp), intent(out) :: x
+      integer, intent(out) :: step
+      real(wp) :: start, stand, fall, next, at
+      integer :: i
+
+      start = search%ends(standing)
+      stand = abs(standing_value(search) - start)
+      fall = distance_of_fall(search, start)
+      next = fall
+      do i = 1, size(search%tried)
+         at = abs(search%tried(i)%x - start)
+         if (search%tried(i)%solution == UNDECIDED .and. at > stand) next = min(next, at)
+      end do
+      step = STEP_DONE
+      x = start + signed(search, standing, 0.5_wp*(stand + next))
+      if (fall - stand <= allowed_width(search)) return
+      if (next < fall .and. next - stand > max(allowed_width(search), UNDECIDED_SHARE*(fall - stand)) &
+          .and. is_unsolved(search, x)) step = STEP_SOLVE
+   end subroutine narrow_solutions
+
+   pure subroutine record_balance(search, x, answer, excess)
+      type(search_t), intent(inout) :: search
+      real(wp), intent(in) :: x
+      integer, intent(in) :: answer                 !< STANDS, FALLS or UNDECIDED
+      real(wp), intent(in) :: excess                !< > 0 where it falls
+      integer :: i
+
+      call find_or_add(search, x, i)
+      search%tried(i)%balance = answer
+      search%tried(i)%excess = excess
+   end subroutine record_balance
+
+   pure subroutine record_solution(search, x, answer)
+      type(search_t), intent(inout) :: search
+      real(wp), intent(in) :: x
+      integer, intent(in) :: answer                 !< STANDS or UNDECIDED
+      integer :: i
+
+      call find_or_add(search, x, i)
+      search%tried(i)%solution = answer
+   end subroutine record_solution
+
+   !> The value nearest to the limit that has a solution.
+   pure real(wp) function standing_value(search) result(x)
+      type(search_t), intent(in) :: search
+      real(wp) :: start, fall, at, farthest
+      integer :: i
+
+      start = start_of(search)
+      fall = distance_of_fall(search, start)
+      x = start
+      farthest = 0.0_wp
+      do i = 1, size(search%tried)
+         at = abs(search%tried(i)%x - start)
+         if (search%tried(i)%solution /= STANDS .or. at >= fall .or. at < farthest) cycle
+         farthest = at
+         x = search%tried(i)%x
+      end do
+   end function standing_value
+
+   !> The value nearest to it that has none.
+   pure real(wp) function falling_value(search) result(x)
+      type(search_t), intent(in) :: search
+      real(wp) :: start, fall
+      integer :: i
+
+      start = start_of(search)
+      fall = distance_of_fall(search, start)
+      x = sum(search%ends) - start
+      do i = 1, size(search%tried)
+         if (has_fallen(search%tried(i)) .and. abs(search%tried(i)%x - start) <= fall) x = search%tried(i)%x
+      end do
+   end function falling_value
+
+   !> The value nearest to that one whose loads can be balanced, solved or not.
+   pure real(wp) function balanced_value(search) result(x)
+      type(search_t), intent(in) :: search
+      real(wp) :: start
+
+      start = start_of(search)
+      x = reached_value(search, start, distance_of_fall(search, start))
+   end function balanced_value
+
+   !> How far apart the two may be in the end.
+   pure real(wp) function allowed_width(search)
+      type(search_t), intent(in) :: search
+
+      allowed_width = width_of([standing_value(search), falling_value(search)], search)
+   end function allowed_width
+
+   pure real(wp) function width_of(interval, search) result(width)
+      real(wp), intent(in) :: interval(2)
+      type(search_t), intent(in) :: search
+
+      width = search%tolerance*max(maxval(abs(interval)), LEAST_SIZE*maxval(abs(search%ends)))
+   end function width_of
+
+   !> The end from which distances are told: the one that has not fallen.
+   pure real(wp) function start_of(search) result(x)
+      type(search_t), intent(in) :: search
+
+      x = search%ends(1)
+      if (has_fallen(known_of(search, x))) x = search%ends(2)
+   end function start_of
+
+   pure real(wp) function signed(search, standing, distance)
+      type(search_t), intent(in) :: search
+      integer, intent(in) :: standing
+      real(wp), intent(in) :: distance
+
+      signed = sign(distance, search%ends(3 - standing) - search%ends(standing))
+   end function signed
+
+   !> From the end that stands to the nearest value that falls.
+   pure real(wp) function distance_of_fall(search, start) result(distance)
+      type(search_t), intent(in) :: search
+      real(wp), intent(in) :: start
+      integer :: i
+
+      distance = abs(search%ends(2) - search%ends(1))
+      do i = 1, size(search%tried)
+         if (has_fallen(search%tried(i))) distance = min(distance, abs(search%tried(i)%x - start))
+      end do
+   end function distance_of_fall
+
+   !> The value farthest from there that can be balanced, before one falls.
+   pure real(wp) function reached_value(search, start, fall) result(x)
+      type(search_t), intent(in) :: search
+      real(wp), intent(in) :: start, fall
+      real(wp) :: at
+      integer :: i
+
+      x = start
+      do i = 1, size(search%tried)
+         associate (one => search%tried(i))
+            at = abs(one%x - start)
+            if (at >= fall .or. at < abs(x - start)) cycle
+            if (one%balance == STANDS .or. one%solution == STANDS) x = one%x
+         end associate
+      end do
+   end function reached_value
+
+   pure elemental logical function has_fallen(one)
+      type(tried_t), intent(in) :: one
+
+      has_fallen = one%balance == FALLS
+   end function has_fallen
+
+   pure logical function is_unsolved(search, x)
+      type(search_t), intent(in) :: search
+      real(wp), intent(in) :: x
+      type(tried_t) :: known
+
+      known = known_of(search, x)
+      is_unsolved = known%solution == UNKNOWN
+   end function is_unsolved
+
+   pure type(tried_t) function known_of(search, x) result(known)
+      type(search_t), intent(in) :: search
+      real(wp), intent(in) :: x
+      integer :: i
+
+      known%x = x
+      do i = 1, size(search%tried)
+         if (abs(search%tried(i)%x - x) <= 0.0_wp) known = search%tried(i)
+      end do
+   end function known_of
+
+   pure subroutine find_or_add(search, x, i)
+      type(search_t), intent(inout) :: search
+      real(wp), intent(in) :: x
+      integer, intent(out) :: i
+
+      do i = 1, size(search%tried)
+         if (abs(search%tried(i)%x - x) <= 0.0_wp) return
+      end do
+      search%tried = [search%tried, tried_t(x)]
+   end subroutine find_or_add
+
+end module atrito_stability_search

@@ -1,0 +1,60 @@
+!> What it means that no solution was found: there is none, and why; or there may be one, and the last iterate is what there is.
+module atrito_verdict
+   use atrito_assembly, only: fem_t
+   use atrito_certificate, only: certificate_t, prove_balance, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
+   use atrito_clp, only: clp_trouble
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_free_motion, only: free_motion_text
+   use atrito_kinds, only: wp
+   use atrito_mechanism, only: mechanism_t, describe_motion
+   use atrito_motion_rows, only: motion_rows_t
+   use atrito_motion_system, only: build_motion_rows
+   use atrito_results, only: pair_scene_t
+   use atrito_status, only: status_t, set_status, STATUS_SINGULAR
+   implicit none (type, external)
+   private
+   public :: judge_balance
+
+contains
+
+   !> Judges a contact line without solution. status: STATUS_SINGULAR with the whole text where no forces that the contact can take
+   !> balance the loads. Else it is OK, and the verdict says more.
+   subroutine judge_balance(fem, held, rows, line, f, pairs, verdict, status)
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: held(:, :)              !< (2, n_nodes)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
+      type(pair_scene_t), intent(in) :: pairs(:)
+      character(len=:), allocatable, intent(inout) :: verdict !< why there is no solution
+      type(status_t), intent(out) :: status
+      type(motion_rows_t) :: motions
+      type(certificate_t) :: certificate
+      type(mechanism_t) :: mechanism
+
+      call build_motion_rows(fem, rows, line, f, motions)
+      call prove_balance(motions, line, certificate)
+      if (certificate%verdict == BALANCE_IMPOSSIBLE) then
+         call describe_motion(fem, rows, line, motions, certificate, mechanism)
+         call set_status(status, STATUS_SINGULAR, free_motion_text(fem, held, rows, line, pairs, mechanism))
+         return
+      end if
+      if (.not. allocated(verdict)) verdict = 'no solution was found'
+      verdict = verdict//'; '//knowledge(certificate)
+   end subroutine judge_balance
+
+   function knowledge(certificate) result(text)
+      type(certificate_t), intent(in) :: certificate
+      character(len=:), allocatable :: text
+
+      if (certificate%verdict == BALANCE_POSSIBLE) then
+         text = 'there are forces that the contact can take and that balance the loads, but no solution with them was found'
+      else if (certificate%solver_missing) then
+         text = 'whether the contact can take the loads at all cannot be told without Clp: '//clp_trouble()
+      else
+         text = 'whether the contact can take the loads at all is not decided, it is too near the limit'
+      end if
+   end function knowledge
+
+end module atrito_verdict
