@@ -105,6 +105,10 @@ memory digits-sparse-form digits.inp --contact sparse
 sed 's/CPE4/CPE9/' blocks.inp >nine.inp
 memory nine nine.inp
 memory refined "$input/ex3-pillar-in-ground.inp" --refine 4
+sh "$here/../order/ring.sh" 3000 >ring.inp
+memory ring ring.inp
+sh "$here/../order/askew.sh" >askew.inp
+memory askew askew.inp
 layers 1000 >layers.inp
 memory layers layers.inp --contact sparse
 layers 300 >line.inp
