@@ -11,6 +11,7 @@ module atrito_certificate
    use atrito_contact_line, only: contact_line_t, pressure_of, friction_bound
    use atrito_kinds, only: ip, wp
    use atrito_linear_program, only: linear_solution_t, LP_BY_SIMPLEX, LP_BY_BARRIER, LP_OPTIMAL, LP_NOT_AVAILABLE
+   use atrito_motion_polish, only: polish_motion
    use atrito_motion_rows, only: motion_rows_t, motion_rates, motion_forces
    implicit none (type, external)
    private
@@ -28,10 +29,11 @@ module atrito_certificate
    end type certificate_t
 
    real(wp), parameter :: NO_LOAD = 1.0e-13_wp    !< of what was added up: round-off
+   real(wp), parameter :: ROUND_OFF = 1.0e-14_wp  !< rate over its terms
    real(wp), parameter :: IN_BALANCE = 1.0e-9_wp    !< remainder over the forces on a motion
    real(wp), parameter :: OF_BODY = 1.0e-13_wp    !< remainder over the largest force on the body
    real(wp), parameter :: CLEAR = 1.0e-9_wp       !< excess over the loads' work
-   real(wp), parameter :: MANY_TIMES = 1.0e4_wp   !< larger forces than those of the bodies' size, times this, are none
+   real(wp), parameter :: MANY_TIMES = 1.0e8_wp   !< larger forces than those of the bodies' size, times this, are none
    real(wp), parameter :: NO_MOTION = 1.0e-9_wp   !< of the largest, scaled by forces
    integer(ip), parameter :: MOST_PASSES = 3_ip
    integer(ip), parameter :: MANY_MOTIONS = 500_ip !< from here on interior points are faster than simplex steps
@@ -146,6 +148,10 @@ contains
          clean = v
          call motion_excess(rows, line, body_force, clean, excess, proven)
       end if
+      if (.not. proven .and. excess > 0.0_wp) then
+         call polish_motion(rows, line, scale, clean)
+         call motion_excess(rows, line, body_force, clean, excess, proven)
+      end if
       if (.not. proven) return
       certificate%verdict = BALANCE_IMPOSSIBLE
       certificate%motion = clean
@@ -252,10 +258,11 @@ contains
       real(wp), intent(in) :: v(:)               !< (k) [L]
       real(wp), intent(out) :: excess            !< [F L]
       logical, intent(out) :: proven
-      real(wp) :: rate(rows%m), by_friction(line%n), known_work, work_size, taken, resisted
+      real(wp) :: rate(rows%m), terms(rows%m), by_friction(line%n), known_work, work_size, taken, resisted
       integer(ip) :: i
 
       rate = motion_rates(rows, v, .false.)
+      terms = motion_rates(rows, v, .true.)
       call friction_work(line, rate, by_friction, known_work)
       excess = dot_product(rows%work, v) - known_work
       work_size = dot_product(rows%work_size, abs(v)) + known_work
@@ -263,7 +270,7 @@ contains
       do i = 1, rows%m
          if (line%normal(line%point(i)) /= i) cycle
          resisted = rate(i) + by_friction(line%point(i))
-         if (resisted <= 0.0_wp) cycle
+         if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) cycle
          if (rows%first(i + 1) > rows%first(i)) then
             taken = taken + resisted*minval(body_force(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
          else
