@@ -4,9 +4,7 @@ module atrito_bodies
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_dense, only: null_space
-   use atrito_dissection, only: dissection_t
-   use atrito_element_order, only: order_elements
-   use atrito_elimination, only: elimination_t
+   use atrito_multifrontal, only: dissection_t, order_elements, elimination_t
    use atrito_ordering, only: graph_t, build_graph, mesh_components, order_contact_last
    use atrito_threads, only: is_shared
    implicit none (type, external)

@@ -11,16 +11,14 @@ module atrito_assembled_scene
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, row_value, ROW_ENTRIES
    use atrito_contact_system, only: contact_system_t
-   use atrito_elimination, only: elimination_t
-   use atrito_element_store, only: element_store_t, add_to_store, take_own_matrices
-   use atrito_front_factors, only: front_bytes_t
    use atrito_kinds, only: ip, lp, wp
+   use atrito_multifrontal, only: elimination_t, element_store_t, add_to_store, take_own_matrices, front_bytes_t, &
+                                  variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
+                                  solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
+                                  variable_matrix_bytes
    use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
-   use atrito_variable_matrix, only: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
-                                     solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
-                                     variable_matrix_bytes
    implicit none (type, external)
    private
    public :: assembled_scene_t, assemble_scene, set_scene_load, displacements_of

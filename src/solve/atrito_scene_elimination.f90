@@ -4,10 +4,8 @@ module atrito_scene_elimination
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, ROW_ENTRIES
-   use atrito_dissection, only: dissection_t
-   use atrito_element_order, only: order_elements
-   use atrito_elimination, only: elimination_t
    use atrito_kinds, only: ip, wp
+   use atrito_multifrontal, only: dissection_t, order_elements, elimination_t
    implicit none (type, external)
    private
    public :: scene_numbering_t, number_scene, eliminate_scene

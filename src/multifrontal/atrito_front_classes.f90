@@ -5,7 +5,7 @@ module atrito_front_classes
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
-   public :: class_list_t, begin_classes, end_classes, find_class, name_classes
+   public :: class_list_t, begin_classes, end_classes, find_class, name_classes, children_of
 
    type :: class_list_t
       integer(ip) :: n_classes = 0               !< numbered so that children come before their parents
@@ -108,6 +108,22 @@ contains
          k = k + 2 + record(k + 2)
       end do
    end subroutine name_classes
+
+   !> The classes of the children of a class.
+   pure function children_of(list, c) result(children)
+      class(class_list_t), intent(in) :: list
+      integer(ip), intent(in) :: c
+      integer(ip), allocatable :: children(:)
+      integer(lp) :: k
+      integer(ip) :: i
+
+      allocate (children(list%record(list%start(c) + 3)))
+      k = list%start(c) + HEADER
+      do i = 1, size(children, kind=ip)
+         children(i) = list%record(k + 1)
+         k = k + 2 + list%record(k + 2)
+      end do
+   end function children_of
 
    !> A number 0..range - 1 that differs between most records.
    pure integer(ip) function hash(record, range)

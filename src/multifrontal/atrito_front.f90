@@ -7,7 +7,7 @@ module atrito_front
    use atrito_lapack, only: dgemm, dpotrf, dsyrk, dtrsm
    implicit none (type, external)
    private
-   public :: clear_front, eliminate, add_element, add_update, pack_columns, unpack_update, packed_length
+   public :: clear_front, eliminate, add_element, add_update, pack_columns, packed_length
 
    !> Pivots eliminated at a time, and rows or columns of a tile.
    integer(ip), parameter :: PANEL = 128_ip, TILE = 192_ip
@@ -17,7 +17,7 @@ module atrito_front
 contains
 
    !> Entries of the first columns of a lower triangle.
-   pure integer(lp) function packed_length(order, columns)
+   pure elemental integer(lp) function packed_length(order, columns)
       integer(ip), intent(in) :: order, columns  !< columns <= order
 
       packed_length = int(columns, lp)*int(order, lp) - int(columns, lp)*int(columns - 1, lp)/2
@@ -181,21 +181,5 @@ contains
          k = k + order - j + 1
       end do
    end subroutine pack_strip
-
-   !> A full symmetric matrix from its packed lower triangle.
-   pure subroutine unpack_update(order, packed, matrix)
-      integer(ip), intent(in) :: order
-      real(wp), intent(in) :: packed(*)
-      real(wp), intent(out) :: matrix(:, :)
-      integer(ip) :: j
-      integer(lp) :: k
-
-      k = 0
-      do j = 1, order
-         matrix(j:, j) = packed(k + 1:k + order - j + 1)
-         matrix(j, j:) = matrix(j:, j)
-         k = k + order - j + 1
-      end do
-   end subroutine unpack_update
 
 end module atrito_front
