@@ -19,11 +19,11 @@ module atrito_sparse_storage
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8, &
                              LONG_BYTES = storage_size(1_lp)/8
-   !> Numbers of a part of the tree.
-   integer(lp), parameter :: PART_NUMBERS = 4_lp
+   !> Numbers of a supernode.
+   integer(lp), parameter :: SUPERNODE_NUMBERS = 4_lp
 
-   !> Parts of the equations whose diagonal is summed side by side: for each, all elements are gone through.
-   integer(ip), parameter :: MOST_PARTS = 8_ip
+   !> Ranges of the equations whose diagonal is summed side by side: for each, all elements are gone through.
+   integer(ip), parameter :: MOST_RANGES = 8_ip
 
    type, extends(storage_t) :: sparse_t
       private
@@ -52,7 +52,7 @@ contains
       self%n = profile%n
       self%n_kept = profile%n_kept
       self%report = factor_report_t()
-      if (allocated(profile%elimination%place)) then
+      if (allocated(profile%elimination%position)) then
          self%elimination = profile%elimination
       else
          self%elimination = chain_elimination(self%n, self%n_kept)
@@ -103,44 +103,45 @@ contains
       end if
    end subroutine factor_and_report
 
-   !> The diagonal of the matrix by places; for each of some parts of the equations, side by side, all elements are gone through.
+   !> The diagonal of the matrix by positions; for each range of the equations all elements are gone through.
    subroutine sum_diagonal(self, diagonal)
       type(sparse_t), intent(in) :: self
       real(wp), intent(out) :: diagonal(:)
-      integer(ip) :: part, n_parts
+      integer(ip) :: range, n_ranges
 
-      n_parts = 1
-      if (is_shared(self%store%n)) n_parts = min(n_threads(), MOST_PARTS)
-      !$omp parallel do schedule(static, 1) default(none) shared(self, n_parts, diagonal)
-      do part = 1, n_parts
-         call sum_part(self, int((int(self%n, lp)*(part - 1))/n_parts, ip) + 1, int((int(self%n, lp)*part)/n_parts, ip), diagonal)
+      n_ranges = 1
+      if (is_shared(self%store%n)) n_ranges = min(n_threads(), MOST_RANGES)
+      !$omp parallel do schedule(static, 1) default(none) shared(self, n_ranges, diagonal)
+      do range = 1, n_ranges
+         call sum_range(self, int((int(self%n, lp)*(range - 1))/n_ranges, ip) + 1, int((int(self%n, lp)*range)/n_ranges, ip), &
+                        diagonal)
       end do
       !$omp end parallel do
    end subroutine sum_diagonal
 
-   pure subroutine sum_part(self, first, last, diagonal)
+   pure subroutine sum_range(self, first, last, diagonal)
       type(sparse_t), intent(in) :: self
       integer(ip), intent(in) :: first, last     !< equations
       real(wp), intent(inout) :: diagonal(:)
       integer(lp) :: k, at
-      integer(ip) :: e, place, n
+      integer(ip) :: e, position, n
 
       do n = first, last
-         diagonal(self%elimination%place(n)) = 0.0_wp
+         diagonal(self%elimination%position(n)) = 0.0_wp
       end do
       do e = 1, self%store%n
          n = int(self%store%start(e + 1) - self%store%start(e), ip)
          at = self%store%matrix_start(self%store%matrix_of(e)) + 1
          do k = self%store%start(e) + 1, self%store%start(e + 1)
             if (self%store%equations(k) >= first .and. self%store%equations(k) <= last) then
-               place = self%elimination%place(self%store%equations(k))
-               diagonal(place) = diagonal(place) + self%store%values(at)
+               position = self%elimination%position(self%store%equations(k))
+               diagonal(position) = diagonal(position) + self%store%values(at)
             end if
             at = at + n                          ! the next column is shorter by one
             n = n - 1
          end do
       end do
-   end subroutine sum_part
+   end subroutine sum_range
 
    !> What the solver will hold of a body, and for a while at the most [bytes], from the tree of its fronts.
    subroutine expect_fronts(elimination, n, n_kept, store, held, most, enough)
@@ -167,7 +168,7 @@ contains
       most = 0
       if (.not. fronts%enough) return
       call expect_factors(fronts, bytes)
-      associate (lists => INDEX_BYTES*(fronts%start(fronts%n_classes + 1) + PART_NUMBERS*fronts%n_parts + n), &
+      associate (lists => INDEX_BYTES*(fronts%start(fronts%n_classes + 1) + SUPERNODE_NUMBERS*fronts%n_supernodes + n), &
                  elements => (LONG_BYTES + INDEX_BYTES)*store%n + INDEX_BYTES*size(store%equations, kind=lp) &
                  + REAL_BYTES*size(store%values, kind=lp))
          held = bytes%held + lists
@@ -175,30 +176,30 @@ contains
       end associate
    end subroutine expect_bytes
 
-   !> The report of the pivots, class by class; the equation named is that of the first part of its class.
+   !> The report of the pivots, class by class; the equation named is that of the first supernode of its class.
    subroutine report_pivots(self, diagonal, status)
       type(sparse_t), intent(inout) :: self
       real(wp), intent(in) :: diagonal(:)
       type(status_t), intent(out) :: status
-      integer(ip) :: c, place
+      integer(ip) :: c, position
       logical :: usable
 
       usable = .true.
-      self%report%n_fronts = self%fronts%n_parts
+      self%report%n_fronts = self%fronts%n_supernodes
       self%report%n_different = self%fronts%n_classes
       do c = 1, self%fronts%n_classes
          associate (factor => self%fronts%factors(c))
             if (allocated(factor%columns)) self%report%entries = self%report%entries + size(factor%columns, kind=lp)
             if (factor%worst == 0 .or. .not. usable) cycle
-            place = self%fronts%first(self%fronts%representative(c)) + factor%worst - 1
-            call note_pivot(self%report, place, self%n, diagonal(place), factor%worst_pivot, usable)
+            position = self%fronts%first(self%fronts%representative(c)) + factor%worst - 1
+            call note_pivot(self%report, position, self%n, diagonal(position), factor%worst_pivot, usable)
             self%report%smallest_pivot = min(self%report%smallest_pivot, factor%smallest_pivot)
             self%report%largest_pivot = max(self%report%largest_pivot, factor%largest_pivot)
             usable = factor%failed == 0
          end associate
       end do
       if (self%report%worst_equation > 0) then
-         self%report%worst_equation = findloc(self%elimination%place, self%report%worst_equation, dim=1)
+         self%report%worst_equation = findloc(self%elimination%position, self%report%worst_equation, dim=1)
       end if
       call set_pivot_status(self%report,.not. usable, status)
    end subroutine report_pivots
@@ -210,7 +211,7 @@ contains
       call unpack_matrix(self%fronts%factors(self%fronts%n_classes)%update, schur)
    end subroutine get_last_front
 
-   !> The half-solved part is left by places.
+   !> The half-solved supernode is left by positions.
    subroutine reduce_by_fronts(self, f)
       class(sparse_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: f(:, :)
@@ -221,7 +222,7 @@ contains
       do load = 1, size(f, 2, kind=ip)
          !$omp parallel do default(none) shared(self, x, f, load) if(is_shared(self%n))
          do i = 1, self%n
-            x(self%elimination%place(i)) = f(i, load)
+            x(self%elimination%position(i)) = f(i, load)
          end do
          !$omp end parallel do
          call forward(self%fronts, x)
@@ -232,15 +233,15 @@ contains
    subroutine expand_by_fronts(self, x)
       class(sparse_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
-      real(wp), allocatable :: by_place(:)
+      real(wp), allocatable :: by_position(:)
       integer(ip) :: load, i
 
       do load = 1, size(x, 2, kind=ip)
-         by_place = x(:, load)
-         call backward(self%fronts, by_place)
-         !$omp parallel do default(none) shared(self, x, by_place, load) if(is_shared(self%n))
+         by_position = x(:, load)
+         call backward(self%fronts, by_position)
+         !$omp parallel do default(none) shared(self, x, by_position, load) if(is_shared(self%n))
          do i = 1, self%n
-            x(i, load) = by_place(self%elimination%place(i))
+            x(i, load) = by_position(self%elimination%position(i))
          end do
          !$omp end parallel do
       end do

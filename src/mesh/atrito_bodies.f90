@@ -212,7 +212,7 @@ contains
       associate (body => bodies%list(i_body))
          call order_elements(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts, &
                              elimination%text)
-         allocate (elimination%place(body%n), elimination%last(parts%n))
+         allocate (elimination%position(body%n), elimination%last(parts%n))
          elimination%parent = parts%parent(:parts%n)
          !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
          do p = 1, parts%n
@@ -224,11 +224,11 @@ contains
          end do
          !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
          do p = 1, parts%n
-            call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%place)
+            call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%position)
          end do
          !$omp end parallel do
          do k = body%n - body%n_kept + 1, body%n
-            elimination%place(k) = k
+            elimination%position(k) = k
          end do
       end associate
    end subroutine order_by_dissection

@@ -22,7 +22,7 @@ module atrito_cut_refinement
 
    !> What is known of elements and nodes. Sets that have no element and no free node in common may be cut at the same time.
    type :: sides_of_cut_t
-      type(corner_lists_t), pointer, private :: lists
+      type(corner_lists_t), pointer, private :: lists => null()
       integer(ip), allocatable :: side(:)        !< (all elements) LOWER_SIDE, UPPER_SIDE
       integer(ip), allocatable, private :: gain(:), next(:), previous(:) !< (all elements)
       logical, allocatable, private :: waits(:), moved(:) !< (all elements)

@@ -40,8 +40,8 @@ module atrito_dissection
    !> What is known of elements and nodes. A set is a range of the list of elements. Parts of a set have no node in common that is
    !> not taken: threads share these lists.
    type :: workspace_t
-      integer(ip), pointer :: nodes(:, :), n_nodes_of(:) !< (most nodes, all elements), (all elements)
-      type(dissection_guide_t), pointer :: guide
+      integer(ip), pointer :: nodes(:, :) => null(), n_nodes_of(:) => null() !< (most nodes, all elements), (all elements)
+      type(dissection_guide_t), pointer :: guide => null()
       integer(ip), allocatable :: element(:)
       real(wp), allocatable :: centre(:, :)      !< (2, elements) [L]
       real(wp), allocatable :: extent(:, :)      !< (2, all elements) [L] of those in the list

@@ -1,6 +1,6 @@
 !> The factors of the classes of fronts.
 !>
-!> Classes are factored in units: all that are new in a subtree of little work, and every other by itself. Units that need nothing
+!> Classes are factored in tasks: all that are new in a subtree of little work, and every other by itself. Tasks that need nothing
 !> of one another make a wave, and are tasks side by side. How the work is cut depends on the tree alone: the numbers are the
 !> same for any number of threads.
 module atrito_front_factors
@@ -45,13 +45,13 @@ module atrito_front_factors
    end type front_bytes_t
 
    !> Classes first..last, which are factored one after the other.
-   type :: unit_t
+   type :: task_t
       integer(ip) :: first = 0, last = 0
       integer(ip) :: wave = 1
-   end type unit_t
+   end type task_t
 
-   !> Where a thread assembles the fronts of its units, one after the other: memory that is asked for anew for each large front
-   !> has to be made by the system every time. A unit is a tied task, so no other one of its thread comes between.
+   !> Where a thread assembles the fronts of its tasks, one after the other: memory that is asked for anew for each large front
+   !> has to be made by the system every time. A task is tied, so no other one of its thread comes between.
    type :: workspace_t
       real(wp), allocatable :: front(:)
    end type workspace_t
@@ -60,8 +60,8 @@ module atrito_front_factors
    !> What the C library adds to each array.
    integer(lp), parameter :: CHUNK_BYTES = 16_lp
 
-   !> The shares of the work of a unit, unless it is a single class, and of a subtree in a solution.
-   real(wp), parameter :: UNIT_SHARE = 1.0_wp/64.0_wp, SOLVE_SHARE = 1.0_wp/48.0_wp
+   !> The shares of the work of a task, unless it is a single class, and of a subtree in a solution.
+   real(wp), parameter :: TASK_SHARE = 1.0_wp/64.0_wp, SOLVE_SHARE = 1.0_wp/48.0_wp
    !> Operations of the factorisation and entries of factors that are worth waking other threads.
    real(wp), parameter :: WORTH_SHARING = 1.0e7_wp, ENTRIES_WORTH_SHARING = 1.0e6_wp
 
@@ -92,7 +92,7 @@ contains
       entries = real(packed_length(fronts%factors%order, fronts%factors%n_pivots), wp) + 50.0_wp
       entries = entries(fronts%class_of)
       call cut_subtrees(fronts%parent, fronts%n_descendants, SOLVE_SHARE, entries, fronts%subtrees)
-      fronts%shares_solves = entries(fronts%n_parts) > ENTRIES_WORTH_SHARING
+      fronts%shares_solves = entries(fronts%n_supernodes) > ENTRIES_WORTH_SHARING
    end subroutine plan_fronts
 
    !> A class may be a child several times.
@@ -110,15 +110,15 @@ contains
    subroutine factor_fronts(fronts, store, diagonal, enough)
       type(fronts_t), intent(inout) :: fronts
       type(element_store_t), intent(in) :: store
-      real(wp), intent(in) :: diagonal(:)        !< (n) of the matrix, by places
+      real(wp), intent(in) :: diagonal(:)        !< (n) of the matrix, by positions
       logical, intent(out) :: enough             !< memory; the factors are of no use without
-      type(unit_t), allocatable :: units(:)
+      type(task_t), allocatable :: tasks(:)
       real(wp) :: work
 
-      call make_units(fronts, units, work)
-      !$omp parallel default(none) shared(fronts, store, diagonal, units) if(work > WORTH_SHARING)
+      call make_tasks(fronts, tasks, work)
+      !$omp parallel default(none) shared(fronts, store, diagonal, tasks) if(work > WORTH_SHARING)
       !$omp single
-      call factor_waves(store, diagonal, units, fronts)
+      call factor_waves(store, diagonal, tasks, fronts)
       !$omp end single
       !$omp end parallel
       enough = all(fronts%factors%enough)
@@ -128,17 +128,17 @@ contains
    subroutine expect_factors(fronts, bytes)
       type(fronts_t), intent(in) :: fronts
       type(front_bytes_t), intent(out) :: bytes
-      type(unit_t), allocatable :: units(:)
+      type(task_t), allocatable :: tasks(:)
       integer(ip) :: waiting(fronts%n_classes), wave, u, c
       real(wp) :: work
 
-      call make_units(fronts, units, work)
+      call make_tasks(fronts, tasks, work)
       waiting = fronts%waiting
       bytes%held = fronts%n_classes*(storage_size(fronts%factors, kind=lp)/8)
-      do wave = 1, maxval(units%wave)
-         do u = 1, size(units, kind=ip)
-            if (units(u)%wave /= wave) cycle
-            do c = units(u)%first, units(u)%last
+      do wave = 1, maxval(tasks%wave)
+         do u = 1, size(tasks, kind=ip)
+            if (tasks(u)%wave /= wave) cycle
+            do c = tasks(u)%first, tasks(u)%last
                call count_class(fronts, c, waiting, bytes)
             end do
          end do
@@ -193,80 +193,80 @@ contains
       flops = n*(n*n/3.0_wp + m*n + m*m)
    end function front_flops
 
-   !> Cuts the classes into units: those that are new in a subtree of little work follow one another.
-   pure subroutine make_units(fronts, units, work)
+   !> Cuts the classes into tasks: those that are new in a subtree of little work follow one another.
+   pure subroutine make_tasks(fronts, tasks, work)
       type(fronts_t), intent(in) :: fronts
-      type(unit_t), allocatable, intent(out) :: units(:)
+      type(task_t), allocatable, intent(out) :: tasks(:)
       real(wp), intent(out) :: work              !< operations
-      real(wp) :: of_part(fronts%n_parts)
+      real(wp) :: of_supernode(fronts%n_supernodes)
       type(subtree_t), allocatable :: subtrees(:)
-      integer(ip) :: subtree_of(fronts%n_parts), c, u, n
+      integer(ip) :: subtree_of(fronts%n_supernodes), c, u, n
       logical :: follows
 
-      of_part = 0.0_wp
-      of_part(fronts%representative(:fronts%n_classes)) = front_flops(fronts%factors%order, fronts%factors%n_pivots)
-      work = sum(of_part)
-      call cut_subtrees(fronts%parent, fronts%n_descendants, UNIT_SHARE, of_part, subtrees)
+      of_supernode = 0.0_wp
+      of_supernode(fronts%representative(:fronts%n_classes)) = front_flops(fronts%factors%order, fronts%factors%n_pivots)
+      work = sum(of_supernode)
+      call cut_subtrees(fronts%parent, fronts%n_descendants, TASK_SHARE, of_supernode, subtrees)
       subtree_of = 0
       do u = 1, size(subtrees, kind=ip)
          subtree_of(subtrees(u)%first:subtrees(u)%last) = u
       end do
-      allocate (units(fronts%n_classes))
+      allocate (tasks(fronts%n_classes))
       n = 0
       u = 0
       do c = 1, fronts%n_classes
          follows = u > 0 .and. subtree_of(fronts%representative(c)) == u
          u = subtree_of(fronts%representative(c))
          if (.not. follows) n = n + 1
-         if (.not. follows) units(n)%first = c
-         units(n)%last = c
+         if (.not. follows) tasks(n)%first = c
+         tasks(n)%last = c
       end do
-      units = units(:n)
-      call find_waves(fronts, units)
-   end subroutine make_units
+      tasks = tasks(:n)
+      call find_waves(fronts, tasks)
+   end subroutine make_tasks
 
-   !> A unit belongs to the wave after the last of those that it needs.
-   pure subroutine find_waves(fronts, units)
+   !> A task belongs to the wave after the last of those that it needs.
+   pure subroutine find_waves(fronts, tasks)
       type(fronts_t), intent(in) :: fronts
-      type(unit_t), intent(inout) :: units(:)
+      type(task_t), intent(inout) :: tasks(:)
       integer(ip), allocatable :: children(:)
       integer(ip) :: wave_of(fronts%n_classes), u, c
 
-      do u = 1, size(units, kind=ip)
-         do c = units(u)%first, units(u)%last
+      do u = 1, size(tasks, kind=ip)
+         do c = tasks(u)%first, tasks(u)%last
             children = children_of(fronts, c)
-            children = pack(children, children < units(u)%first)
-            units(u)%wave = maxval([units(u)%wave, wave_of(children) + 1])
+            children = pack(children, children < tasks(u)%first)
+            tasks(u)%wave = maxval([tasks(u)%wave, wave_of(children) + 1])
          end do
-         wave_of(units(u)%first:units(u)%last) = units(u)%wave
+         wave_of(tasks(u)%first:tasks(u)%last) = tasks(u)%wave
       end do
    end subroutine find_waves
 
-   subroutine factor_waves(store, diagonal, units, fronts)
+   subroutine factor_waves(store, diagonal, tasks, fronts)
       type(element_store_t), intent(in) :: store
       real(wp), intent(in) :: diagonal(:)
-      type(unit_t), intent(in) :: units(:)
+      type(task_t), intent(in) :: tasks(:)
       type(fronts_t), intent(inout) :: fronts
       type(workspace_t), allocatable :: workspaces(:)
       integer(ip) :: wave, u
 
       allocate (workspaces(n_threads()))
-      do wave = 1, maxval(units%wave)
+      do wave = 1, maxval(tasks%wave)
          !$omp taskgroup                        ! whose end helps with the tiles of the fronts, too
-         do u = 1, size(units, kind=ip)
-            if (units(u)%wave /= wave) cycle
-            !$omp task default(none) shared(store, diagonal, units, fronts, workspaces) firstprivate(u)
-            call factor_unit(store, diagonal, units(u), fronts, workspaces(this_thread())%front)
+         do u = 1, size(tasks, kind=ip)
+            if (tasks(u)%wave /= wave) cycle
+            !$omp task default(none) shared(store, diagonal, tasks, fronts, workspaces) firstprivate(u)
+            call factor_task(store, diagonal, tasks(u), fronts, workspaces(this_thread())%front)
             !$omp end task
          end do
          !$omp end taskgroup
       end do
    end subroutine factor_waves
 
-   subroutine factor_unit(store, diagonal, unit, fronts, front)
+   subroutine factor_task(store, diagonal, task, fronts, front)
       type(element_store_t), intent(in) :: store
       real(wp), intent(in) :: diagonal(:)
-      type(unit_t), intent(in) :: unit
+      type(task_t), intent(in) :: task
       type(fronts_t), intent(inout) :: fronts
       real(wp), allocatable, intent(inout) :: front(:)
       integer(ip) :: c
@@ -274,12 +274,12 @@ contains
 
       no_memory = 0                              ! room for the largest; what is not touched takes no memory
       if (.not. allocated(front)) allocate (front(int(maxval(fronts%factors%order), lp)**2), stat=no_memory)
-      if (no_memory /= 0) fronts%factors(unit%first)%enough = .false.
+      if (no_memory /= 0) fronts%factors(task%first)%enough = .false.
       if (no_memory /= 0) return
-      do c = unit%first, unit%last
+      do c = task%first, task%last
          call factor_class(store, diagonal, c, fronts%factors(c)%order, fronts, front)
       end do
-   end subroutine factor_unit
+   end subroutine factor_task
 
    !> Assembles and factors the fronts of a class. What was there of it before is overwritten.
    subroutine factor_class(store, diagonal, c, order, fronts, front)

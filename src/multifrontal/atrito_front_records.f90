@@ -1,10 +1,10 @@
-!> The fronts of the parts of an elimination as records of whole numbers.
+!> The fronts of the supernodes of an elimination as records of whole numbers.
 !>
 !>     pivots, border, children, elements,
-!>     for each child:   its number, entries of its border, the place of each of them in the front
-!>     for each element: its matrix, its equations, the place of each of them in the front (0: prescribed)
+!>     for each child:   its number, entries of its border, the position of each of them in the front
+!>     for each element: its matrix, its equations, the position of each of them in the front (0: prescribed)
 !>
-!> The border of a part are the equations of its ancestors that its subtree couples to, in the order of their places.
+!> The border of a supernode are the equations of its ancestors that its subtree couples to, in the order of their positions.
 module atrito_front_records
    use atrito_element_store, only: element_store_t
    use atrito_elimination, only: elimination_t
@@ -14,36 +14,36 @@ module atrito_front_records
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
-   public :: part_tree_t, record_writer_t, plant_tree, begin_writer, write_part, push_border, top_border, HEADER
+   public :: assembly_tree_t, record_writer_t, plant_tree, begin_writer, write_supernode, push_border, top_border, HEADER
 
    !> Numbers before the children in a record.
    integer(ip), parameter :: HEADER = 4_ip
 
-   !> The parts with their elements. The last one holds the kept equations.
-   type :: part_tree_t
-      integer(ip) :: n = 0, n_parts = 0          !< equations; parts
-      integer(ip), allocatable :: first(:)       !< (n_parts + 1) places of part p: first(p)..first(p + 1) - 1
-      integer(ip), allocatable :: parent(:)      !< (n_parts) 0 for the last
-      integer(ip), allocatable :: n_descendants(:) !< (n_parts) they stand just before the part
-      integer(ip), allocatable :: first_child(:), next_child(:) !< (n_parts) in the order of the parts; 0: none
-      integer(ip), allocatable :: border_size(:) !< (n_parts) of those that are written
-      integer(ip), allocatable :: class_of(:)    !< (n_parts) for the caller
-      integer(ip), allocatable :: first_element(:) !< (n_parts + 1) part p: element(first_element(p):first_element(p + 1) - 1)
+   !> The supernodes with their elements: what is assembled where. The last one holds the kept equations.
+   type :: assembly_tree_t
+      integer(ip) :: n = 0, n_supernodes = 0          !< equations; supernodes
+      integer(ip), allocatable :: first(:)       !< (n_supernodes + 1) positions of supernode p: first(p)..first(p + 1) - 1
+      integer(ip), allocatable :: parent(:)      !< (n_supernodes) 0 for the last
+      integer(ip), allocatable :: n_descendants(:) !< (n_supernodes) they stand just before the supernode
+      integer(ip), allocatable :: first_child(:), next_child(:) !< (n_supernodes) in the order of the supernodes; 0: none
+      integer(ip), allocatable :: border_size(:) !< (n_supernodes) of those that are written
+      integer(ip), allocatable :: class_of(:)    !< (n_supernodes) for the caller
+      integer(ip), allocatable :: first_element(:) !< (n_supernodes + 1) element(first_element(p):first_element(p + 1) - 1)
       integer(ip), allocatable :: element(:)
-      integer(ip), allocatable :: place(:)       !< of the equations of the store; 0: prescribed
+      integer(ip), allocatable :: position(:)       !< of the equations of the store; 0: prescribed
       integer(lp) :: longest = 0                 !< most equations of an element
       logical :: enough = .true.                 !< memory; the tree is of no use without
-   end type part_tree_t
+   end type assembly_tree_t
 
-   !> Writes the records of parts that follow one another: of a subtree, or of what stands above subtrees.
+   !> Writes the records of supernodes that follow one another: of a subtree, or of what stands above subtrees.
    type :: record_writer_t
-      integer(ip), allocatable :: record(:)      !< (written or more) of the part in hand
+      integer(ip), allocatable :: record(:)      !< (written or more) of the supernode in hand
       integer(lp) :: written = 0
-      logical :: enough = .true.                 !< memory, for all parts so far; nothing more is written without
-      integer(ip), allocatable, private :: at(:) !< (n) place in the front of the part in hand; 0: not in it
-      integer(ip), allocatable, private :: border(:), buffer(:) !< (n) of that part; new ones for it
+      logical :: enough = .true.                 !< memory, for all supernodes so far; nothing more is written without
+      integer(ip), allocatable, private :: at(:) !< (n) position in the front of the supernode in hand; 0: not in it
+      integer(ip), allocatable, private :: border(:), buffer(:) !< (n) of that supernode; new ones for it
       integer(ip), private :: n_border = 0, n_new = 0
-      integer(ip), allocatable, private :: stack(:) !< borders of finished parts, the last one on top
+      integer(ip), allocatable, private :: stack(:) !< borders of finished supernodes, the last one on top
       integer(lp), private :: top = 0
    end type record_writer_t
 
@@ -54,13 +54,13 @@ contains
       type(elimination_t), intent(in) :: elimination
       integer(ip), intent(in) :: n, n_kept
       type(element_store_t), intent(in) :: store
-      type(part_tree_t), intent(out) :: tree
+      type(assembly_tree_t), intent(out) :: tree
       integer(ip) :: p, m
       integer :: no_memory
 
       m = size(elimination%last, kind=ip) + 1
       tree%n = n
-      tree%n_parts = m
+      tree%n_supernodes = m
       allocate (tree%first(m + 1), tree%border_size(m), tree%class_of(m), stat=no_memory)
       if (no_memory == 0) allocate (tree%parent(m), tree%n_descendants(m), tree%first_child(m), tree%next_child(m), source=0_ip, &
                                     stat=no_memory)
@@ -80,35 +80,36 @@ contains
       call sort_elements(elimination, store, tree)
    end subroutine plant_tree
 
-   !> An element belongs to the part that eliminates the first of its equations.
+   !> An element belongs to the supernode that eliminates the first of its equations.
    subroutine sort_elements(elimination, store, tree)
       type(elimination_t), intent(in) :: elimination
       type(element_store_t), intent(in) :: store
-      type(part_tree_t), intent(inout) :: tree
-      integer(ip), allocatable :: part_at(:), part_of(:, :)
+      type(assembly_tree_t), intent(inout) :: tree
+      integer(ip), allocatable :: supernode_at(:), supernode_of(:, :)
       integer(ip) :: p, e
       integer(lp) :: k
       integer :: no_memory
 
-      allocate (part_at(0:tree%n), part_of(1, store%n), tree%place(store%start(store%n + 1)), stat=no_memory)
+      allocate (supernode_at(0:tree%n), supernode_of(1, store%n), tree%position(store%start(store%n + 1)), stat=no_memory)
       tree%enough = no_memory == 0
       if (.not. tree%enough) return
-      part_at(0) = huge(p)
-      do p = 1, tree%n_parts
-         part_at(tree%first(p):tree%first(p + 1) - 1) = p
+      supernode_at(0) = huge(p)
+      do p = 1, tree%n_supernodes
+         supernode_at(tree%first(p):tree%first(p + 1) - 1) = p
       end do
-      !$omp parallel do default(none) private(p, k) shared(elimination, store, tree, part_at, part_of) if(is_shared(store%n))
+      !$omp parallel do default(none) private(p, k) shared(elimination, store, tree, supernode_at, supernode_of) &
+      !$omp if(is_shared(store%n))
       do e = 1, store%n
          p = huge(p)
          do k = store%start(e) + 1, store%start(e + 1)
-            tree%place(k) = 0
-            if (store%equations(k) > 0) tree%place(k) = elimination%place(store%equations(k))
-            p = min(p, part_at(tree%place(k)))
+            tree%position(k) = 0
+            if (store%equations(k) > 0) tree%position(k) = elimination%position(store%equations(k))
+            p = min(p, supernode_at(tree%position(k)))
          end do
-         part_of(1, e) = merge(p, 0_ip, p <= tree%n_parts) ! 0: all of its equations are prescribed
+         supernode_of(1, e) = merge(p, 0_ip, p <= tree%n_supernodes) ! 0: all of its equations are prescribed
       end do
       !$omp end parallel do
-      call list_holders(tree%n_parts, part_of, tree%first_element, tree%element)
+      call list_holders(tree%n_supernodes, supernode_of, tree%first_element, tree%element)
       tree%longest = maxval(store%start(2:store%n + 1) - store%start(:store%n))
    end subroutine sort_elements
 
@@ -125,11 +126,11 @@ contains
       if (writer%enough) writer%at = 0
    end subroutine begin_writer
 
-   !> Writes the record of a part; its children are the last ones that were written or pushed. Its border takes the place of theirs
-   !> on the stack.
-   subroutine write_part(store, tree, p, writer)
+   !> Writes the record of a supernode; its children are the last ones that were written or pushed. Its border takes the place of
+   !> theirs on the stack.
+   subroutine write_supernode(store, tree, p, writer)
       type(element_store_t), intent(in) :: store
-      type(part_tree_t), intent(inout) :: tree   !< gets the size of the part's border
+      type(assembly_tree_t), intent(inout) :: tree   !< gets the size of the supernode's border
       integer(ip), intent(in) :: p
       type(record_writer_t), intent(inout) :: writer
       integer(ip) :: child, n_children, n_elements
@@ -157,7 +158,7 @@ contains
       writer%top = base
       call push_border(writer, writer%border(:writer%n_border))
       tree%border_size(p) = writer%n_border
-   end subroutine write_part
+   end subroutine write_supernode
 
    !> The border on top of the stack.
    pure function top_border(writer, n) result(border)
@@ -181,11 +182,11 @@ contains
       writer%top = writer%top + n
    end subroutine push_border
 
-   !> The border of a part: the borders of its children and the equations of its elements, beyond its own, in order. `at` then
-   !> holds the place in the front of each.
+   !> The border of a supernode: the borders of its children and the equations of its elements, beyond its own, in order. `at` then
+   !> holds the position in the front of each.
    pure subroutine collect_border(store, tree, p, base, writer)
       type(element_store_t), intent(in) :: store
-      type(part_tree_t), intent(in) :: tree
+      type(assembly_tree_t), intent(in) :: tree
       integer(ip), intent(in) :: p
       integer(lp), intent(in) :: base            !< of the stack below the children
       type(record_writer_t), intent(inout) :: writer
@@ -203,7 +204,7 @@ contains
       end do
       do i = tree%first_element(p), tree%first_element(p + 1) - 1
          e = tree%element(i)
-         call take_new(tree%place(store%start(e) + 1:store%start(e + 1)), tree%first(p + 1), writer)
+         call take_new(tree%position(store%start(e) + 1:store%start(e + 1)), tree%first(p + 1), writer)
       end do
       call sort_new(writer%buffer(:writer%n_new))
       call merge_new(writer)
@@ -212,18 +213,18 @@ contains
       end do
    end subroutine collect_border
 
-   !> Takes the places from a first one on that are not in the border into the buffer.
-   pure subroutine take_new(places, first, writer)
-      integer(ip), intent(in) :: places(:), first
+   !> Takes the positions from a first one on that are not in the border into the buffer.
+   pure subroutine take_new(positions, first, writer)
+      integer(ip), intent(in) :: positions(:), first
       type(record_writer_t), intent(inout) :: writer
       integer(ip) :: i
 
-      do i = 1, size(places, kind=ip)
-         if (places(i) < first) cycle
-         if (writer%at(places(i)) /= 0) cycle
-         writer%at(places(i)) = 1
+      do i = 1, size(positions, kind=ip)
+         if (positions(i) < first) cycle
+         if (writer%at(positions(i)) /= 0) cycle
+         writer%at(positions(i)) = 1
          writer%n_new = writer%n_new + 1
-         writer%buffer(writer%n_new) = places(i)
+         writer%buffer(writer%n_new) = positions(i)
       end do
    end subroutine take_new
 
@@ -264,7 +265,7 @@ contains
    end subroutine merge_new
 
    pure subroutine write_children(tree, p, base, writer)
-      type(part_tree_t), intent(in) :: tree
+      type(assembly_tree_t), intent(in) :: tree
       integer(ip), intent(in) :: p
       integer(lp), intent(in) :: base
       type(record_writer_t), intent(inout) :: writer
@@ -274,7 +275,7 @@ contains
       from = base
       child = tree%first_child(p)
       do while (child /= 0)
-         call write_places(tree, p, child, writer%stack(from + 1:from + tree%border_size(child)), writer)
+         call write_positions(tree, p, child, writer%stack(from + 1:from + tree%border_size(child)), writer)
          from = from + tree%border_size(child)
          child = tree%next_child(child)
       end do
@@ -282,38 +283,38 @@ contains
 
    pure subroutine write_elements(store, tree, p, writer)
       type(element_store_t), intent(in) :: store
-      type(part_tree_t), intent(in) :: tree
+      type(assembly_tree_t), intent(in) :: tree
       integer(ip), intent(in) :: p
       type(record_writer_t), intent(inout) :: writer
       integer(ip) :: i, e
 
       do i = tree%first_element(p), tree%first_element(p + 1) - 1
          e = tree%element(i)
-         call write_places(tree, p, store%matrix_of(e), tree%place(store%start(e) + 1:store%start(e + 1)), writer)
+         call write_positions(tree, p, store%matrix_of(e), tree%position(store%start(e) + 1:store%start(e + 1)), writer)
       end do
    end subroutine write_elements
 
-   !> Writes a child or a matrix, and where in the front of part p its places are.
-   pure subroutine write_places(tree, p, name, places, writer)
-      type(part_tree_t), intent(in) :: tree
+   !> Writes a child or a matrix, and where in the front of supernode p its positions are.
+   pure subroutine write_positions(tree, p, name, positions, writer)
+      type(assembly_tree_t), intent(in) :: tree
       integer(ip), intent(in) :: p, name
-      integer(ip), intent(in) :: places(:)       !< in the order of elimination; 0: prescribed
+      integer(ip), intent(in) :: positions(:)       !< in the order of elimination; 0: prescribed
       type(record_writer_t), intent(inout) :: writer
       integer(ip) :: i, m
       integer(lp) :: k
 
-      m = size(places, kind=ip)
+      m = size(positions, kind=ip)
       k = writer%written + 2
       writer%record(k - 1) = name
       writer%record(k) = m
       do i = 1, m
-         if (places(i) >= tree%first(p + 1)) then
-            writer%record(k + i) = writer%at(places(i))
+         if (positions(i) >= tree%first(p + 1)) then
+            writer%record(k + i) = writer%at(positions(i))
          else
-            writer%record(k + i) = max(places(i) - tree%first(p) + 1, 0_ip)
+            writer%record(k + i) = max(positions(i) - tree%first(p) + 1, 0_ip)
          end if
       end do
       writer%written = k + m
-   end subroutine write_places
+   end subroutine write_positions
 
 end module atrito_front_records

@@ -1,8 +1,7 @@
-!> Solving with the factors of fronts: down the tree of the parts, and up.
+!> Solving with the factors of fronts: down the tree of the supernodes, and up.
 !>
-!> A subtree of little work is a unit, and units are shared out among the threads; the parts above them follow one after the
-!> other, each shared out by its rows or columns. What a part leaves for its parent waits on a stack, and is added in the order of
-!> the children.
+!> Subtrees of little work are shared out among the threads; the supernodes above them follow one after the other, each shared out
+!> by its rows or columns. What a supernode leaves for its parent waits on a stack, and is added in the order of the children.
 module atrito_front_solves
    use atrito_front, only: packed_length
    use atrito_front_factors, only: fronts_t
@@ -14,14 +13,14 @@ module atrito_front_solves
    private
    public :: forward, backward
 
-   !> The vectors on borders that wait for other parts, the last one on top.
+   !> The vectors on borders that wait for other supernodes, the last one on top.
    type :: stack_t
       real(wp), allocatable :: entries(:)
       integer(lp) :: top = 0
    end type stack_t
 
-   !> Entries of the factor of one part that are worth waking other threads.
-   integer(lp), parameter :: LARGE_PART = 60000_lp
+   !> Entries of the factor of one supernode that are worth waking other threads.
+   integer(lp), parameter :: LARGE_SUPERNODE = 60000_lp
    !> Pivots that are dealt with at a time: what lies beyond them can be shared out.
    integer(ip), parameter :: BLOCK = 64_ip
    !> Rows that a thread takes at a time.
@@ -29,44 +28,44 @@ module atrito_front_solves
 
 contains
 
-   !> x <- L^-1 x for the eliminated places; the kept ones take what it leaves for them.
+   !> x <- L^-1 x for the eliminated positions; the kept ones take what it leaves for them.
    subroutine forward(fronts, x)
       type(fronts_t), intent(in) :: fronts
-      real(wp), intent(inout) :: x(:)            !< (n) by places
+      real(wp), intent(inout) :: x(:)            !< (n) by positions
       type(stack_t) :: stack, stacks(size(fronts%subtrees))
       integer(ip) :: u, next
 
       !$omp parallel do schedule(dynamic, 1) default(none) shared(fronts, x, stacks) if(fronts%shares_solves)
       do u = 1, size(stacks, kind=ip)
-         call forward_parts(fronts, fronts%subtrees(u), .false., x, stacks(u))
+         call forward_subtree(fronts, fronts%subtrees(u), .false., x, stacks(u))
       end do
       !$omp end parallel do
       next = 1
       do u = 1, size(stacks, kind=ip)
-         call forward_parts(fronts, subtree_t(next, fronts%subtrees(u)%first - 1), fronts%shares_solves, x, stack)
+         call forward_subtree(fronts, subtree_t(next, fronts%subtrees(u)%first - 1), fronts%shares_solves, x, stack)
          call push(stack, stacks(u)%entries(:stacks(u)%top))
          next = fronts%subtrees(u)%last + 1
       end do
-      call forward_parts(fronts, subtree_t(next, fronts%n_parts), fronts%shares_solves, x, stack)
+      call forward_subtree(fronts, subtree_t(next, fronts%n_supernodes), fronts%shares_solves, x, stack)
    end subroutine forward
 
-   !> Goes up through some parts.
-   subroutine forward_parts(fronts, parts, by_threads, x, stack)
+   !> Goes up through some supernodes.
+   subroutine forward_subtree(fronts, subtree, by_threads, x, stack)
       type(fronts_t), intent(in) :: fronts
-      type(subtree_t), intent(in) :: parts
+      type(subtree_t), intent(in) :: subtree
       logical, intent(in) :: by_threads          !< whether there are threads to share with
       real(wp), intent(inout) :: x(:)
       type(stack_t), intent(inout) :: stack
       integer(ip) :: p
 
-      do p = parts%first, parts%last
+      do p = subtree%first, subtree%last
          associate (factor => fronts%factors(fronts%class_of(p)))
-            call forward_part(fronts, p, factor%order, factor%n_pivots, by_threads, x, stack)
+            call forward_supernode(fronts, p, factor%order, factor%n_pivots, by_threads, x, stack)
          end associate
       end do
-   end subroutine forward_parts
+   end subroutine forward_subtree
 
-   subroutine forward_part(fronts, p, order, n_pivots, by_threads, x, stack)
+   subroutine forward_supernode(fronts, p, order, n_pivots, by_threads, x, stack)
       type(fronts_t), intent(in) :: fronts
       integer(ip), intent(in) :: p, order, n_pivots
       logical, intent(in) :: by_threads
@@ -98,51 +97,51 @@ contains
          k = k + 2 + fronts%record(k + 2)
       end do
       call eliminate_load(order, n_pivots, fronts%factors(c)%columns, &
-                          by_threads .and. packed_length(order, n_pivots) > LARGE_PART, front)
+                          by_threads .and. packed_length(order, n_pivots) > LARGE_SUPERNODE, front)
       x(fronts%first(p):fronts%first(p) + n - 1) = front(:n)
       call push(stack, front(n + 1:))
-   end subroutine forward_part
+   end subroutine forward_supernode
 
-   !> x_i <- L^-T (x_i - L_ci' x_c) for the eliminated places.
+   !> x_i <- L^-T (x_i - L_ci' x_c) for the eliminated positions.
    subroutine backward(fronts, x)
       type(fronts_t), intent(in) :: fronts
-      real(wp), intent(inout) :: x(:)            !< (n) by places
+      real(wp), intent(inout) :: x(:)            !< (n) by positions
       type(stack_t) :: stack, stacks(size(fronts%subtrees))
       integer(ip) :: u, m, next
 
-      next = fronts%n_parts
+      next = fronts%n_supernodes
       do u = size(stacks, kind=ip), 1, -1
-         call backward_parts(fronts, subtree_t(fronts%subtrees(u)%last + 1, next), fronts%shares_solves, x, stack)
+         call backward_subtree(fronts, subtree_t(fronts%subtrees(u)%last + 1, next), fronts%shares_solves, x, stack)
          m = fronts%record(fronts%start(fronts%class_of(fronts%subtrees(u)%last)) + 2)
          stack%top = stack%top - m
          call push(stacks(u), stack%entries(stack%top + 1:stack%top + m))
          next = fronts%subtrees(u)%first - 1
       end do
-      call backward_parts(fronts, subtree_t(1, next), fronts%shares_solves, x, stack)
+      call backward_subtree(fronts, subtree_t(1, next), fronts%shares_solves, x, stack)
       !$omp parallel do schedule(dynamic, 1) default(none) shared(fronts, x, stacks) if(fronts%shares_solves)
       do u = 1, size(stacks, kind=ip)
-         call backward_parts(fronts, fronts%subtrees(u), .false., x, stacks(u))
+         call backward_subtree(fronts, fronts%subtrees(u), .false., x, stacks(u))
       end do
       !$omp end parallel do
    end subroutine backward
 
-   !> Goes down through some parts.
-   subroutine backward_parts(fronts, parts, by_threads, x, stack)
+   !> Goes down through some supernodes.
+   subroutine backward_subtree(fronts, subtree, by_threads, x, stack)
       type(fronts_t), intent(in) :: fronts
-      type(subtree_t), intent(in) :: parts
+      type(subtree_t), intent(in) :: subtree
       logical, intent(in) :: by_threads          !< whether there are threads to share with
       real(wp), intent(inout) :: x(:)
       type(stack_t), intent(inout) :: stack
       integer(ip) :: p
 
-      do p = parts%last, parts%first, -1
+      do p = subtree%last, subtree%first, -1
          associate (factor => fronts%factors(fronts%class_of(p)))
-            call backward_part(fronts, p, factor%order, factor%n_pivots, by_threads, x, stack)
+            call backward_supernode(fronts, p, factor%order, factor%n_pivots, by_threads, x, stack)
          end associate
       end do
-   end subroutine backward_parts
+   end subroutine backward_subtree
 
-   subroutine backward_part(fronts, p, order, n_pivots, by_threads, x, stack)
+   subroutine backward_supernode(fronts, p, order, n_pivots, by_threads, x, stack)
       type(fronts_t), intent(in) :: fronts
       integer(ip), intent(in) :: p, order, n_pivots
       logical, intent(in) :: by_threads
@@ -159,7 +158,7 @@ contains
       front(n + 1:) = stack%entries(stack%top - m + 1:stack%top)
       stack%top = stack%top - m
       call solve_back(order, n_pivots, fronts%factors(c)%columns, &
-                      by_threads .and. packed_length(order, n_pivots) > LARGE_PART, front)
+                      by_threads .and. packed_length(order, n_pivots) > LARGE_SUPERNODE, front)
       x(fronts%first(p):fronts%first(p) + n - 1) = front(:n)
       k = fronts%start(c) + HEADER
       do i = 1, fronts%record(fronts%start(c) + 3)
@@ -169,7 +168,7 @@ contains
          stack%top = stack%top + m
          k = k + 2 + m
       end do
-   end subroutine backward_part
+   end subroutine backward_supernode
 
    !> Puts a vector on the stack.
    pure subroutine push(stack, entries)

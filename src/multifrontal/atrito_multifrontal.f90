@@ -1,8 +1,8 @@
 !> The sparse solver: what the rest of the program sees of it. docs/developer/multifrontal.md tells how it works.
 !>
-!> - An order of elimination from the elements (order_elements), and the element matrices of a store (add_to_store).
-!> - plan_fronts finds the fronts of both, expect_factors tells what they will take, factor_fronts factors them; forward and backward
-!>   solve, each for one load.
+!> - order_elements finds an order of elimination, and add_to_store collects the matrices of the elements.
+!> - plan_fronts finds the fronts of both, expect_factors what they will take, factor_fronts factors them; forward and backward
+!>   solve, one load at a time.
 !> - The same for a matrix of which some elements change: create_variable_matrix and what goes with it.
 module atrito_multifrontal
    use atrito_dissection, only: dissection_t

@@ -171,13 +171,13 @@ contains
       type(variable_matrix_t), intent(inout) :: matrix
       integer(ip), intent(in) :: c
       type(status_t), intent(out) :: status
-      integer(ip) :: place
+      integer(ip) :: position
 
       matrix%is_due = .true.
       if (.not. matrix%fronts%factors(c)%enough) call tell_of_memory(status)
       if (.not. matrix%fronts%factors(c)%enough) return
-      place = matrix%fronts%first(matrix%fronts%representative(c)) + max(matrix%fronts%factors(c)%failed, 1_ip) - 1
-      matrix%failed = findloc(matrix%elimination%place, place, dim=1, kind=ip)
+      position = matrix%fronts%first(matrix%fronts%representative(c)) + max(matrix%fronts%factors(c)%failed, 1_ip) - 1
+      matrix%failed = findloc(matrix%elimination%position, position, dim=1, kind=ip)
       call set_status(status, STATUS_SINGULAR, 'a pivot is not positive')
    end subroutine report_failure
 
@@ -185,16 +185,16 @@ contains
    subroutine solve_variable_matrix(matrix, x)
       type(variable_matrix_t), intent(in) :: matrix
       real(wp), intent(inout) :: x(:)              !< (n)
-      real(wp) :: by_place(matrix%n)
+      real(wp) :: by_position(matrix%n)
       integer(ip) :: i
 
       do i = 1, matrix%n
-         by_place(matrix%elimination%place(i)) = x(i)
+         by_position(matrix%elimination%position(i)) = x(i)
       end do
-      call forward(matrix%fronts, by_place)
-      call backward(matrix%fronts, by_place)
+      call forward(matrix%fronts, by_position)
+      call backward(matrix%fronts, by_position)
       do i = 1, matrix%n
-         x(i) = by_place(matrix%elimination%place(i))
+         x(i) = by_position(matrix%elimination%position(i))
       end do
    end subroutine solve_variable_matrix
 
@@ -300,7 +300,7 @@ contains
       type(variable_matrix_t), intent(in) :: matrix
 
       associate (fronts => matrix%fronts, store => matrix%store)
-         bytes = INDEX_BYTES*(size(fronts%record, kind=lp) + matrix%n) + PART_BYTES*fronts%n_parts &
+         bytes = INDEX_BYTES*(size(fronts%record, kind=lp) + matrix%n) + PART_BYTES*fronts%n_supernodes &
                  + INDEX_BYTES*size(store%equations, kind=lp) + REAL_BYTES*size(store%values, kind=lp) &
                  + (REAL_BYTES + INDEX_BYTES)*int(store%n, lp) + fronts%n_classes*(storage_size(fronts%factors, kind=lp)/8) &
                  + sum(held_bytes(fronts%factors, CHUNK_BYTES))
