@@ -2,7 +2,7 @@
 !>
 !> Left to itself the library takes every large array from the system and gives it back there: the system clears each page anew when
 !> it is touched, which took a fifth of the processor time of a large run. In one growing heap a page is cleared once: the page
-!> faults of a run are its peak memory, and that is no larger (docs/developer/solvers.md).
+!> faults of a run are its peak memory, and that is no larger (docs/developer/multifrontal.md).
 module atrito_heap
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int, c_size_t
    use atrito_dynamic_library, only: find_routine
