@@ -1,18 +1,15 @@
-!> The sparse solver: Cholesky's method by fronts (multifrontal), with the kept equations as the last front.
+!> The sparse solver (atrito_multifrontal) as a storage, with the kept equations as the last front.
 !>
-!> Equal fronts are factored once (atrito_front_tree). No pivot is chosen: the matrix is positive definite, and the loss of digits
-!> is told by its pivots as in the other storages.
-!>
-!> Reference: I. S. Duff, J. K. Reid, ACM Trans. Math. Software 9 (1983) 302-325.
+!> No pivot is chosen: the matrix is positive definite, and the loss of digits is told by its pivots as in the other storages.
 module atrito_sparse_storage
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, chain_elimination, element_store_t, begin_store, add_to_store, move_store, &
-                                  unpack_matrix, fronts_t, front_bytes_t, plan_fronts, expect_factors, factor_fronts, forward, &
-                                  backward, held_bytes, tell_of_memory
+                                  sum_diagonals, unpack_matrix, fronts_t, front_bytes_t, plan_fronts, expect_factors, &
+                                  factor_fronts, forward, backward, held_bytes, tell_of_memory
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t
    use atrito_storage, only: storage_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status
-   use atrito_threads, only: n_threads, is_shared
+   use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: sparse_t, expect_fronts
@@ -21,9 +18,6 @@ module atrito_sparse_storage
                              LONG_BYTES = storage_size(1_lp)/8
    !> Numbers of a supernode.
    integer(lp), parameter :: SUPERNODE_NUMBERS = 4_lp
-
-   !> Ranges of the equations whose diagonal is summed side by side: for each, all elements are gone through.
-   integer(ip), parameter :: MOST_RANGES = 8_ip
 
    type, extends(storage_t) :: sparse_t
       private
@@ -83,7 +77,7 @@ contains
    subroutine factor_and_report(self, status)
       class(sparse_t), intent(inout) :: self
       type(status_t), intent(out) :: status
-      real(wp), allocatable :: diagonal(:)
+      real(wp), allocatable :: by_equation(:), diagonal(:)
       integer(lp) :: held
       integer :: no_memory
       logical :: enough
@@ -91,9 +85,13 @@ contains
       self%report = factor_report_t()
       call plan_fronts(self%elimination, self%n, self%n_kept, self%store, self%fronts)
       call expect_bytes(self%fronts, self%n, self%store, held, self%report%most_bytes)
-      allocate (diagonal(self%n), stat=no_memory)
+      allocate (by_equation(self%n), diagonal(self%n), stat=no_memory)
       enough = self%fronts%enough .and. no_memory == 0
-      if (enough) call sum_diagonal(self, diagonal)
+      if (enough) then
+         call sum_diagonals(self%store, self%store%n, by_equation)
+         diagonal(self%elimination%position) = by_equation
+         deallocate (by_equation)
+      end if
       if (enough) call factor_fronts(self%fronts, self%store, diagonal, enough)
       self%store = element_store_t()
       if (enough) then
@@ -102,46 +100,6 @@ contains
          call tell_of_memory(status)
       end if
    end subroutine factor_and_report
-
-   !> The diagonal of the matrix by positions; for each range of the equations all elements are gone through.
-   subroutine sum_diagonal(self, diagonal)
-      type(sparse_t), intent(in) :: self
-      real(wp), intent(out) :: diagonal(:)
-      integer(ip) :: range, n_ranges
-
-      n_ranges = 1
-      if (is_shared(self%store%n)) n_ranges = min(n_threads(), MOST_RANGES)
-      !$omp parallel do schedule(static, 1) default(none) shared(self, n_ranges, diagonal)
-      do range = 1, n_ranges
-         call sum_range(self, int((int(self%n, lp)*(range - 1))/n_ranges, ip) + 1, int((int(self%n, lp)*range)/n_ranges, ip), &
-                        diagonal)
-      end do
-      !$omp end parallel do
-   end subroutine sum_diagonal
-
-   pure subroutine sum_range(self, first, last, diagonal)
-      type(sparse_t), intent(in) :: self
-      integer(ip), intent(in) :: first, last     !< equations
-      real(wp), intent(inout) :: diagonal(:)
-      integer(lp) :: k, at
-      integer(ip) :: e, position, n
-
-      do n = first, last
-         diagonal(self%elimination%position(n)) = 0.0_wp
-      end do
-      do e = 1, self%store%n
-         n = int(self%store%start(e + 1) - self%store%start(e), ip)
-         at = self%store%matrix_start(self%store%matrix_of(e)) + 1
-         do k = self%store%start(e) + 1, self%store%start(e + 1)
-            if (self%store%equations(k) >= first .and. self%store%equations(k) <= last) then
-               position = self%elimination%position(self%store%equations(k))
-               diagonal(position) = diagonal(position) + self%store%values(at)
-            end if
-            at = at + n                          ! the next column is shorter by one
-            n = n - 1
-         end do
-      end do
-   end subroutine sum_range
 
    !> What the solver will hold of a body, and for a while at the most [bytes], from the tree of its fronts.
    subroutine expect_fronts(elimination, n, n_kept, store, held, most, enough)

@@ -7,8 +7,8 @@
 module atrito_multifrontal
    use atrito_dissection, only: dissection_t
    use atrito_element_order, only: order_elements
-   use atrito_element_store, only: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, pack_matrix, &
-                                   unpack_matrix
+   use atrito_element_store, only: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, &
+                                   sum_diagonals, pack_matrix, unpack_matrix
    use atrito_elimination, only: elimination_t, chain_elimination
    use atrito_front, only: eliminate
    use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, expect_factors, factor_fronts, held_bytes, &

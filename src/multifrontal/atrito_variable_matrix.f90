@@ -5,7 +5,7 @@
 !>
 !> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted.
 module atrito_variable_matrix
-   use atrito_element_store, only: element_store_t, pack_matrix, move_store
+   use atrito_element_store, only: element_store_t, pack_matrix, move_store, sum_diagonals
    use atrito_elimination, only: elimination_t
    use atrito_front_classes, only: children_of
    use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, factor_class, count_class, held_bytes, tell_of_memory, &
@@ -252,31 +252,13 @@ contains
       end do
    end subroutine add_element_product
 
-   !> The diagonal of the elements that do not change; and what their first, third, ... equation has with the next one: two
-   !> displacements of a node.
+   !> The diagonal of the elements that do not change, and the coupling of sum_diagonals.
    pure subroutine fixed_diagonal(matrix, diagonal, coupling)
       type(variable_matrix_t), intent(in) :: matrix
       real(wp), intent(out) :: diagonal(:)         !< (n)
-      real(wp), intent(out), optional :: coupling(:) !< (n) at the first of the two
-      integer(ip) :: e, i, n
-      integer(lp) :: first, at
+      real(wp), intent(out), optional :: coupling(:) !< (n)
 
-      diagonal = 0.0_wp
-      if (present(coupling)) coupling = 0.0_wp
-      do e = 1, matrix%n_fixed
-         first = matrix%store%start(e)
-         n = int(matrix%store%start(e + 1) - first, ip)
-         at = matrix%store%matrix_start(matrix%store%matrix_of(e)) + 1
-         do i = 1, n
-            associate (k => matrix%store%equations(first + i))
-               if (k > 0) diagonal(k) = diagonal(k) + matrix%store%values(at)
-               if (present(coupling) .and. mod(i, 2_ip) == 1 .and. i < n .and. k > 0) then
-                  coupling(k) = coupling(k) + matrix%store%values(at + 1)
-               end if
-            end associate
-            at = at + n - i + 1
-         end do
-      end do
+      call sum_diagonals(matrix%store, matrix%n_fixed, diagonal, coupling)
    end subroutine fixed_diagonal
 
    !> What the first factorisation will add to the matrix, before it does.
