@@ -3,10 +3,10 @@
 !> The blocks do not depend on the number of threads, and each entry of a result is computed by one of them: results are the same
 !> to the last bit for any number of threads. All of it works at order 0.
 module atrito_dense_blocks
-   use atrito_front, only: eliminate
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, wp
    use atrito_lapack, only: dgemm, dsymv, dtrsm, dtrsv
+   use atrito_multifrontal, only: eliminate
    implicit none (type, external)
    private
    public :: factor_in_blocks, solve_with_triangle, multiply_symmetric, add_inverse_form

@@ -76,7 +76,7 @@ contains
          deallocate (self%instance)
          return
       end if
-      if (allocated(profile%elimination%place)) self%instance%place = profile%elimination%place
+      if (allocated(profile%elimination%position)) self%instance%place = profile%elimination%position
       call begin_matrix(self%instance%matrix, self%n, profile%entries, no_memory)
       if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the sparse matrix')
    end subroutine create_mumps

@@ -4,8 +4,8 @@
 !> not eliminate and onto which it condenses the rest (the Schur complement). Column j of the upper triangle is stored from row
 !> first(j) down to the diagonal; its height is j - first(j) + 1.
 module atrito_profile
-   use atrito_elimination, only: elimination_t
    use atrito_kinds, only: ip, lp, wp
+   use atrito_multifrontal, only: elimination_t
    implicit none (type, external)
    private
    public :: profile_t, begin_profile, add_to_profile, close_profile, expect_profile

@@ -2,9 +2,9 @@
 module atrito_solver_choice
    use atrito_banded, only: banded_t
    use atrito_kinds, only: ip
-   use atrito_multifrontal, only: multifrontal_t
    use atrito_mumps, only: mumps_t
    use atrito_skyline, only: skyline_t
+   use atrito_sparse_storage, only: sparse_t
    use atrito_storage, only: storage_t
    implicit none (type, external)
    private
@@ -41,7 +41,7 @@ contains
       case (STORAGE_BANDED)
          allocate (banded_t :: storage)
       case (STORAGE_SPARSE)
-         allocate (multifrontal_t :: storage)
+         allocate (sparse_t :: storage)
       case (STORAGE_MUMPS)
          allocate (mumps_t :: storage)
       end select

@@ -7,8 +7,8 @@
 !> Use: create, add every element matrix (one by one, or all in a store), factor; then get_schur, and for every load reduce, find
 !> x_c, expand. Without kept equations reduce followed by expand solves K x = f.
 module atrito_storage
-   use atrito_element_store, only: element_store_t, unpack_matrix
-   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_multifrontal, only: element_store_t, unpack_matrix, smallest_ratio
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    use atrito_strings, only: to_text
@@ -109,13 +109,6 @@ module atrito_storage
    real(wp), parameter :: ALL_DIGITS = 16.0_wp
 
 contains
-
-   !> A pivot of at most this share of its original diagonal is round-off alone: n eps, and 15 digits in any case.
-   pure real(wp) function smallest_ratio(n)
-      integer(ip), intent(in) :: n                 !< order of the matrix
-
-      smallest_ratio = max(real(n, wp)*EPS_MACH, 1.0e-15_wp)
-   end function smallest_ratio
 
    !> Adds the matrices of a store, in their order. The storage may empty the store.
    subroutine add_one_by_one(self, store)

@@ -4,9 +4,7 @@ module atrito_bodies
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_dense, only: null_space
-   use atrito_dissection, only: dissection_t
-   use atrito_element_order, only: order_elements
-   use atrito_elimination, only: elimination_t
+   use atrito_multifrontal, only: dissection_t, order_elements, elimination_t
    use atrito_ordering, only: graph_t, build_graph, mesh_components, order_contact_last
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -214,7 +212,7 @@ contains
       associate (body => bodies%list(i_body))
          call order_elements(body%elements, mesh%nodes, mesh%shape, mesh%x, is_eliminated(mesh, bodies, body), parts, &
                              elimination%text)
-         allocate (elimination%place(body%n), elimination%last(parts%n))
+         allocate (elimination%position(body%n), elimination%last(parts%n))
          elimination%parent = parts%parent(:parts%n)
          !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
          do p = 1, parts%n
@@ -226,11 +224,11 @@ contains
          end do
          !$omp parallel do default(none) shared(parts, bodies, elimination) if(is_shared(parts%n))
          do p = 1, parts%n
-            call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%place)
+            call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%position)
          end do
          !$omp end parallel do
          do k = body%n - body%n_kept + 1, body%n
-            elimination%place(k) = k
+            elimination%position(k) = k
          end do
       end associate
    end subroutine order_by_dissection

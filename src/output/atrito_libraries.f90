@@ -3,7 +3,7 @@ module atrito_libraries
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use atrito_blas_info, only: blas_name, is_reference_blas, lapack_version
    use atrito_clp, only: has_clp, clp_version, clp_trouble
-   use atrito_metis, only: has_metis, metis_version, metis_trouble
+   use atrito_multifrontal, only: has_metis, metis_version, metis_trouble
    use atrito_mumps_library, only: has_mumps, mumps_name, mumps_trouble
    use atrito_strings, only: string_t
    implicit none (type, external)

@@ -11,16 +11,14 @@ module atrito_assembled_scene
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, row_value, ROW_ENTRIES
    use atrito_contact_system, only: contact_system_t
-   use atrito_elimination, only: elimination_t
-   use atrito_element_store, only: element_store_t, add_to_store, take_own_matrices
-   use atrito_front_factors, only: front_bytes_t
    use atrito_kinds, only: ip, lp, wp
+   use atrito_multifrontal, only: elimination_t, element_store_t, add_to_store, sum_diagonals, take_own_matrices, front_bytes_t, &
+                                  variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
+                                  solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
+                                  variable_matrix_bytes
    use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
-   use atrito_variable_matrix, only: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
-                                     solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
-                                     variable_matrix_bytes
    implicit none (type, external)
    private
    public :: assembled_scene_t, assemble_scene, set_scene_load, displacements_of
@@ -281,29 +279,11 @@ contains
          end do
       end do
       if (numbering%k == 0) return
-      call diagonal_of(store, diagonal)
+      call sum_diagonals(store, store%n, diagonal)
       do i = 1, numbering%k
          call add_to_store(store, [numbering%spring(i)], reshape([diagonal(numbering%spring(i))], [1, 1]))
       end do
    end subroutine collect_scene
-
-   pure subroutine diagonal_of(store, diagonal)
-      type(element_store_t), intent(in) :: store
-      real(wp), intent(out) :: diagonal(:)
-      integer(ip) :: e, n
-      integer(lp) :: k, at
-
-      diagonal = 0.0_wp
-      do e = 1, store%n
-         at = store%matrix_start(store%matrix_of(e)) + 1
-         n = int(store%start(e + 1) - store%start(e), ip)
-         do k = store%start(e) + 1, store%start(e + 1)
-            if (store%equations(k) > 0) diagonal(store%equations(k)) = diagonal(store%equations(k)) + store%values(at)
-            at = at + n
-            n = n - 1
-         end do
-      end do
-   end subroutine diagonal_of
 
    !> b' K^-1 b over the displacements of a row, with the stiffness of each node by itself: the same however the scene is turned.
    subroutine set_flexibility(fem, rows, line, scene)

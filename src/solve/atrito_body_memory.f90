@@ -2,13 +2,12 @@
 module atrito_body_memory
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_bodies, only: order_by_dissection
-   use atrito_element_store, only: element_store_t
-   use atrito_elimination, only: elimination_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: Q1_NODES
-   use atrito_multifrontal, only: expect_fronts
+   use atrito_multifrontal, only: element_store_t, elimination_t
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: STORAGE_SPARSE
+   use atrito_sparse_storage, only: expect_fronts
    implicit none (type, external)
    private
    public :: estimate_body_memory, count_body_memory

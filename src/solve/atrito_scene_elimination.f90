@@ -4,10 +4,8 @@ module atrito_scene_elimination
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, ROW_ENTRIES
-   use atrito_dissection, only: dissection_t
-   use atrito_element_order, only: order_elements
-   use atrito_elimination, only: elimination_t
    use atrito_kinds, only: ip, wp
+   use atrito_multifrontal, only: dissection_t, order_elements, elimination_t
    implicit none (type, external)
    private
    public :: scene_numbering_t, number_scene, eliminate_scene
@@ -177,7 +175,7 @@ contains
       do p = 1, parts%n
          if (parts%parent(p) > 0) is_leaf(parts%parent(p)) = .false.
       end do
-      allocate (elimination%place(numbering%n), elimination%last(2*parts%n), elimination%parent(2*parts%n))
+      allocate (elimination%position(numbering%n), elimination%last(2*parts%n), elimination%parent(2*parts%n))
       q = 0
       n = 0
       first = 1
@@ -185,12 +183,12 @@ contains
          associate (nodes => parts%order(first:parts%last(p)))
             if (is_leaf(p) .and. any(changes(nodes)) .and. .not. all(changes(nodes))) then
                q = q + 1
-               call place_nodes(fem, numbering, pack(nodes,.not. changes(nodes)), n, elimination%place)
+               call place_nodes(fem, numbering, pack(nodes,.not. changes(nodes)), n, elimination%position)
                elimination%last(q) = n
                elimination%parent(q) = q + 1
-               call place_nodes(fem, numbering, pack(nodes, changes(nodes)), n, elimination%place)
+               call place_nodes(fem, numbering, pack(nodes, changes(nodes)), n, elimination%position)
             else
-               call place_nodes(fem, numbering, nodes, n, elimination%place)
+               call place_nodes(fem, numbering, nodes, n, elimination%position)
             end if
          end associate
          q = q + 1

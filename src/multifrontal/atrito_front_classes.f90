@@ -5,29 +5,29 @@ module atrito_front_classes
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
-   public :: class_list_t, begin_classes, end_classes, find_class, name_classes
+   public :: class_list_t, begin_classes, end_classes, find_class, name_classes, children_of
 
    type :: class_list_t
       integer(ip) :: n_classes = 0               !< numbered so that children come before their parents
       integer(lp), allocatable :: start(:)       !< (n_classes + 1 or more) record of class c: record(start(c) + 1:start(c + 1))
       integer(ip), allocatable :: record(:)      !< with the classes of the children
-      integer(ip), allocatable :: representative(:) !< (n_classes or more) the first part of the class
+      integer(ip), allocatable :: representative(:) !< (n_classes or more) the first supernode of the class
       logical :: enough = .true.                 !< memory; the list is of no use without
       integer(ip), allocatable, private :: table(:) !< (0:) hash table of the classes, a power of two and one; 0: free
    end type class_list_t
 
 contains
 
-   !> An empty list, in which the records of so many parts will be looked up.
-   pure subroutine begin_classes(list, n_parts)
+   !> An empty list, in which the records of so many supernodes will be looked up.
+   pure subroutine begin_classes(list, n_supernodes)
       type(class_list_t), intent(inout) :: list
-      integer(ip), intent(in) :: n_parts
+      integer(ip), intent(in) :: n_supernodes
       integer(ip), parameter :: ROOM = 256_ip
       integer(ip) :: slots
       integer :: no_memory
 
       slots = 2
-      do while (slots/2 < n_parts)
+      do while (slots/2 < n_supernodes)
          slots = 2*slots
       end do
       allocate (list%start(ROOM), list%representative(ROOM), list%record(ROOM), list%table(0:slots), stat=no_memory)
@@ -44,7 +44,7 @@ contains
       if (allocated(list%table)) deallocate (list%table)
    end subroutine end_classes
 
-   !> Looks the record of a part up, with the classes of its children; it becomes a class when it is new.
+   !> Looks the record of a supernode up, with the classes of its children; it becomes a class when it is new.
    pure subroutine find_class(list, record, p, alone, found)
       type(class_list_t), intent(inout) :: list
       integer(ip), intent(in) :: record(:)
@@ -108,6 +108,22 @@ contains
          k = k + 2 + record(k + 2)
       end do
    end subroutine name_classes
+
+   !> The classes of the children of a class.
+   pure function children_of(list, c) result(children)
+      class(class_list_t), intent(in) :: list
+      integer(ip), intent(in) :: c
+      integer(ip), allocatable :: children(:)
+      integer(lp) :: k
+      integer(ip) :: i
+
+      allocate (children(list%record(list%start(c) + 3)))
+      k = list%start(c) + HEADER
+      do i = 1, size(children, kind=ip)
+         children(i) = list%record(k + 1)
+         k = k + 2 + list%record(k + 2)
+      end do
+   end function children_of
 
    !> A number 0..range - 1 that differs between most records.
    pure integer(ip) function hash(record, range)

@@ -6,16 +6,15 @@
 !> depending on the numbering. Sets of the same shape are cut alike, so that regular meshes have few different fronts. A guide
 !> gives cuts that were found otherwise, and has them refined.
 !>
-!> The largest sets are cut level by level, the sets of a level by several threads; then each of the others goes to one thread.
+!> The parts of a large set are cut by threads of their own.
 module atrito_dissection
    use atrito_cut_refinement, only: corner_lists_t, sides_of_cut_t, begin_sides, leave_out, refine_cut, &
                                     LOWER_SIDE, UPPER_SIDE
-   use atrito_growth, only: grow
    use atrito_kinds, only: ip, lp, wp
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
-   public :: dissect, dissection_t, dissection_guide_t
+   public :: dissect, dissection_t, dissection_guide_t, sample_place
 
    !> The order of the nodes, and its parts in postorder: each separator after the two parts that it divides.
    type :: dissection_t
@@ -38,38 +37,26 @@ module atrito_dissection
       type(corner_lists_t) :: lists              !< where it does
    end type dissection_guide_t
 
-   !> Elements with their centres, a set a run of them.
-   type :: pieces_t
+   !> What is known of elements and nodes. A set is a range of the list of elements. Parts of a set have no node in common that is
+   !> not taken: threads share these lists.
+   type :: workspace_t
+      integer(ip), pointer :: nodes(:, :) => null(), n_nodes_of(:) => null() !< (most nodes, all elements), (all elements)
+      type(dissection_guide_t), pointer :: guide => null()
       integer(ip), allocatable :: element(:)
       real(wp), allocatable :: centre(:, :)      !< (2, elements) [L]
       real(wp), allocatable :: extent(:, :)      !< (2, all elements) [L] of those in the list
-   end type pieces_t
-
-   !> What is known of the nodes, and their order. Parts of a set have no node in common that is not taken: they share these lists.
-   type :: marks_t
       logical, allocatable :: taken(:)           !< in the order already, or not wanted there
       integer(lp), allocatable :: upper_of(:)    !< last cut that had the node in its upper part
       integer(ip), allocatable :: order(:)       !< each set has its own places there
       type(sides_of_cut_t) :: sides              !< where cuts are refined
-   end type marks_t
+   end type workspace_t
 
    !> Sets of so few nodes, counted with each element, are not cut any more.
    integer(ip), parameter :: LEAF = 64_ip
-   !> A set that is cut by itself, and not within the recursion: number k, its parts 2 k and 2 k + 1.
-   type :: set_t
-      integer(ip) :: first = 1, last = 0         !< elements
-      integer(ip) :: n_before = 0, n_free = 0    !< nodes that stand before its own in the order, and its own
-      logical :: divided = .false.               !< into two sets
-      integer(ip), allocatable :: separator(:)   !< between them
-      type(dissection_t) :: parts                !< where it is not
-      integer(ip) :: root = 0                    !< the last one
-   end type set_t
-
-   !> Sets of more elements are cut by themselves, level by level, so often: threads share them out.
+   !> Sets of more elements are shared out to threads.
    integer(ip), parameter :: LARGE = 4096_ip
-   integer, parameter :: LEVELS = 6
    !> Elements whose median and mean stand for those of all.
-   integer, parameter :: MOST_SAMPLES = 63
+   integer(ip), parameter :: MOST_SAMPLES = 63_ip
    !> Elements closer to the cut than this share of the extent lie on it: round-off of a regular mesh.
    real(wp), parameter :: ON_CUT = 1.0e-6_wp
    !> A cut in the middle is good when each part has this share of the elements.
@@ -84,117 +71,40 @@ contains
    !> Orders the wanted nodes of some elements.
    subroutine dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
       integer(ip), intent(in) :: elements(:)     !< which
-      integer(ip), intent(in) :: nodes(:, :)     !< (most nodes, all elements)
-      integer(ip), intent(in) :: n_nodes_of(:)   !< (all elements) nodes of each; the first four or all are its corners
+      integer(ip), intent(in), target :: nodes(:, :) !< (most nodes, all elements)
+      integer(ip), intent(in), target :: n_nodes_of(:) !< (all elements) nodes of each; the first four or all are its corners
       real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
       logical, intent(in) :: wanted(:)           !< (all nodes); those that are belong to the elements
-      type(dissection_guide_t), intent(in) :: guide
+      type(dissection_guide_t), intent(in), target :: guide
       type(dissection_t), intent(out) :: parts
-      type(pieces_t) :: pieces
-      type(marks_t) :: marks
-      type(set_t) :: sets(2**(LEVELS + 1) - 1)
-      integer(ip) :: i, root
+      type(workspace_t) :: work
+      integer(ip) :: i, n, root
 
-      allocate (pieces%centre(2, size(elements)), pieces%extent(2, size(n_nodes_of)))
-      pieces%element = elements
-      !$omp parallel do default(none) shared(elements, x, nodes, n_nodes_of, guide, pieces) &
-      !$omp if(is_shared(size(elements, kind=ip)))
-      do i = 1, size(elements, kind=ip)
-         call measure(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)), guide, pieces%centre(:, i), &
-                      pieces%extent(:, elements(i)))
+      n = size(elements, kind=ip)
+      work%nodes => nodes
+      work%n_nodes_of => n_nodes_of
+      work%guide => guide
+      work%element = elements
+      allocate (work%centre(2, n), work%extent(2, size(n_nodes_of)))
+      !$omp parallel do default(none) shared(elements, x, nodes, n_nodes_of, guide, work, n) if(is_shared(n))
+      do i = 1, n
+         call measure(x, nodes(:min(4_ip, n_nodes_of(elements(i))), elements(i)), guide, work%centre(:, i), &
+                      work%extent(:, elements(i)))
       end do
       !$omp end parallel do
-      marks%taken = .not. wanted
-      if (guide%refines) call begin_sides(guide%lists, wanted, marks%sides)
-      allocate (marks%upper_of(size(wanted)), source=0_lp)
-      sets(1)%last = size(elements, kind=ip)
-      sets(1)%n_free = count(wanted, kind=ip)
-      allocate (marks%order(sets(1)%n_free))
-      call divide_sets(nodes, n_nodes_of, guide, pieces, marks, sets)
-      !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, guide, pieces, marks, sets) &
-      !$omp if(size(elements) > LARGE)
-      do i = 1, size(sets, kind=ip)
-         associate (set => sets(i))
-            if (set%divided .or. set%first > set%last) cycle
-            call begin_parts(set%parts, set%n_before)
-            call cut(nodes, n_nodes_of, guide, pieces%element(set%first:set%last), pieces%centre(:, set%first:set%last), &
-                     pieces%extent, int(i, lp), marks, set%parts, set%root)
-         end associate
-      end do
-      !$omp end parallel do
-      call begin_parts(parts, 0_ip)
-      call join(sets, 1_ip, marks%order, parts, root)
-      call move_alloc(marks%order, parts%order)
-      call move_alloc(pieces%element, parts%element)
+      work%taken = .not. wanted
+      if (guide%refines) call begin_sides(guide%lists, wanted, work%sides)
+      allocate (work%upper_of(size(wanted)), source=0_lp)
+      allocate (work%order(count(wanted)))
+      call begin_parts(0_ip, size(work%order, kind=ip), parts)
+      !$omp parallel default(none) shared(n, work, parts, root) if(n > LARGE)
+      !$omp single
+      call cut(1_ip, n, 1_lp, size(work%order, kind=ip), work, parts, root)
+      !$omp end single
+      !$omp end parallel
+      call move_alloc(work%order, parts%order)
+      call move_alloc(work%element, parts%element)
    end subroutine dissect
-
-   !> Cuts the large sets, level by level. Sets have no element in common, nor a node that is not taken.
-   subroutine divide_sets(nodes, n_nodes_of, guide, pieces, marks, sets)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
-      type(dissection_guide_t), intent(in) :: guide
-      type(pieces_t), intent(inout) :: pieces
-      type(marks_t), intent(inout) :: marks
-      type(set_t), intent(inout) :: sets(:)      !< the first is given
-      integer(ip) :: k
-      integer :: level
-
-      do level = 0, LEVELS - 1
-         !$omp parallel do schedule(dynamic, 1) default(none) shared(nodes, n_nodes_of, guide, pieces, marks, sets, level) &
-         !$omp if(level > 0 .and. sets(1)%last > LARGE)
-         do k = 2**level, 2**(level + 1) - 1
-            if (sets(k)%last - sets(k)%first < LARGE) cycle
-            call divide(nodes, n_nodes_of, guide, pieces%element(sets(k)%first:sets(k)%last), &
-                        pieces%centre(:, sets(k)%first:sets(k)%last), pieces%extent, int(k, lp), marks, sets(k), sets(2*k), &
-                        sets(2*k + 1))
-         end do
-         !$omp end parallel do
-      end do
-   end subroutine divide_sets
-
-   subroutine divide(nodes, n_nodes_of, guide, element, centre, extent, number, marks, set, lower, upper)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
-      type(dissection_guide_t), intent(in) :: guide
-      integer(ip), intent(inout), contiguous :: element(:)
-      real(wp), intent(inout), contiguous :: centre(:, :)
-      real(wp), intent(in), contiguous :: extent(:, :)
-      integer(lp), intent(in) :: number          !< of the cut: 2 number and 2 number + 1 are those of its parts
-      type(marks_t), intent(inout) :: marks
-      type(set_t), intent(inout) :: set, lower, upper
-      integer(ip) :: n_lower
-
-      call split(guide, number, element, centre, extent, marks, n_lower)
-      if (n_lower == 0) return
-      call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, set%separator, upper%n_free)
-      if (guide%refines) call leave_out(set%separator, marks%sides)
-      set%divided = .true.
-      lower%first = set%first
-      lower%last = set%first + n_lower - 1
-      lower%n_before = set%n_before
-      lower%n_free = set%n_free - upper%n_free - size(set%separator, kind=ip)
-      upper%first = lower%last + 1
-      upper%last = set%last
-      upper%n_before = set%n_before + lower%n_free
-   end subroutine divide
-
-   !> Appends the parts of a set to others: those of its lower part, those of its upper part, the separator.
-   recursive pure subroutine join(sets, k, order, parts, root)
-      type(set_t), intent(in) :: sets(:)
-      integer(ip), intent(in) :: k
-      integer(ip), intent(inout) :: order(:)
-      type(dissection_t), intent(inout) :: parts
-      integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
-      integer(ip) :: children(2), before
-
-      if (sets(k)%divided) then
-         before = parts%n_nodes
-         call join(sets, 2*k, order, parts, children(1))
-         call join(sets, 2*k + 1, order, parts, children(2))
-         call add_part(before, sets(k)%separator, children, order, parts, root)
-      else
-         root = sets(k)%root
-         if (root > 0) call append(parts, sets(k)%parts, root)
-      end if
-   end subroutine join
 
    pure subroutine measure(x, corners, guide, centre, extent)
       real(wp), intent(in) :: x(:, :)
@@ -219,77 +129,85 @@ contains
    end subroutine measure
 
    !> No parts so far, behind some nodes of others.
-   pure subroutine begin_parts(parts, n_nodes)
-      type(dissection_t), intent(inout) :: parts
+   pure subroutine begin_parts(n_nodes, n_free, parts)
       integer(ip), intent(in) :: n_nodes
-      integer(ip), parameter :: ROOM = 64_ip
+      integer(ip), intent(in) :: n_free          !< nodes to come
+      type(dissection_t), intent(inout) :: parts
 
       parts%n_nodes = n_nodes
-      allocate (parts%last(ROOM), parts%parent(ROOM))
+      allocate (parts%last(2*n_free), parts%parent(2*n_free)) ! most parts; what is not touched takes no memory
    end subroutine begin_parts
 
    !> Appends the nodes of a set to the parts. The depth of the recursion is that of the tree, about log2 of the elements.
-   recursive subroutine cut(nodes, n_nodes_of, guide, element, centre, extent, number, marks, parts, root)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
-      type(dissection_guide_t), intent(in) :: guide
-      integer(ip), intent(inout), contiguous :: element(:)
-      real(wp), intent(inout), contiguous :: centre(:, :)
-      real(wp), intent(in), contiguous :: extent(:, :)
+   recursive subroutine cut(first, last, number, n_free, work, parts, root)
+      integer(ip), intent(in) :: first, last     !< elements of the set
       integer(lp), intent(in) :: number          !< of the cut: 2 number and 2 number + 1 are those of its parts
-      type(marks_t), intent(inout) :: marks
+      integer(ip), intent(in) :: n_free          !< nodes of the set that are not taken
+      type(workspace_t), intent(inout) :: work
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root           !< the last part made; 0: the set has no nodes
-      integer(ip) :: n_lower, n_upper, children(2), before
+      integer(ip) :: middle, n_lower, n_upper, children(2), before
       integer(ip), allocatable :: separator(:)
+      type(dissection_t) :: upper
 
       before = parts%n_nodes
-      n_lower = 0
-      if (is_large(n_nodes_of, element) .and. number < LAST_CUT) call split(guide, number, element, centre, extent, marks, n_lower)
-      if (n_lower == 0) then
-         call take_rest(nodes, n_nodes_of, element, marks%taken, marks%order, parts, root)
+      middle = last
+      if (is_large(work, first, last) .and. number < LAST_CUT) call split(first, last, number, work, middle)
+      if (middle < first .or. middle == last) then
+         call take_rest(first, last, work, parts, root)
          return
       end if
-      call take_separator(nodes, n_nodes_of, element, n_lower, number, marks%taken, marks%upper_of, separator, n_upper)
-      if (guide%refines) call leave_out(separator, marks%sides)
-      call cut(nodes, n_nodes_of, guide, element(:n_lower), centre(:, :n_lower), extent, 2*number, marks, parts, children(1))
-      call cut(nodes, n_nodes_of, guide, element(n_lower + 1:), centre(:, n_lower + 1:), extent, 2*number + 1, marks, parts, &
-               children(2))
-      call add_part(before, separator, children, marks%order, parts, root)
+      call take_separator(first, middle, last, number, work, separator, n_upper)
+      n_lower = n_free - n_upper - size(separator, kind=ip)
+      if (last - first < LARGE) then
+         call cut(first, middle, 2*number, n_lower, work, parts, children(1))
+         call cut(middle + 1, last, 2*number + 1, n_upper, work, parts, children(2))
+      else
+         call begin_parts(before + n_lower, n_upper, upper)
+         !$omp task default(none) shared(work, upper, children) firstprivate(middle, last, number, n_upper)
+         call cut(middle + 1, last, 2*number + 1, n_upper, work, upper, children(2))
+         !$omp end task
+         call cut(first, middle, 2*number, n_lower, work, parts, children(1))
+         !$omp taskwait
+         call append(upper, parts, children(2))
+      end if
+      call add_part(before, separator, children, work%order, parts, root)
    end subroutine cut
 
-   pure logical function is_large(n_nodes_of, element)
-      integer(ip), intent(in) :: n_nodes_of(:), element(:)
+   pure logical function is_large(work, first, last)
+      type(workspace_t), intent(in) :: work
+      integer(ip), intent(in) :: first, last
 
-      is_large = size(element) > LEAF
-      if (.not. is_large) is_large = sum(n_nodes_of(element)) > LEAF
+      is_large = last - first >= LEAF
+      if (.not. is_large) is_large = sum(work%n_nodes_of(work%element(first:last))) > LEAF
    end function is_large
 
-   !> Puts the elements below the cut first; their order stays. n_lower = 0: there is no cut.
-   subroutine split(guide, number, element, centre, extent, marks, n_lower)
-      type(dissection_guide_t), intent(in) :: guide
+   !> Puts the elements below the cut first; their order stays.
+   subroutine split(first, last, number, work, middle)
+      integer(ip), intent(in) :: first, last
       integer(lp), intent(in) :: number          !< of the cut
-      integer(ip), intent(inout), contiguous :: element(:)
-      real(wp), intent(inout), contiguous :: centre(:, :)
-      real(wp), intent(in), contiguous :: extent(:, :)
-      type(marks_t), intent(inout) :: marks
-      integer(ip), intent(out) :: n_lower
-      logical :: is_upper(size(element))
+      type(workspace_t), intent(inout) :: work
+      integer(ip), intent(out) :: middle         !< the last one below; first - 1 or last: there is no cut
+      logical :: is_upper(last - first + 1)
       real(wp) :: place
       integer :: along, bit
 
-      bit = guide%n_halvings - 1 - depth_of(number)
-      if (bit >= 0) is_upper = btest(guide%half(element), bit)
-      if (bit >= 0 .and. any(is_upper) .and. .not. all(is_upper)) then
-      else
-         call choose_cut(element, centre, extent, along, place)
-         is_upper = centre(along, :) > place
-      end if
-      if (guide%refines .and. size(element) > WORTH_REFINING) then
-         marks%sides%side(element) = merge(UPPER_SIDE, LOWER_SIDE, is_upper)
-         call refine_cut(guide%lists, element, marks%sides)
-         is_upper = marks%sides%side(element) == UPPER_SIDE
-      end if
-      call sort_by_side(is_upper, element, centre, n_lower)
+      bit = work%guide%n_halvings - 1 - depth_of(number)
+      associate (element => work%element(first:last), centre => work%centre(:, first:last))
+         is_upper = .false.
+         if (bit >= 0) is_upper = btest(work%guide%half(element), bit)
+         if (all(is_upper) .or. .not. any(is_upper)) then
+            call choose_cut(element, centre, work%extent, along, place)
+            is_upper = centre(along, :) > place
+         end if
+         if (work%guide%refines .and. size(element) > WORTH_REFINING) then
+            work%sides%side(element) = merge(UPPER_SIDE, LOWER_SIDE, is_upper)
+            call refine_cut(element, work%sides)
+            is_upper = work%sides%side(element) == UPPER_SIDE
+         end if
+         call sort_by_side(is_upper, element, centre, middle)
+      end associate
+      middle = first + middle - 1
    end subroutine split
 
    !> Cuts that led to the set of a cut.
@@ -322,7 +240,6 @@ contains
       end do
       element(n_lower + 1:) = upper(:n_upper)
       centre(:, n_lower + 1:) = upper_centre(:, :n_upper)
-      if (n_upper == 0) n_lower = 0
    end subroutine sort_by_side
 
    !> Where to cut: across the longer side, in the middle, or where that leaves too few on one side, at the median of a sample.
@@ -355,11 +272,11 @@ contains
    end subroutine choose_cut
 
    !> The element that is taken for the i-th of n at equal distances in a list.
-   pure integer function sample_place(i, n, length)
-      integer, intent(in) :: i, n
-      integer, intent(in) :: length              !< of the list
+   pure integer(ip) function sample_place(i, n, length)
+      integer(ip), intent(in) :: i, n
+      integer(ip), intent(in) :: length          !< of the list
 
-      sample_place = 1 + int((real(i, wp) - 0.5_wp)*real(length, wp)/real(n, wp))
+      sample_place = 1_ip + int((real(i, wp) - 0.5_wp)*real(length, wp)/real(n, wp), ip)
    end function sample_place
 
    !> Mean extents of some elements of a list.
@@ -367,12 +284,12 @@ contains
       integer(ip), intent(in), contiguous :: element(:)
       real(wp), intent(in), contiguous :: extent(:, :)
       real(wp) :: mean(2)
-      integer :: i, n
+      integer(ip) :: i, n
 
-      n = min(MOST_SAMPLES, size(element))
+      n = min(MOST_SAMPLES, size(element, kind=ip))
       mean = 0.0_wp
       do i = 1, n
-         mean = mean + extent(:, element(sample_place(i, n, size(element))))/real(n, wp)
+         mean = mean + extent(:, element(sample_place(i, n, size(element, kind=ip))))/real(n, wp)
       end do
    end function sample_mean
 
@@ -381,11 +298,11 @@ contains
       real(wp), intent(in), contiguous :: centre(:, :)
       integer, intent(in) :: along
       real(wp) :: sorted(MOST_SAMPLES), next
-      integer :: i, j, n
+      integer(ip) :: i, j, n
 
-      n = min(MOST_SAMPLES, size(centre, 2))
+      n = min(MOST_SAMPLES, size(centre, 2, kind=ip))
       do i = 1, n
-         next = centre(along, sample_place(i, n, size(centre, 2)))
+         next = centre(along, sample_place(i, n, size(centre, 2, kind=ip)))
          do j = i - 1, 1, -1
             if (sorted(j) <= next) exit
             sorted(j + 1) = sorted(j)
@@ -396,64 +313,59 @@ contains
    end function sample_median
 
    !> Takes the free nodes that elements of both parts have.
-   pure subroutine take_separator(nodes, n_nodes_of, element, n_lower, number, taken, upper_of, separator, n_upper)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:), n_lower
+   subroutine take_separator(first, middle, last, number, work, separator, n_upper)
+      integer(ip), intent(in) :: first, middle, last
       integer(lp), intent(in) :: number
-      logical, intent(inout) :: taken(:)
-      integer(lp), intent(inout) :: upper_of(:)
+      type(workspace_t), intent(inout) :: work
       integer(ip), allocatable, intent(out) :: separator(:)
       integer(ip), intent(out) :: n_upper        !< free nodes that are left to the upper part
       integer(ip) :: i, k, n, node
 
       n_upper = 0
-      do i = n_lower + 1, size(element, kind=ip)
-         do k = 1, n_nodes_of(element(i))
-            node = nodes(k, element(i))
-            if (taken(node) .or. upper_of(node) == number) cycle
-            upper_of(node) = number
+      do i = middle + 1, last
+         do k = 1, work%n_nodes_of(work%element(i))
+            node = work%nodes(k, work%element(i))
+            if (work%taken(node) .or. work%upper_of(node) == number) cycle
+            work%upper_of(node) = number
             n_upper = n_upper + 1
          end do
       end do
-      allocate (separator(64))
+      allocate (separator(n_upper))
       n = 0
-      do i = 1, n_lower
-         do k = 1, n_nodes_of(element(i))
-            node = nodes(k, element(i))
-            if (taken(node)) cycle
-            if (upper_of(node) /= number) cycle
-            taken(node) = .true.
-            if (n == size(separator)) call grow(separator, 2*int(n, lp))
+      do i = first, middle
+         do k = 1, work%n_nodes_of(work%element(i))
+            node = work%nodes(k, work%element(i))
+            if (work%taken(node) .or. work%upper_of(node) /= number) cycle
+            work%taken(node) = .true.
             n = n + 1
             separator(n) = node
          end do
       end do
       separator = separator(:n)
       n_upper = n_upper - n
+      if (work%guide%refines) call leave_out(separator, work%sides)
    end subroutine take_separator
 
    !> Makes a part of the free nodes of a set that is not cut.
-   pure subroutine take_rest(nodes, n_nodes_of, element, taken, order, parts, root)
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:), element(:)
-      logical, intent(inout) :: taken(:)
-      integer(ip), intent(inout) :: order(:)
+   pure subroutine take_rest(first, last, work, parts, root)
+      integer(ip), intent(in) :: first, last
+      type(workspace_t), intent(inout) :: work
       type(dissection_t), intent(inout) :: parts
       integer(ip), intent(out) :: root
       integer(ip) :: i, k, node, before
 
       before = parts%n_nodes
-      do i = 1, size(element, kind=ip)
-         do k = 1, n_nodes_of(element(i))
-            node = nodes(k, element(i))
-            if (taken(node)) cycle
-            taken(node) = .true.
+      do i = first, last
+         do k = 1, work%n_nodes_of(work%element(i))
+            node = work%nodes(k, work%element(i))
+            if (work%taken(node)) cycle
+            work%taken(node) = .true.
             parts%n_nodes = parts%n_nodes + 1
-            order(parts%n_nodes) = node
+            work%order(parts%n_nodes) = node
          end do
       end do
       root = 0
-      if (parts%n_nodes == before) return
-      call close_part(parts)
-      root = parts%n
+      if (parts%n_nodes > before) call close_part(parts, root)
    end subroutine take_rest
 
    !> Adds a separator, the parent of two parts where they are.
@@ -471,8 +383,7 @@ contains
       order(parts%n_nodes + 1:parts%n_nodes + n) = separator
       parts%n_nodes = parts%n_nodes + n
       call add_work(n, parts%n_nodes - before, parts)
-      call close_part(parts)
-      root = parts%n
+      call close_part(parts, root)
       do i = 1, 2
          if (children(i) > 0) parts%parent(children(i)) = root
       end do
@@ -490,38 +401,31 @@ contains
    end subroutine add_work
 
    !> Ends a part at the last node; it has no parent yet.
-   pure subroutine close_part(parts)
+   pure subroutine close_part(parts, root)
       type(dissection_t), intent(inout) :: parts
+      integer(ip), intent(out) :: root           !< its number
 
-      call make_room(parts, 1_ip)
       parts%n = parts%n + 1
       parts%last(parts%n) = parts%n_nodes
       parts%parent(parts%n) = 0
+      root = parts%n
    end subroutine close_part
 
    !> Puts parts behind others; their nodes stand behind those of the others already.
-   pure subroutine append(parts, more, root)
-      type(dissection_t), intent(inout) :: parts
+   pure subroutine append(more, parts, root)
       type(dissection_t), intent(in) :: more
+      type(dissection_t), intent(inout) :: parts
       integer(ip), intent(inout) :: root         !< a part of those that are added, or 0
 
-      call make_room(parts, more%n)
-      parts%last(parts%n + 1:parts%n + more%n) = more%last(:more%n)
-      parts%parent(parts%n + 1:parts%n + more%n) = merge(more%parent(:more%n) + parts%n, 0_ip, more%parent(:more%n) > 0)
-      if (root > 0) root = root + parts%n
+      associate (n => parts%n, m => more%n)
+         parts%last(n + 1:n + m) = more%last(:m)
+         parts%parent(n + 1:n + m) = merge(more%parent(:m) + n, 0_ip, more%parent(:m) > 0)
+         if (root > 0) root = root + n
+         n = n + m
+      end associate
       parts%n_nodes = more%n_nodes
-      parts%n = parts%n + more%n
       parts%work = parts%work + more%work
       parts%regular_work = parts%regular_work + more%regular_work
    end subroutine append
-
-   pure subroutine make_room(parts, n)
-      type(dissection_t), intent(inout) :: parts
-      integer(ip), intent(in) :: n
-
-      if (parts%n + n <= size(parts%last)) return
-      call grow(parts%last, 2*int(parts%n + n, lp))
-      call grow(parts%parent, 2*int(parts%n + n, lp))
-   end subroutine make_room
 
 end module atrito_dissection

@@ -22,15 +22,18 @@ module atrito_cut_refinement
 
    !> What is known of elements and nodes. Sets that have no element and no free node in common may be cut at the same time.
    type :: sides_of_cut_t
+      type(corner_lists_t), pointer, private :: lists => null()
       integer(ip), allocatable :: side(:)        !< (all elements) LOWER_SIDE, UPPER_SIDE
       integer(ip), allocatable, private :: gain(:), next(:), previous(:) !< (all elements)
       logical, allocatable, private :: waits(:), moved(:) !< (all elements)
       integer(ip), allocatable, private :: count(:) !< (nodes) elements of the lower side, MANY times those of the upper
    end type sides_of_cut_t
 
-   !> Elements that wait for their move, by what it saves and by their side: the first of each list.
+   !> A set that is refined: elements that wait for their move, by what it saves and by their side, the first of each list.
    type :: queue_t
       integer(ip) :: head(-CORNERS:CORNERS, 2) = 0
+      integer(ip) :: weight(2) = 0               !< elements of the sides
+      integer(ip) :: least = 0                   !< that each keeps
    end type queue_t
 
    !> More than the elements round a node.
@@ -65,11 +68,12 @@ contains
    end subroutine list_corners
 
    subroutine begin_sides(lists, wanted, sides)
-      type(corner_lists_t), intent(in) :: lists
+      type(corner_lists_t), intent(in), target :: lists !< stays where it is
       logical, intent(in) :: wanted(:)           !< (nodes) the others do not count
       type(sides_of_cut_t), intent(out) :: sides
       integer :: n
 
+      sides%lists => lists
       n = size(lists%corner, 2)
       allocate (sides%side(n), sides%gain(n), sides%next(n), sides%previous(n))
       allocate (sides%waits(n), sides%moved(n), source=.false.)
@@ -85,32 +89,31 @@ contains
    end subroutine leave_out
 
    !> Moves elements of a set to the other side of its cut.
-   subroutine refine_cut(lists, element, sides)
-      type(corner_lists_t), intent(in) :: lists
+   subroutine refine_cut(element, sides)
       integer(ip), intent(in) :: element(:)      !< of the set, with their sides
       type(sides_of_cut_t), intent(inout) :: sides
-      integer(ip) :: weight(2), least, saved
+      type(queue_t) :: queue
+      integer(ip) :: saved
       integer :: pass
 
-      weight(LOWER_SIDE) = count(sides%side(element) == LOWER_SIDE, kind=ip)
-      weight(UPPER_SIDE) = size(element, kind=ip) - weight(LOWER_SIDE)
-      least = min(minval(weight), int(LEAST_SHARE*real(size(element)), ip))
-      call count_sides(lists, element, sides)
+      queue%weight(LOWER_SIDE) = count(sides%side(element) == LOWER_SIDE, kind=ip)
+      queue%weight(UPPER_SIDE) = size(element, kind=ip) - queue%weight(LOWER_SIDE)
+      queue%least = min(minval(queue%weight), int(LEAST_SHARE*real(size(element)), ip))
+      call count_sides(element, sides)
       do pass = 1, MOST_PASSES
-         call move_elements(lists, element, least, sides, weight, saved)
+         call move_elements(element, sides, queue, saved)
          if (saved == 0) exit
       end do
    end subroutine refine_cut
 
-   subroutine count_sides(lists, element, sides)
-      type(corner_lists_t), intent(in) :: lists
+   subroutine count_sides(element, sides)
       integer(ip), intent(in) :: element(:)
       type(sides_of_cut_t), intent(inout) :: sides
       integer(ip) :: i, k, v, one
 
       do i = 1, size(element, kind=ip)
          do k = 1, CORNERS
-            v = lists%corner(k, element(i))
+            v = sides%lists%corner(k, element(i))
             if (v == 0) exit
             if (sides%count(v) > 0) sides%count(v) = 0
          end do
@@ -118,36 +121,33 @@ contains
       do i = 1, size(element, kind=ip)
          one = ONE_OF(sides%side(element(i)))
          do k = 1, CORNERS
-            v = lists%corner(k, element(i))
+            v = sides%lists%corner(k, element(i))
             if (v == 0) exit
             if (sides%count(v) >= 0) sides%count(v) = sides%count(v) + one
          end do
       end do
    end subroutine count_sides
 
-   subroutine move_elements(lists, element, least, sides, weight, saved)
-      type(corner_lists_t), intent(in) :: lists
+   subroutine move_elements(element, sides, queue, saved)
       integer(ip), intent(in) :: element(:)
-      integer(ip), intent(in) :: least
       type(sides_of_cut_t), intent(inout) :: sides
-      integer(ip), intent(inout) :: weight(2)
+      type(queue_t), intent(inout) :: queue      !< empty before and after
       integer(ip), intent(out) :: saved
-      type(queue_t) :: queue
       integer(ip) :: moves(size(element)), n_moves, n_best, now, i, e
 
       do i = 1, size(element, kind=ip)
          e = element(i)
-         if (is_at_cut(lists, sides, e)) call put(lists, e, sides, queue)
+         if (is_at_cut(sides, e)) call put(e, sides, queue)
       end do
       n_moves = 0
       n_best = 0
       now = 0
       saved = 0
       do while (n_moves - n_best < PATIENCE .and. n_moves < size(element))
-         call take_best(queue, weight, least, e)
+         call take_best(queue, e)
          if (e == 0) exit
          now = now + sides%gain(e)
-         call move(lists, e, sides, weight, queue)
+         call move(e, sides, queue)
          n_moves = n_moves + 1
          moves(n_moves) = e
          if (now > saved) then
@@ -157,20 +157,19 @@ contains
       end do
       call clear(sides, queue)
       do i = n_moves, n_best + 1, -1
-         call turn(lists, moves(i), sides, weight)
+         call turn(moves(i), sides, queue%weight)
       end do
       sides%moved(moves(:n_moves)) = .false.
    end subroutine move_elements
 
-   pure logical function is_at_cut(lists, sides, e)
-      type(corner_lists_t), intent(in) :: lists
+   pure logical function is_at_cut(sides, e)
       type(sides_of_cut_t), intent(in) :: sides
       integer(ip), intent(in) :: e
       integer(ip) :: k, v
 
       is_at_cut = .false.
       do k = 1, CORNERS
-         v = lists%corner(k, e)
+         v = sides%lists%corner(k, e)
          if (v == 0) return
          is_at_cut = sides%count(v) > MANY .and. iand(sides%count(v), MANY - 1_ip) > 0
          if (is_at_cut) return
@@ -178,15 +177,14 @@ contains
    end function is_at_cut
 
    !> Nodes that the move of an element to the other side would save.
-   pure integer(ip) function gain_of(lists, sides, e) result(gain)
-      type(corner_lists_t), intent(in) :: lists
+   pure integer(ip) function gain_of(sides, e) result(gain)
       type(sides_of_cut_t), intent(in) :: sides
       integer(ip), intent(in) :: e
       integer(ip) :: k, v, own, other
 
       gain = 0
       do k = 1, CORNERS
-         v = lists%corner(k, e)
+         v = sides%lists%corner(k, e)
          if (v == 0) return
          if (sides%count(v) < 0) cycle
          own = count_of(sides%side(e), sides%count(v))
@@ -196,43 +194,40 @@ contains
       end do
    end function gain_of
 
-   subroutine take_best(queue, weight, least, e)
+   subroutine take_best(queue, e)
       type(queue_t), intent(in) :: queue
-      integer(ip), intent(in) :: weight(2), least
       integer(ip), intent(out) :: e
       integer(ip) :: gain, heavier
 
-      heavier = merge(LOWER_SIDE, UPPER_SIDE, weight(LOWER_SIDE) >= weight(UPPER_SIDE))
+      heavier = merge(LOWER_SIDE, UPPER_SIDE, queue%weight(LOWER_SIDE) >= queue%weight(UPPER_SIDE))
       do gain = CORNERS, -CORNERS, -1
          e = 0
-         if (weight(heavier) > least) e = queue%head(gain, heavier)
-         if (e == 0 .and. weight(3 - heavier) > least) e = queue%head(gain, 3 - heavier)
+         if (queue%weight(heavier) > queue%least) e = queue%head(gain, heavier)
+         if (e == 0 .and. queue%weight(3 - heavier) > queue%least) e = queue%head(gain, 3 - heavier)
          if (e /= 0) return
       end do
    end subroutine take_best
 
-   subroutine move(lists, e, sides, weight, queue)
-      type(corner_lists_t), intent(in) :: lists
+   subroutine move(e, sides, queue)
       integer(ip), intent(in) :: e
       type(sides_of_cut_t), intent(inout) :: sides
-      integer(ip), intent(inout) :: weight(2)
       type(queue_t), intent(inout) :: queue
       integer(ip) :: k, v, h, other, to
 
       call take_out(e, sides, queue)
-      call turn(lists, e, sides, weight)
+      call turn(e, sides, queue%weight)
       sides%moved(e) = .true.
       to = sides%side(e)
       do k = 1, CORNERS
-         v = lists%corner(k, e)
+         v = sides%lists%corner(k, e)
          if (v == 0) return
          if (sides%count(v) < 0) cycle
          if (count_of(to, sides%count(v)) > 2 .and. count_of(3 - to, sides%count(v)) > 1) cycle
-         do h = lists%first(v), lists%first(v + 1) - 1
-            other = lists%element(h)
+         do h = sides%lists%first(v), sides%lists%first(v + 1) - 1
+            other = sides%lists%element(h)
             if (sides%moved(other)) cycle
             if (sides%waits(other)) call take_out(other, sides, queue)
-            if (is_at_cut(lists, sides, other)) call put(lists, other, sides, queue)
+            if (is_at_cut(sides, other)) call put(other, sides, queue)
          end do
       end do
    end subroutine move
@@ -244,8 +239,7 @@ contains
       if (side == UPPER_SIDE) count_of = packed/MANY
    end function count_of
 
-   pure subroutine turn(lists, e, sides, weight)
-      type(corner_lists_t), intent(in) :: lists
+   pure subroutine turn(e, sides, weight)
       integer(ip), intent(in) :: e
       type(sides_of_cut_t), intent(inout) :: sides
       integer(ip), intent(inout) :: weight(2)
@@ -256,19 +250,18 @@ contains
       weight(from) = weight(from) - 1
       weight(3 - from) = weight(3 - from) + 1
       do k = 1, CORNERS
-         v = lists%corner(k, e)
+         v = sides%lists%corner(k, e)
          if (v == 0) return
          if (sides%count(v) >= 0) sides%count(v) = sides%count(v) - ONE_OF(from) + ONE_OF(3 - from)
       end do
    end subroutine turn
 
-   pure subroutine put(lists, e, sides, queue)
-      type(corner_lists_t), intent(in) :: lists
+   pure subroutine put(e, sides, queue)
       integer(ip), intent(in) :: e
       type(sides_of_cut_t), intent(inout) :: sides
       type(queue_t), intent(inout) :: queue
 
-      sides%gain(e) = gain_of(lists, sides, e)
+      sides%gain(e) = gain_of(sides, e)
       associate (head => queue%head(sides%gain(e), sides%side(e)))
          sides%next(e) = head
          sides%previous(e) = 0
@@ -294,7 +287,7 @@ contains
 
    pure subroutine clear(sides, queue)
       type(sides_of_cut_t), intent(inout) :: sides
-      type(queue_t), intent(in) :: queue
+      type(queue_t), intent(inout) :: queue
       integer(ip) :: gain, side, e
 
       do side = LOWER_SIDE, UPPER_SIDE
@@ -306,6 +299,7 @@ contains
             end do
          end do
       end do
+      queue%head = 0
    end subroutine clear
 
 end module atrito_cut_refinement

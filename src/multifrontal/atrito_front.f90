@@ -7,7 +7,7 @@ module atrito_front
    use atrito_lapack, only: dgemm, dpotrf, dsyrk, dtrsm
    implicit none (type, external)
    private
-   public :: clear_front, eliminate, add_element, add_update, pack_columns, unpack_update, packed_length
+   public :: clear_front, eliminate, add_element, add_update, pack_columns, packed_length
 
    !> Pivots eliminated at a time, and rows or columns of a tile.
    integer(ip), parameter :: PANEL = 128_ip, TILE = 192_ip
@@ -17,17 +17,17 @@ module atrito_front
 contains
 
    !> Entries of the first columns of a lower triangle.
-   pure integer(lp) function packed_length(order, columns)
+   pure elemental integer(lp) function packed_length(order, columns)
       integer(ip), intent(in) :: order, columns  !< columns <= order
 
       packed_length = int(columns, lp)*int(order, lp) - int(columns, lp)*int(columns - 1, lp)/2
    end function packed_length
 
    !> Adds an element matrix, a packed lower triangle.
-   pure subroutine add_element(order, front, m, places, matrix)
+   pure subroutine add_element(order, front, m, positions, matrix)
       integer(ip), intent(in) :: order, m
       real(wp), intent(inout) :: front(order, order)
-      integer(ip), intent(in) :: places(m)       !< in the front; 0: prescribed
+      integer(ip), intent(in) :: positions(m)       !< in the front; 0: prescribed
       real(wp), intent(in) :: matrix(*)
       integer(ip) :: a, b, i, j, k
 
@@ -35,8 +35,8 @@ contains
       do b = 1, m
          do a = b, m
             k = k + 1
-            i = max(places(a), places(b))
-            j = min(places(a), places(b))
+            i = max(positions(a), positions(b))
+            j = min(positions(a), positions(b))
             if (j > 0) front(i, j) = front(i, j) + matrix(k)
          end do
       end do
@@ -59,36 +59,36 @@ contains
    end subroutine clear_front
 
    !> Adds what the elimination of a child left, a packed lower triangle.
-   subroutine add_update(order, front, m, places, update)
+   subroutine add_update(order, front, m, positions, update)
       integer(ip), intent(in) :: order, m
       real(wp), intent(inout) :: front(order, order)
-      integer(ip), intent(in) :: places(m)       !< in the front, ascending
+      integer(ip), intent(in) :: positions(m)       !< in the front, ascending
       real(wp), intent(in) :: update(*)
       integer(ip) :: first
 
       do first = 1, m, STRIP
-         !$omp task default(none) shared(front, places, update) firstprivate(first, order, m) if(m > LARGE)
-         call add_strip(order, front, m, places, update, first, min(first + STRIP - 1, m))
+         !$omp task default(none) shared(front, positions, update) firstprivate(first, order, m) if(m > LARGE)
+         call add_strip(order, front, m, positions, update, first, min(first + STRIP - 1, m))
          !$omp end task
       end do
       !$omp taskwait
    end subroutine add_update
 
    !> Adds some columns of an update. Each has a column of the front to itself.
-   pure subroutine add_strip(order, front, m, places, update, first, last)
+   pure subroutine add_strip(order, front, m, positions, update, first, last)
       integer(ip), intent(in) :: order, m, first, last
       real(wp), intent(inout) :: front(order, order)
-      integer(ip), intent(in) :: places(m)
+      integer(ip), intent(in) :: positions(m)
       real(wp), intent(in) :: update(*)
       integer(ip) :: a, b, j
       integer(lp) :: k
 
       k = packed_length(m, first - 1)
       do b = first, last
-         j = places(b)
+         j = positions(b)
          do a = b, m
             k = k + 1
-            front(places(a), j) = front(places(a), j) + update(k)
+            front(positions(a), j) = front(positions(a), j) + update(k)
          end do
       end do
    end subroutine add_strip
@@ -181,21 +181,5 @@ contains
          k = k + order - j + 1
       end do
    end subroutine pack_strip
-
-   !> A full symmetric matrix from its packed lower triangle.
-   pure subroutine unpack_update(order, packed, matrix)
-      integer(ip), intent(in) :: order
-      real(wp), intent(in) :: packed(*)
-      real(wp), intent(out) :: matrix(:, :)
-      integer(ip) :: j
-      integer(lp) :: k
-
-      k = 0
-      do j = 1, order
-         matrix(j:, j) = packed(k + 1:k + order - j + 1)
-         matrix(j, j:) = matrix(j:, j)
-         k = k + order - j + 1
-      end do
-   end subroutine unpack_update
 
 end module atrito_front

@@ -6,7 +6,7 @@
 !> irregular and large, elements at the cuts change sides (atrito_cut_refinement).
 module atrito_element_order
    use atrito_cut_refinement, only: list_corners
-   use atrito_dissection, only: dissect, dissection_t, dissection_guide_t
+   use atrito_dissection, only: dissect, dissection_t, dissection_guide_t, sample_place
    use atrito_element_clusters, only: cluster_t, join_elements, link_clusters
    use atrito_kinds, only: ip, wp
    use atrito_metis, only: halve_graph
@@ -174,7 +174,7 @@ contains
       n = min(MOST_SAMPLES, size(elements, kind=ip))
       total = 0.0_wp
       do i = 1, n
-         associate (corner => nodes(:2, elements(sample(i, n, size(elements, kind=ip)))))
+         associate (corner => nodes(:2, elements(sample_place(i, n, size(elements, kind=ip)))))
             side = cmplx(x(1, corner(2)) - x(1, corner(1)), x(2, corner(2)) - x(2, corner(1)), wp)
             if (abs(side) > 0.0_wp) total = total + (side/abs(side))**4
          end associate
@@ -195,7 +195,7 @@ contains
       n = min(MOST_SAMPLES, size(elements, kind=ip) - 1_ip)
       n_different = 0
       do i = 1, n
-         associate (at => sample(i, n, size(elements, kind=ip) - 1_ip))
+         associate (at => sample_place(i, n, size(elements, kind=ip) - 1_ip))
             a = extent(elements(at))
             b = extent(elements(at + 1))
          end associate
@@ -213,12 +213,5 @@ contains
       end function extent
 
    end function are_irregular
-
-   !> The i-th of n places at equal distances in a list.
-   pure integer(ip) function sample(i, n, length)
-      integer(ip), intent(in) :: i, n, length
-
-      sample = 1_ip + int((real(i, wp) - 0.5_wp)*real(length, wp)/real(n, wp), ip)
-   end function sample
 
 end module atrito_element_order

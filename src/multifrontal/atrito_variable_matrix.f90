@@ -5,14 +5,15 @@
 !>
 !> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted.
 module atrito_variable_matrix
-   use atrito_element_store, only: element_store_t, pack_matrix, move_store
+   use atrito_element_store, only: element_store_t, pack_matrix, move_store, sum_diagonals
    use atrito_elimination, only: elimination_t
-   use atrito_front_factors, only: factor_t, front_bytes_t, begin_factors, factor_class, add_class, CHUNK_BYTES
-   use atrito_front_solves, only: solve_plan_t, plan_solves, forward, backward
-   use atrito_front_tree, only: front_tree_t, build_front_tree, HEADER
+   use atrito_front_classes, only: children_of
+   use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, factor_class, count_class, held_bytes, tell_of_memory, &
+                                   REAL_BYTES, CHUNK_BYTES
+   use atrito_front_records, only: HEADER
+   use atrito_front_solves, only: forward, backward
    use atrito_kinds, only: ip, lp, wp
-   use atrito_status, only: status_t, set_status, STATUS_INTERNAL, STATUS_SINGULAR
-   use atrito_threads, only: is_shared
+   use atrito_status, only: status_t, set_status, STATUS_SINGULAR
    implicit none (type, external)
    private
    public :: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, solve_variable_matrix, &
@@ -25,18 +26,16 @@ module atrito_variable_matrix
       integer(ip) :: failed = 0                    !< equation whose pivot was not positive
       type(elimination_t), private :: elimination
       type(element_store_t), private :: store
-      type(front_tree_t), private :: tree
-      type(factor_t), allocatable, private :: factors(:) !< (tree%n_classes)
-      type(solve_plan_t), private :: plan
+      type(fronts_t), private :: fronts
       integer(ip), private :: first_matrix = 0     !< that of variable element v is first_matrix + v
       integer(ip), allocatable, private :: class_of(:) !< (variable elements) front that it is assembled in; 0: none
-      logical, allocatable, private :: is_due(:)   !< (tree%n_classes)
+      logical, allocatable, private :: is_due(:)   !< (classes)
       real(wp), allocatable, private :: front(:)   !< where fronts are assembled
    end type variable_matrix_t
 
    !> More parents than there are: what a front leaves is kept.
    integer(ip), parameter :: FOR_EVER = 1000000000_ip
-   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8, PART_BYTES = 5*INDEX_BYTES
+   integer(lp), parameter :: INDEX_BYTES = storage_size(1_ip)/8, PART_BYTES = 5*INDEX_BYTES
 
 contains
 
@@ -49,7 +48,6 @@ contains
       integer(lp), intent(in) :: start(:)          !< (n_variable + 1)
       integer(ip), intent(in) :: equations(:)      !< of variable element v: start(v) + 1..start(v + 1); 0: prescribed
       type(status_t), intent(out) :: status
-      logical :: enough
 
       matrix%n = n
       matrix%n_fixed = fixed%n
@@ -57,17 +55,12 @@ contains
       matrix%first_matrix = fixed%n_matrices
       call move_store(fixed, matrix%store)
       call append_variable(start, equations, matrix%store)
-      call build_front_tree(elimination, n, 0_ip, matrix%store, matrix%tree)
-      enough = matrix%tree%enough
-      if (enough) call begin_factors(matrix%tree, matrix%factors, enough)
-      if (enough) call plan_solves(matrix%tree, matrix%plan)
-      if (.not. enough) then
-         call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
-         return
-      end if
-      matrix%n_fronts = matrix%tree%n_classes - 1
+      call plan_fronts(elimination, n, 0_ip, matrix%store, matrix%fronts)
+      if (.not. matrix%fronts%enough) call tell_of_memory(status)
+      if (.not. matrix%fronts%enough) return
+      matrix%n_fronts = matrix%fronts%n_classes - 1
       allocate (matrix%class_of(size(start) - 1), source=0_ip)
-      allocate (matrix%is_due(matrix%tree%n_classes), source=.true.)
+      allocate (matrix%is_due(matrix%fronts%n_classes), source=.true.)
       call find_variable_fronts(matrix)
    end subroutine create_variable_matrix
 
@@ -105,44 +98,32 @@ contains
    !> Where each variable element is assembled. What the children of such fronts, and of those above them, leave is kept.
    subroutine find_variable_fronts(matrix)
       type(variable_matrix_t), intent(inout) :: matrix
-      logical :: varies(matrix%tree%n_classes)
-      integer(ip) :: c, i
+      logical :: varies(matrix%fronts%n_classes)
+      integer(ip), allocatable :: children(:)
+      integer(ip) :: c, i, m
       integer(lp) :: k
 
-      varies = .false.
-      associate (record => matrix%tree%record)
-         do c = 1, matrix%n_fronts
-            k = matrix%tree%start(c) + HEADER
-            do i = 1, record(matrix%tree%start(c) + 3)
-               varies(c) = varies(c) .or. varies(record(k + 1))
+      do c = 1, matrix%n_fronts
+         children = children_of(matrix%fronts, c)
+         varies(c) = any(varies(children))
+         associate (record => matrix%fronts%record(matrix%fronts%start(c) + 1:matrix%fronts%start(c + 1)))
+            k = HEADER
+            do i = 1, record(3)
                k = k + 2 + record(k + 2)
             end do
-            do i = 1, record(matrix%tree%start(c) + 4)
-               if (record(k + 1) > matrix%first_matrix) then
-                  varies(c) = .true.
-                  matrix%class_of(record(k + 1) - matrix%first_matrix) = c
-               end if
+            do i = 1, record(4)
+               m = record(k + 1) - matrix%first_matrix
+               if (m > 0) varies(c) = .true.
+               if (m > 0) matrix%class_of(m) = c
                k = k + 2 + record(k + 2)
             end do
-            if (varies(c)) call keep_children(matrix, c)
+         end associate
+         if (.not. varies(c)) cycle
+         do i = 1, size(children, kind=ip)
+            matrix%fronts%waiting(children(i)) = FOR_EVER
          end do
-      end associate
+      end do
    end subroutine find_variable_fronts
-
-   subroutine keep_children(matrix, c)
-      type(variable_matrix_t), intent(inout) :: matrix
-      integer(ip), intent(in) :: c
-      integer(ip) :: i
-      integer(lp) :: k
-
-      associate (record => matrix%tree%record)
-         k = matrix%tree%start(c) + HEADER
-         do i = 1, record(matrix%tree%start(c) + 3)
-            matrix%factors(record(k + 1))%waiting = FOR_EVER
-            k = k + 2 + record(k + 2)
-         end do
-      end associate
-   end subroutine keep_children
 
    !> The next factorisation takes this matrix for a variable element.
    subroutine set_variable_element(matrix, v, values)
@@ -169,52 +150,34 @@ contains
       matrix%n_refactored = 0
       matrix%failed = 0
       allocate (no_diagonal(matrix%n), source=0.0_wp)
-      if (.not. allocated(matrix%front)) allocate (matrix%front(int(maxval(matrix%factors%order), lp)**2), stat=no_memory)
-      if (.not. allocated(matrix%front)) then
-         call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
-         return
-      end if
-      do c = 1, matrix%n_fronts
-         if (.not. matrix%is_due(c)) matrix%is_due(c) = child_was_factored(matrix, c)
-         if (.not. matrix%is_due(c)) cycle
-         matrix%n_refactored = matrix%n_refactored + 1
-         call factor_class(matrix%tree, matrix%store, no_diagonal, c, matrix%factors(c)%order, matrix%factors, matrix%front)
-         if (matrix%factors(c)%done) cycle
-         call report_failure(matrix, c, status)
-         return
-      end do
-      matrix%is_due = .false.
-   end subroutine factor_variable_matrix
-
-   pure logical function child_was_factored(matrix, c) result(was)
-      type(variable_matrix_t), intent(in) :: matrix
-      integer(ip), intent(in) :: c
-      integer(ip) :: i
-      integer(lp) :: k
-
-      was = .false.
-      associate (record => matrix%tree%record)
-         k = matrix%tree%start(c) + HEADER
-         do i = 1, record(matrix%tree%start(c) + 3)
-            was = was .or. matrix%is_due(record(k + 1))
-            k = k + 2 + record(k + 2)
+      associate (fronts => matrix%fronts)
+         if (.not. allocated(matrix%front)) allocate (matrix%front(int(maxval(fronts%factors%order), lp)**2), stat=no_memory)
+         if (.not. allocated(matrix%front)) call tell_of_memory(status)
+         if (.not. allocated(matrix%front)) return
+         do c = 1, matrix%n_fronts
+            matrix%is_due(c) = matrix%is_due(c) .or. any(matrix%is_due(children_of(fronts, c)))
+            if (.not. matrix%is_due(c)) cycle
+            matrix%n_refactored = matrix%n_refactored + 1
+            call factor_class(matrix%store, no_diagonal, c, fronts%factors(c)%order, fronts, matrix%front)
+            if (fronts%factors(c)%done) cycle
+            call report_failure(matrix, c, status)
+            return
          end do
       end associate
-   end function child_was_factored
+      matrix%is_due = .false.
+   end subroutine factor_variable_matrix
 
    subroutine report_failure(matrix, c, status)
       type(variable_matrix_t), intent(inout) :: matrix
       integer(ip), intent(in) :: c
       type(status_t), intent(out) :: status
-      integer(ip) :: place
+      integer(ip) :: position
 
       matrix%is_due = .true.
-      if (.not. matrix%factors(c)%enough) then
-         call set_status(status, STATUS_INTERNAL, 'not enough memory for the fronts')
-         return
-      end if
-      place = matrix%tree%first(matrix%tree%representative(c)) + max(matrix%factors(c)%failed, 1_ip) - 1
-      matrix%failed = findloc(matrix%elimination%place, place, dim=1, kind=ip)
+      if (.not. matrix%fronts%factors(c)%enough) call tell_of_memory(status)
+      if (.not. matrix%fronts%factors(c)%enough) return
+      position = matrix%fronts%first(matrix%fronts%representative(c)) + max(matrix%fronts%factors(c)%failed, 1_ip) - 1
+      matrix%failed = findloc(matrix%elimination%position, position, dim=1, kind=ip)
       call set_status(status, STATUS_SINGULAR, 'a pivot is not positive')
    end subroutine report_failure
 
@@ -222,16 +185,16 @@ contains
    subroutine solve_variable_matrix(matrix, x)
       type(variable_matrix_t), intent(in) :: matrix
       real(wp), intent(inout) :: x(:)              !< (n)
-      real(wp) :: by_place(matrix%n)
+      real(wp) :: by_position(matrix%n)
       integer(ip) :: i
 
       do i = 1, matrix%n
-         by_place(matrix%elimination%place(i)) = x(i)
+         by_position(matrix%elimination%position(i)) = x(i)
       end do
-      call forward(matrix%tree, matrix%factors, matrix%plan, by_place)
-      call backward(matrix%tree, matrix%factors, matrix%plan, by_place)
+      call forward(matrix%fronts, by_position)
+      call backward(matrix%fronts, by_position)
       do i = 1, matrix%n
-         x(i) = by_place(matrix%elimination%place(i))
+         x(i) = by_position(matrix%elimination%position(i))
       end do
    end subroutine solve_variable_matrix
 
@@ -289,45 +252,26 @@ contains
       end do
    end subroutine add_element_product
 
-   !> The diagonal of the elements that do not change; and what their first, third, ... equation has with the next one: two
-   !> displacements of a node.
+   !> The diagonal of the elements that do not change, and the coupling of sum_diagonals.
    pure subroutine fixed_diagonal(matrix, diagonal, coupling)
       type(variable_matrix_t), intent(in) :: matrix
       real(wp), intent(out) :: diagonal(:)         !< (n)
-      real(wp), intent(out), optional :: coupling(:) !< (n) at the first of the two
-      integer(ip) :: e, i, n
-      integer(lp) :: first, at
+      real(wp), intent(out), optional :: coupling(:) !< (n)
 
-      diagonal = 0.0_wp
-      if (present(coupling)) coupling = 0.0_wp
-      do e = 1, matrix%n_fixed
-         first = matrix%store%start(e)
-         n = int(matrix%store%start(e + 1) - first, ip)
-         at = matrix%store%matrix_start(matrix%store%matrix_of(e)) + 1
-         do i = 1, n
-            associate (k => matrix%store%equations(first + i))
-               if (k > 0) diagonal(k) = diagonal(k) + matrix%store%values(at)
-               if (present(coupling) .and. mod(i, 2_ip) == 1 .and. i < n .and. k > 0) then
-                  coupling(k) = coupling(k) + matrix%store%values(at + 1)
-               end if
-            end associate
-            at = at + n - i + 1
-         end do
-      end do
+      call sum_diagonals(matrix%store, matrix%n_fixed, diagonal, coupling)
    end subroutine fixed_diagonal
 
    !> What the first factorisation will add to the matrix, before it does.
    pure subroutine expect_variable_factors(matrix, bytes)
       type(variable_matrix_t), intent(in) :: matrix
       type(front_bytes_t), intent(out) :: bytes
-      type(factor_t), allocatable :: factors(:)
-      integer(ip) :: c
+      integer(ip) :: waiting(matrix%fronts%n_classes), c
 
-      factors = matrix%factors
+      waiting = matrix%fronts%waiting
       do c = 1, matrix%n_fronts
-         call add_class(matrix%tree, c, factors, bytes)
+         call count_class(matrix%fronts, c, waiting, bytes)
       end do
-      associate (front => REAL_BYTES*int(maxval(factors%order), lp)**2)
+      associate (front => REAL_BYTES*int(maxval(matrix%fronts%factors%order), lp)**2)
          bytes%held = bytes%held + front
          bytes%most = bytes%most + front
       end associate
@@ -336,20 +280,16 @@ contains
    !> What the matrix holds now [bytes].
    pure integer(lp) function variable_matrix_bytes(matrix) result(bytes)
       type(variable_matrix_t), intent(in) :: matrix
-      integer(ip) :: c
 
-      bytes = INDEX_BYTES*(size(matrix%tree%record, kind=lp) + matrix%n) + PART_BYTES*matrix%tree%n_parts &
-              + INDEX_BYTES*size(matrix%store%equations, kind=lp) + REAL_BYTES*size(matrix%store%values, kind=lp) &
-              + (REAL_BYTES + INDEX_BYTES)*int(matrix%store%n, lp) + matrix%tree%n_classes*(storage_size(matrix%factors, kind=lp)/8)
-      if (matrix%store%own%n > 0) bytes = bytes + REAL_BYTES*size(matrix%store%own%values, kind=lp) &
-                                          + (REAL_BYTES + INDEX_BYTES)*int(matrix%store%own%n, lp)
-      if (allocated(matrix%front)) bytes = bytes + REAL_BYTES*size(matrix%front, kind=lp)
-      do c = 1, matrix%n_fronts
-         associate (factor => matrix%factors(c))
-            if (allocated(factor%columns)) bytes = bytes + REAL_BYTES*size(factor%columns, kind=lp) + CHUNK_BYTES
-            if (allocated(factor%update)) bytes = bytes + REAL_BYTES*size(factor%update, kind=lp) + CHUNK_BYTES
-         end associate
-      end do
+      associate (fronts => matrix%fronts, store => matrix%store)
+         bytes = INDEX_BYTES*(size(fronts%record, kind=lp) + matrix%n) + PART_BYTES*fronts%n_supernodes &
+                 + INDEX_BYTES*size(store%equations, kind=lp) + REAL_BYTES*size(store%values, kind=lp) &
+                 + (REAL_BYTES + INDEX_BYTES)*int(store%n, lp) + fronts%n_classes*(storage_size(fronts%factors, kind=lp)/8) &
+                 + sum(held_bytes(fronts%factors, CHUNK_BYTES))
+         if (store%own%n > 0) bytes = bytes + REAL_BYTES*size(store%own%values, kind=lp) &
+                                      + (REAL_BYTES + INDEX_BYTES)*int(store%own%n, lp)
+         if (allocated(matrix%front)) bytes = bytes + REAL_BYTES*size(matrix%front, kind=lp)
+      end associate
    end function variable_matrix_bytes
 
 end module atrito_variable_matrix

@@ -6,6 +6,7 @@
 module atrito_element_clusters
    use atrito_cut_refinement, only: corner_lists_t, CORNERS
    use atrito_growth, only: grow
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
    private
@@ -54,7 +55,7 @@ contains
       type(tally_t) :: tally
       integer(ip) :: c, i, best
 
-      call list_members(clusters, first, element)
+      call list_holders(clusters%n, reshape(clusters%of_element, [1, size(clusters%of_element)]), first, element)
       call begin_tally(clusters%n, tally)
       allocate (partner(clusters%n), source=0_ip)
       do c = 1, clusters%n
@@ -62,7 +63,9 @@ contains
          do i = first(c), first(c + 1) - 1
             call count_neighbours(lists, clusters%of_element, partner, c, element(i), tally)
          end do
-         call take_most_shared(tally, c, best)
+         best = c                                ! the first of those that were counted most often, if there is one
+         if (tally%n > 0) best = tally%list(maxloc(tally%times(tally%list(:tally%n)), dim=1))
+         call clear_tally(tally)
          partner(c) = best
          partner(best) = c
       end do
@@ -113,17 +116,6 @@ contains
       end do
    end subroutine count_neighbours
 
-   !> The cluster that was counted most often, the first of several; c: there is none. The tally is cleared.
-   subroutine take_most_shared(tally, c, best)
-      type(tally_t), intent(inout) :: tally
-      integer(ip), intent(in) :: c
-      integer(ip), intent(out) :: best
-
-      best = c
-      if (tally%n > 0) best = tally%list(maxloc(tally%times(tally%list(:tally%n)), dim=1))
-      call clear_tally(tally)
-   end subroutine take_most_shared
-
    !> Numbers the pairs in the order of their first members.
    pure subroutine number_pairs(partner, clusters)
       integer(ip), intent(inout) :: partner(:)   !< becomes the number
@@ -145,30 +137,6 @@ contains
       clusters%n = n
    end subroutine number_pairs
 
-   !> The elements of each cluster: element(first(c):first(c + 1) - 1).
-   pure subroutine list_members(clusters, first, element)
-      type(cluster_t), intent(in) :: clusters
-      integer(ip), allocatable, intent(out) :: first(:), element(:)
-      integer(ip) :: c, e
-
-      allocate (first(clusters%n + 1), source=0_ip)
-      do e = 1, size(clusters%of_element, kind=ip)
-         c = clusters%of_element(e)
-         if (c > 0) first(c) = first(c) + 1
-      end do
-      first(1) = first(1) + 1
-      do c = 2, clusters%n + 1
-         first(c) = first(c) + first(c - 1)
-      end do
-      allocate (element(first(clusters%n + 1) - 1))
-      do e = size(clusters%of_element, kind=ip), 1, -1
-         c = clusters%of_element(e)
-         if (c == 0) cycle
-         first(c) = first(c) - 1
-         element(first(c)) = e
-      end do
-   end subroutine list_members
-
    !> Finds the neighbours of the clusters and how many nodes they share.
    subroutine link_clusters(lists, clusters)
       type(corner_lists_t), intent(in) :: lists
@@ -177,7 +145,7 @@ contains
       type(tally_t) :: tally
       integer(ip) :: c, i, n
 
-      call list_members(clusters, first, element)
+      call list_holders(clusters%n, reshape(clusters%of_element, [1, size(clusters%of_element)]), first, element)
       call begin_tally(clusters%n, tally)
       clusters%weight = first(2:) - first(:clusters%n)
       allocate (seen(size(lists%first) - 1), source=0_ip)

@@ -6,26 +6,23 @@ module atrito_element_store
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, pack_matrix, unpack_matrix
+   public :: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, sum_diagonals
+   public :: pack_matrix, unpack_matrix
 
-   !> The matrices that elements have themselves, where they were stored with that of another one.
-   type :: own_matrices_t
-      integer(ip) :: n = 0                       !< the first so many elements
-      integer(ip), allocatable :: matrix_of(:)   !< (n)
-      integer(lp), allocatable :: matrix_start(:) !< matrix m: values(matrix_start(m) + 1:)
-      real(wp), allocatable :: values(:)         !< lower triangles by columns
-   end type own_matrices_t
-
-   type :: element_store_t
+   !> Matrices of elements, several of which may have one in common.
+   type :: matrices_t
       integer(ip) :: n = 0                       !< elements
+      integer(ip), allocatable :: matrix_of(:)   !< (n or more)
+      integer(lp), allocatable :: matrix_start(:) !< matrix m: values(matrix_start(m) + 1:matrix_start(m + 1))
+      real(wp), allocatable :: values(:)         !< lower triangles by columns
+   end type matrices_t
+
+   type, extends(matrices_t) :: element_store_t
       integer(lp), allocatable :: start(:)       !< (n + 1 or more) equations of element e: equations(start(e) + 1:start(e + 1))
       integer(ip), allocatable :: equations(:)   !< 0: prescribed
-      integer(ip), allocatable :: matrix_of(:)   !< (n or more)
       integer(ip) :: n_matrices = 0              !< different ones
-      integer(lp), allocatable :: matrix_start(:) !< (n_matrices + 1 or more) matrix m: values(matrix_start(m) + 1:)
-      real(wp), allocatable :: values(:)         !< lower triangles by columns
       logical :: is_near = .false.               !< some elements have the matrix of one that they are near to, and not equal
-      type(own_matrices_t) :: own                !< then, where they are wanted
+      type(matrices_t) :: own                    !< then those of the first elements themselves, where they are wanted
       logical :: enough = .true.                 !< memory, for all elements so far; the others are left out
    end type element_store_t
 
@@ -50,43 +47,44 @@ contains
 
       m = size(equations, kind=ip)
       is_new = .not. is_newest(store, m, matrix)
-      if (store%enough) call make_room(store, m)
-      if (store%enough .and. is_new) call make_room_for_values(store, m)
+      call make_room(store, m, is_new)
       if (.not. store%enough) return
       first = store%start(store%n + 1)
       store%n = store%n + 1
       store%equations(first + 1:first + m) = equations
       store%start(store%n + 1) = first + m
-      if (is_new) call add_values(store, m, matrix)
+      if (is_new) then
+         first = store%matrix_start(store%n_matrices + 1)
+         store%n_matrices = store%n_matrices + 1
+         store%matrix_start(store%n_matrices + 1) = first + packed_size(m)
+         call pack_matrix(matrix, store%values(first + 1:first + packed_size(m)))
+      end if
       store%matrix_of(store%n) = store%n_matrices
    end subroutine add_to_store
 
-   !> Room for one element more.
-   pure subroutine make_room(store, m)
+   pure integer(lp) function packed_size(m)
+      integer(ip), intent(in) :: m
+
+      packed_size = int(m, lp)*int(m + 1, lp)/2
+   end function packed_size
+
+   !> Room for one element more, and for its matrix.
+   pure subroutine make_room(store, m, is_new)
       type(element_store_t), intent(inout) :: store
       integer(ip), intent(in) :: m               !< its equations
-      integer(lp) :: needed
+      logical, intent(in) :: is_new
+      integer(lp) :: n, n_equations, n_values
 
-      if (store%n + 2 > size(store%start)) call grow(store%start, 2*size(store%start, kind=lp), store%enough)
-      if (store%enough .and. store%n + 1 > size(store%matrix_of)) then
-         call grow(store%matrix_of, 2*size(store%matrix_of, kind=lp), store%enough)
-      end if
-      needed = store%start(store%n + 1) + m
-      if (store%enough .and. needed > size(store%equations, kind=lp)) call grow(store%equations, 2*needed, store%enough)
+      n = store%n + 2
+      n_equations = store%start(store%n + 1) + m
+      n_values = store%matrix_start(store%n_matrices + 1)
+      if (is_new) n_values = n_values + packed_size(m)
+      if (store%enough .and. n > size(store%start)) call grow(store%start, 2*n, store%enough)
+      if (store%enough .and. n > size(store%matrix_of)) call grow(store%matrix_of, 2*n, store%enough)
+      if (store%enough .and. n > size(store%matrix_start)) call grow(store%matrix_start, 2*n, store%enough)
+      if (store%enough .and. n_equations > size(store%equations, kind=lp)) call grow(store%equations, 2*n_equations, store%enough)
+      if (store%enough .and. n_values > size(store%values, kind=lp)) call grow(store%values, 2*n_values, store%enough)
    end subroutine make_room
-
-   !> Room for one matrix more.
-   pure subroutine make_room_for_values(store, m)
-      type(element_store_t), intent(inout) :: store
-      integer(ip), intent(in) :: m               !< its order
-      integer(lp) :: needed
-
-      if (store%n_matrices + 2 > size(store%matrix_start)) then
-         call grow(store%matrix_start, 2*size(store%matrix_start, kind=lp), store%enough)
-      end if
-      needed = store%matrix_start(store%n_matrices + 1) + int(m, lp)*int(m + 1, lp)/2
-      if (store%enough .and. needed > size(store%values, kind=lp)) call grow(store%values, 2*needed, store%enough)
-   end subroutine make_room_for_values
 
    !> Whether a matrix is the one that was stored last.
    pure logical function is_newest(store, m, matrix)
@@ -99,26 +97,13 @@ contains
       is_newest = .false.
       if (store%n_matrices == 0) return
       first = store%matrix_start(store%n_matrices)
-      if (store%matrix_start(store%n_matrices + 1) - first /= int(m, lp)*int(m + 1, lp)/2) return
+      if (store%matrix_start(store%n_matrices + 1) - first /= packed_size(m)) return
       do j = 1, m
          if (any(store%values(first + 1:first + m - j + 1) /= matrix(j:, j))) return
          first = first + m - j + 1
       end do
       is_newest = .true.
    end function is_newest
-
-   pure subroutine add_values(store, m, matrix)
-      type(element_store_t), intent(inout) :: store
-      integer(ip), intent(in) :: m
-      real(wp), intent(in) :: matrix(m, m)
-      integer(lp) :: first, last
-
-      first = store%matrix_start(store%n_matrices + 1)
-      last = first + int(m, lp)*int(m + 1, lp)/2
-      store%n_matrices = store%n_matrices + 1
-      call pack_matrix(matrix, store%values(first + 1:last))
-      store%matrix_start(store%n_matrices + 1) = last
-   end subroutine add_values
 
    !> The lower triangle of a matrix, by columns.
    pure subroutine pack_matrix(matrix, packed)
@@ -151,38 +136,63 @@ contains
       end do
    end subroutine unpack_matrix
 
+   !> The diagonal of the first elements; and what their first, third, ... equation has with the next one: two displacements of a
+   !> node.
+   pure subroutine sum_diagonals(store, n_elements, diagonal, coupling)
+      type(element_store_t), intent(in) :: store
+      integer(ip), intent(in) :: n_elements
+      real(wp), intent(out) :: diagonal(:)       !< (equations)
+      real(wp), intent(out), optional :: coupling(:) !< (equations) at the first of the two
+      integer(ip) :: e, i, k, n
+      integer(lp) :: first, at
+
+      diagonal = 0.0_wp
+      if (present(coupling)) coupling = 0.0_wp
+      do e = 1, n_elements
+         first = store%start(e)
+         n = int(store%start(e + 1) - first, ip)
+         at = store%matrix_start(store%matrix_of(e)) + 1
+         do i = 1, n
+            k = store%equations(first + i)
+            if (k > 0) diagonal(k) = diagonal(k) + store%values(at)
+            if (present(coupling) .and. mod(i, 2_ip) == 1 .and. i < n .and. k > 0) coupling(k) = coupling(k) + store%values(at + 1)
+            at = at + n - i + 1                  ! the next column is shorter by one
+         end do
+      end do
+   end subroutine sum_diagonals
+
    !> Takes over the matrices of a store of the same elements, each with its own; nothing is left in it.
    pure subroutine take_own_matrices(from, store)
       type(element_store_t), intent(inout) :: from
       type(element_store_t), intent(inout) :: store
 
-      store%own%n = from%n
-      call move_alloc(from%matrix_of, store%own%matrix_of)
-      call move_alloc(from%matrix_start, store%own%matrix_start)
-      call move_alloc(from%values, store%own%values)
-      from%n = 0
+      call move_matrices(from%matrices_t, store%own)
       from%n_matrices = 0
    end subroutine take_own_matrices
+
+   pure subroutine move_matrices(from, to)
+      type(matrices_t), intent(inout) :: from
+      type(matrices_t), intent(inout) :: to
+
+      to%n = from%n
+      from%n = 0
+      call move_alloc(from%matrix_of, to%matrix_of)
+      call move_alloc(from%matrix_start, to%matrix_start)
+      call move_alloc(from%values, to%values)
+   end subroutine move_matrices
 
    !> Moves what a store holds into another one; nothing is left in it.
    pure subroutine move_store(from, to)
       type(element_store_t), intent(inout) :: from
       type(element_store_t), intent(out) :: to
 
-      to%n = from%n
       to%n_matrices = from%n_matrices
+      to%is_near = from%is_near
+      from%n_matrices = 0
       call move_alloc(from%start, to%start)
       call move_alloc(from%equations, to%equations)
-      call move_alloc(from%matrix_of, to%matrix_of)
-      call move_alloc(from%matrix_start, to%matrix_start)
-      call move_alloc(from%values, to%values)
-      to%is_near = from%is_near
-      to%own%n = from%own%n
-      call move_alloc(from%own%matrix_of, to%own%matrix_of)
-      call move_alloc(from%own%matrix_start, to%own%matrix_start)
-      call move_alloc(from%own%values, to%own%values)
-      from%n = 0
-      from%n_matrices = 0
+      call move_matrices(from%matrices_t, to%matrices_t)
+      call move_matrices(from%own, to%own)
    end subroutine move_store
 
 end module atrito_element_store

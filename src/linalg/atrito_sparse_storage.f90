@@ -1,0 +1,223 @@
+!> The sparse solver (atrito_multifrontal) as a storage, with the kept equations as the last front.
+!>
+!> No pivot is chosen: the matrix is positive definite, and the loss of digits is told by its pivots as in the other storages.
+module atrito_sparse_storage
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_multifrontal, only: elimination_t, chain_elimination, element_store_t, begin_store, add_to_store, move_store, &
+                                  sum_diagonals, unpack_matrix, fronts_t, front_bytes_t, plan_fronts, expect_factors, &
+                                  factor_fronts, forward, backward, held_bytes, tell_of_memory
+   use atrito_profile, only: profile_t
+   use atrito_status, only: status_t
+   use atrito_storage, only: storage_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status
+   use atrito_threads, only: is_shared
+   implicit none (type, external)
+   private
+   public :: sparse_t, expect_fronts
+
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8, &
+                             LONG_BYTES = storage_size(1_lp)/8
+   !> Numbers of a supernode.
+   integer(lp), parameter :: SUPERNODE_NUMBERS = 4_lp
+
+   type, extends(storage_t) :: sparse_t
+      private
+      type(elimination_t) :: elimination
+      type(element_store_t) :: store             !< until factor
+      type(fronts_t) :: fronts
+   contains
+      procedure :: create => create_fronts
+      procedure :: add => add_to_fronts
+      procedure :: add_store => add_store_to_fronts
+      procedure :: factor => factor_and_report
+      procedure :: get_schur => get_last_front
+      procedure :: reduce => reduce_by_fronts
+      procedure :: expand => expand_by_fronts
+      procedure :: memory_bytes => fronts_memory
+      procedure, nopass :: name => fronts_name
+   end type sparse_t
+
+contains
+
+   subroutine create_fronts(self, profile, status)
+      class(sparse_t), intent(inout) :: self
+      type(profile_t), intent(in) :: profile
+      type(status_t), intent(out) :: status
+
+      self%n = profile%n
+      self%n_kept = profile%n_kept
+      self%report = factor_report_t()
+      if (allocated(profile%elimination%position)) then
+         self%elimination = profile%elimination
+      else
+         self%elimination = chain_elimination(self%n, self%n_kept)
+      end if
+      call begin_store(self%store)
+   end subroutine create_fronts
+
+   subroutine add_to_fronts(self, equations, matrix)
+      class(sparse_t), intent(inout) :: self
+      integer(ip), intent(in) :: equations(:)
+      real(wp), intent(in) :: matrix(:, :)
+
+      call add_to_store(self%store, equations, matrix)
+   end subroutine add_to_fronts
+
+   !> The first store is taken as it is.
+   subroutine add_store_to_fronts(self, store)
+      class(sparse_t), intent(inout) :: self
+      type(element_store_t), intent(inout) :: store
+
+      if (self%store%n > 0) then
+         call add_one_by_one(self, store)
+      else
+         call move_store(store, self%store)
+      end if
+   end subroutine add_store_to_fronts
+
+   subroutine factor_and_report(self, status)
+      class(sparse_t), intent(inout) :: self
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: by_equation(:), diagonal(:)
+      integer(lp) :: held
+      integer :: no_memory
+      logical :: enough
+
+      self%report = factor_report_t()
+      call plan_fronts(self%elimination, self%n, self%n_kept, self%store, self%fronts)
+      call expect_bytes(self%fronts, self%n, self%store, held, self%report%most_bytes)
+      allocate (by_equation(self%n), diagonal(self%n), stat=no_memory)
+      enough = self%fronts%enough .and. no_memory == 0
+      if (enough) then
+         call sum_diagonals(self%store, self%store%n, by_equation)
+         diagonal(self%elimination%position) = by_equation
+         deallocate (by_equation)
+      end if
+      if (enough) call factor_fronts(self%fronts, self%store, diagonal, enough)
+      self%store = element_store_t()
+      if (enough) then
+         call report_pivots(self, diagonal, status)
+      else
+         call tell_of_memory(status)
+      end if
+   end subroutine factor_and_report
+
+   !> What the solver will hold of a body, and for a while at the most [bytes], from the tree of its fronts.
+   subroutine expect_fronts(elimination, n, n_kept, store, held, most, enough)
+      type(elimination_t), intent(in) :: elimination
+      integer(ip), intent(in) :: n, n_kept
+      type(element_store_t), intent(in) :: store
+      integer(lp), intent(out) :: held, most
+      logical, intent(out) :: enough             !< memory to tell
+      type(fronts_t) :: fronts
+
+      call plan_fronts(elimination, n, n_kept, store, fronts)
+      call expect_bytes(fronts, n, store, held, most)
+      enough = fronts%enough
+   end subroutine expect_fronts
+
+   subroutine expect_bytes(fronts, n, store, held, most)
+      type(fronts_t), intent(in) :: fronts
+      integer(ip), intent(in) :: n
+      type(element_store_t), intent(in) :: store
+      integer(lp), intent(out) :: held, most     !< 0 without the memory to tell
+      type(front_bytes_t) :: bytes
+
+      held = 0
+      most = 0
+      if (.not. fronts%enough) return
+      call expect_factors(fronts, bytes)
+      associate (lists => INDEX_BYTES*(fronts%start(fronts%n_classes + 1) + SUPERNODE_NUMBERS*fronts%n_supernodes + n), &
+                 elements => (LONG_BYTES + INDEX_BYTES)*store%n + INDEX_BYTES*size(store%equations, kind=lp) &
+                 + REAL_BYTES*size(store%values, kind=lp))
+         held = bytes%held + lists
+         most = bytes%most + lists + elements + REAL_BYTES*n
+      end associate
+   end subroutine expect_bytes
+
+   !> The report of the pivots, class by class; the equation named is that of the first supernode of its class.
+   subroutine report_pivots(self, diagonal, status)
+      type(sparse_t), intent(inout) :: self
+      real(wp), intent(in) :: diagonal(:)
+      type(status_t), intent(out) :: status
+      integer(ip) :: c, position
+      logical :: usable
+
+      usable = .true.
+      self%report%n_fronts = self%fronts%n_supernodes
+      self%report%n_different = self%fronts%n_classes
+      do c = 1, self%fronts%n_classes
+         associate (factor => self%fronts%factors(c))
+            if (allocated(factor%columns)) self%report%entries = self%report%entries + size(factor%columns, kind=lp)
+            if (factor%worst == 0 .or. .not. usable) cycle
+            position = self%fronts%first(self%fronts%representative(c)) + factor%worst - 1
+            call note_pivot(self%report, position, self%n, diagonal(position), factor%worst_pivot, usable)
+            self%report%smallest_pivot = min(self%report%smallest_pivot, factor%smallest_pivot)
+            self%report%largest_pivot = max(self%report%largest_pivot, factor%largest_pivot)
+            usable = factor%failed == 0
+         end associate
+      end do
+      if (self%report%worst_equation > 0) then
+         self%report%worst_equation = findloc(self%elimination%position, self%report%worst_equation, dim=1)
+      end if
+      call set_pivot_status(self%report,.not. usable, status)
+   end subroutine report_pivots
+
+   subroutine get_last_front(self, schur)
+      class(sparse_t), intent(in) :: self
+      real(wp), intent(out) :: schur(:, :)
+
+      call unpack_matrix(self%fronts%factors(self%fronts%n_classes)%update, schur)
+   end subroutine get_last_front
+
+   !> The half-solved supernode is left by positions.
+   subroutine reduce_by_fronts(self, f)
+      class(sparse_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: f(:, :)
+      real(wp), allocatable :: x(:)
+      integer(ip) :: load, i
+
+      allocate (x(self%n))
+      do load = 1, size(f, 2, kind=ip)
+         !$omp parallel do default(none) shared(self, x, f, load) if(is_shared(self%n))
+         do i = 1, self%n
+            x(self%elimination%position(i)) = f(i, load)
+         end do
+         !$omp end parallel do
+         call forward(self%fronts, x)
+         f(:, load) = x
+      end do
+   end subroutine reduce_by_fronts
+
+   subroutine expand_by_fronts(self, x)
+      class(sparse_t), intent(in) :: self
+      real(wp), intent(inout), contiguous :: x(:, :)
+      real(wp), allocatable :: by_position(:)
+      integer(ip) :: load, i
+
+      do load = 1, size(x, 2, kind=ip)
+         by_position = x(:, load)
+         call backward(self%fronts, by_position)
+         !$omp parallel do default(none) shared(self, x, by_position, load) if(is_shared(self%n))
+         do i = 1, self%n
+            x(i, load) = by_position(self%elimination%position(i))
+         end do
+         !$omp end parallel do
+      end do
+   end subroutine expand_by_fronts
+
+   !> The factors and what leads through them.
+   pure integer(lp) function fronts_memory(self) result(bytes)
+      class(sparse_t), intent(in) :: self
+
+      bytes = 0
+      if (.not. allocated(self%fronts%factors)) return
+      bytes = INDEX_BYTES*(self%fronts%start(self%fronts%n_classes + 1) + self%n) + sum(held_bytes(self%fronts%factors, 0_lp))
+   end function fronts_memory
+
+   pure function fronts_name() result(name)
+      character(len=:), allocatable :: name
+
+      name = 'sparse'
+   end function fronts_name
+
+end module atrito_sparse_storage
