@@ -1,7 +1,7 @@
 !> Wall and processor time by phase, and the peak memory. With the message store the only module state.
 module atrito_timers
    use, intrinsic :: iso_c_binding, only: c_int, c_long
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: lp, wp
    implicit none (type, external)
    private
    public :: phase_time_t, start_phase, stop_phase, get_phases, reset_timers, peak_memory, processor_seconds

@@ -8,8 +8,8 @@ module atrito_points
    use atrito_mesh, only: mesh_t, face_nodes, FACES
    use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, &
-                            look_at_end, nearest_end
+   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, look_at_end, &
+                            nearest_end
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private

@@ -7,8 +7,8 @@
 !>     primary = number | pi | name | function ( sum {, sum} ) | ( sum )
 module atrito_expressions
    use atrito_kinds, only: wp, PI
-   use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, &
-                                ARITHMETIC_OK, ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
+   use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, ARITHMETIC_OK, &
+                                ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
    use atrito_strings, only: string_t, same_name, append_string, lower_case
    implicit none (type, external)

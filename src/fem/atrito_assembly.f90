@@ -8,7 +8,7 @@
 module atrito_assembly
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, Q2_NODES
-   use atrito_bodies, only: body_t, bodies_t, element_equations
+   use atrito_bodies, only: bodies_t, element_equations
    use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
    use atrito_element_store, only: element_store_t, pack_matrix

@@ -6,6 +6,7 @@
 module atrito_internal_forces
    use, intrinsic :: iso_c_binding, only: c_bool
    use atrito_assembly, only: fem_t, stiffness_cache_t, cached_stiffness
+   use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
    use atrito_range, only: work_of, unit_of
@@ -200,16 +201,11 @@ contains
       integer(ip), intent(in) :: node
       real(wp), intent(in) :: f(2)
       type(late_forces_t), intent(inout) :: late
-      integer(ip), allocatable :: nodes(:)
-      real(wp), allocatable :: forces(:, :)
 
       if (.not. allocated(late%node)) allocate (late%node(1024), late%force(2, 1024))
       if (late%n == size(late%node)) then
-         allocate (nodes(2*late%n), forces(2, 2*late%n))
-         nodes(:late%n) = late%node
-         forces(:, :late%n) = late%force
-         call move_alloc(nodes, late%node)
-         call move_alloc(forces, late%force)
+         call resize(late%node, late%n, 2*late%n)
+         call resize(late%force, late%n, 2*late%n)
       end if
       late%n = late%n + 1
       late%node(late%n) = node

@@ -5,8 +5,7 @@ module atrito_build_contact
    use atrito_draft, only: draft_t, place_text, keep_token, count_cards
    use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, &
-                           KERNEL_LINE
+   use atrito_model, only: model_t, interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_name_list, only: add_name, find_name
    use atrito_references, only: report_unknown
    use atrito_strings, only: to_text

@@ -1,6 +1,6 @@
 !> *ELEMENT and *ELGEN: the elements of the mesh, in the order of the deck, after all nodes.
 module atrito_build_elements
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors, is_unsure
    use atrito_id_map, only: find_id

@@ -1,20 +1,19 @@
 !> *CLOAD, *DLOAD and *DSLOAD.
 module atrito_build_loads
-   use atrito_build_materials, only: SECTION_SPOILED
    use atrito_deck, only: deck_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_draft, only: draft_t, ids_text, is_spoiled
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_node_load, add_element_load, trim_node_loads, trim_element_loads
+   use atrito_load_lists, only: add_nodal_value, add_element_load, trim_nodal_values, trim_element_loads
    use atrito_model, only: model_t, LOAD_PRESSURE, LOAD_BODY, SURFACE_ELEMENTS
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_references, only: find_nodes, find_elements, report_unknown
    use atrito_refinement, only: is_on_side, is_refined
-   use atrito_strings, only: same_name, to_text, upper_case
+   use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
    public :: build_loads, in_no_element
@@ -47,7 +46,7 @@ contains
             end do
          end associate
       end do
-      call trim_node_loads(model%node_loads)
+      call trim_nodal_values(model%node_loads)
       call trim_element_loads(model%element_loads)
    end subroutine build_loads
 
@@ -96,7 +95,7 @@ contains
          return
       end if
       do i = 1, size(nodes, kind=ip)
-         call add_node_load(model%node_loads, nodes(i), dof, force)
+         call add_nodal_value(model%node_loads, nodes(i), dof, force)
       end do
       call note_supported(deck, line, model, draft, nodes, dof)
    end subroutine read_cload_line

@@ -1,8 +1,8 @@
 !> *MATERIAL with *ELASTIC and *DENSITY, and *SOLID SECTION.
 module atrito_build_materials
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_name, place_text, keep_token, count_cards, ids_text, is_spoiled, has_errors
+   use atrito_draft, only: draft_t, place_text, keep_token, count_cards, ids_text, has_errors
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, material_t, section_t, FORMULATION_BBAR

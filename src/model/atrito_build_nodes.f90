@@ -1,7 +1,7 @@
 !> *NODE, *NGEN and *NFILL: the nodes of the mesh, in the order of the deck.
 module atrito_build_nodes
    use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
+   use atrito_deck, only: deck_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, spoil_node, place_token, place_text, note_place
    use atrito_items, only: get_integer, get_real, option_text

@@ -9,7 +9,7 @@ module atrito_build_requests
    use atrito_model, only: model_t, controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set
-   use atrito_strings, only: same_name, to_text
+   use atrito_strings, only: same_name
    implicit none (type, external)
    private
    public :: build_requests, refuse_field_files

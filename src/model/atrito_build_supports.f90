@@ -6,7 +6,7 @@ module atrito_build_supports
    use atrito_draft, only: draft_t, place_text, ids_text, has_errors
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_prescribed, trim_prescribed
+   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
    use atrito_model, only: model_t
    use atrito_parameters, only: evaluate_function
    use atrito_references, only: find_nodes
@@ -56,7 +56,7 @@ contains
             call hold_edges(deck, model, draft, numbered)
          end associate
       end do
-      call trim_prescribed(model%prescribed)
+      call trim_nodal_values(model%prescribed)
    end subroutine build_supports
 
    !> Node or set, first dof[, last dof[, value]].
@@ -258,7 +258,7 @@ contains
          if (loose(i)) cycle
          entry = draft%dof_entry(dof, nodes(i))
          if (entry == 0) then
-            call add_prescribed(model%prescribed, nodes(i), dof, value(i))
+            call add_nodal_value(model%prescribed, nodes(i), dof, value(i))
             draft%dof_entry(dof, nodes(i)) = model%prescribed%n
             draft%dof_token(dof, nodes(i)) = line%first_token
          else if (.not. is_same(model%prescribed%value(entry), value(i), scale)) then

@@ -1,16 +1,15 @@
 !> *SURFACE and *RIGID BODY, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
    use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, count_cards, ids_text, &
-                           is_spoiled
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, count_cards, ids_text
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: MOST_FACES => FACES
-   use atrito_model, only: model_t, surface_t, SURFACE_ELEMENTS, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer

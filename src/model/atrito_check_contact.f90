@@ -1,5 +1,6 @@
 !> Checks of the contact pairs: first what their surfaces are, then, in a model that is right otherwise, where their points lie.
 module atrito_check_contact
+   use atrito_average, only: least_spacing
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_draft, only: draft_t, ids_text, place_text, has_errors, is_spoiled
@@ -331,7 +332,7 @@ contains
                            expected='QUADRATURE=NODAL, or sides whose nodes face each other', keyword='CONTACT PAIR')
       end if
       if (.not. is_judged) call judge_radius(deck, draft%interactions(model%pairs(i)%interaction), &
-                                             model%interactions(model%pairs(i)%interaction), least_spacing(points), is_judged)
+                                             model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)
    end subroutine judge_points
 
    !> What a pair is called that the deck does not give; '' for one that it gives.
@@ -365,15 +366,5 @@ contains
          is_told = .true.
       end if
    end subroutine judge_radius
-
-   pure real(wp) function least_spacing(points) result(least)
-      type(contact_points_t), intent(in) :: points
-      integer(ip) :: i
-
-      least = huge(least)
-      do i = 2, points%n
-         least = min(least, norm2(points%x(:, i) - points%x(:, i - 1)))
-      end do
-   end function least_spacing
 
 end module atrito_check_contact

@@ -4,7 +4,7 @@ module atrito_check_mesh
    use atrito_check_shapes, only: check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
-   use atrito_draft, only: draft_t, place_token, ids_text, has_errors, is_spoiled
+   use atrito_draft, only: draft_t, place_token, ids_text, has_errors
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: PLANE_STRAIN, Q1_NODES, Q2_NODES
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR

@@ -3,6 +3,7 @@ module atrito_contact_rules
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, place_text, has_errors
+   use atrito_growth, only: resize
    use atrito_items, only: find_option, has_option, option_real
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t, SURFACE_SEGMENTS
@@ -176,15 +177,11 @@ contains
    pure subroutine add_rule(rules, a, b, value)
       type(rule_list_t), intent(inout) :: rules
       integer(ip), intent(in) :: a, b, value
-      integer(ip), allocatable :: surface(:, :), values(:)
 
       if (.not. allocated(rules%value)) allocate (rules%surface(2, 16), rules%value(16))
       if (rules%n == size(rules%value)) then
-         allocate (surface(2, 2*rules%n), values(2*rules%n))
-         surface(:, :rules%n) = rules%surface
-         values(:rules%n) = rules%value
-         call move_alloc(surface, rules%surface)
-         call move_alloc(values, rules%value)
+         call resize(rules%surface, rules%n, 2*rules%n)
+         call resize(rules%value, rules%n, 2*rules%n)
       end if
       rules%n = rules%n + 1
       rules%surface(:, rules%n) = [a, b]

@@ -6,6 +6,7 @@
 module atrito_draft
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name
    use atrito_faces, only: node_elements_t
+   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id
    use atrito_kinds, only: ip, lp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
@@ -321,13 +322,8 @@ contains
    pure subroutine note_place(places, i, place)
       integer(ip), allocatable, intent(inout) :: places(:)
       integer(ip), intent(in) :: i, place
-      integer(ip), allocatable :: longer(:)
 
-      if (i > size(places)) then
-         allocate (longer(max(i, 2*size(places, kind=ip))))
-         longer(:size(places)) = places
-         call move_alloc(longer, places)
-      end if
+      call make_room(places, size(places, kind=ip), i)
       places(i) = place
    end subroutine note_place
 
@@ -346,13 +342,11 @@ contains
       type(token_t), allocatable, intent(inout) :: list(:)
       integer(ip), intent(in) :: i
       type(token_t), intent(in) :: token
-      type(token_t), allocatable :: longer(:)
 
-      if (i > size(list)) then
-         allocate (longer(max(i, 2*size(list, kind=ip))))
-         longer(:size(list)) = list
-         call move_alloc(longer, list)
-      end if
+      ! the second half is written over
+      do while (i > size(list))
+         list = [list, list, token]
+      end do
       list(i) = token
    end subroutine keep_token
 

@@ -3,7 +3,7 @@ module atrito_model_memory
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: lp
    use atrito_memory, only: memory_text
    use atrito_model, only: model_t
    use atrito_strings, only: to_text

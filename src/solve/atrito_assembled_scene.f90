@@ -16,8 +16,7 @@ module atrito_assembled_scene
    use atrito_front_factors, only: front_bytes_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
-   use atrito_strings, only: to_text
+   use atrito_status, only: status_t, is_ok
    use atrito_variable_matrix, only: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
                                      solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
                                      variable_matrix_bytes

@@ -13,22 +13,13 @@ module atrito_contact_solution
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, may_be_round_off, &
+   public :: contact_solution_t, solve_with_bound, judge_condition, has_settled, may_be_round_off, &
              relative_residual
 
    real(wp), parameter :: MOST_ROUND_OFF = 1.0e-7_wp
    real(wp), parameter :: ROUND_OFFS = 10.0_wp        !< of a force: nothing else
    integer, parameter :: MOST_ROUNDS = 5
    real(wp), parameter :: NOISE = 1.0e-12_wp          !< of the largest friction bound or force: may be round-off elsewhere
-
-   type :: outer_controls_t
-      integer(ip) :: method = 1                       !< METHOD_* of the model
-      real(wp) :: tolerance = 1.0e-10_wp
-      integer(ip) :: max_iterations = 100
-      real(wp) :: relaxation = 1.0_wp
-      logical :: is_coarse = .false.                  !< box_problem_t%is_coarse: states that round-off turns to and fro
-      real(wp) :: most_entries = huge(1.0_wp)         !< of C to go through, over all linear solves, before it is given up
-   end type outer_controls_t
 
    type :: contact_solution_t
       type(box_bounds_t) :: bounds

@@ -3,9 +3,10 @@ module atrito_dense_form
    use atrito_body_store, only: body_store_t, provide_bodies, release_bodies, forget_bodies
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
    use atrito_contact_problem, only: build_problem
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_refinement, only: refine_dense_solution
    use atrito_kinds, only: ip, wp
+   use atrito_model, only: controls_t
    use atrito_outer_loop, only: solve_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
    use atrito_reporter, only: reporter_t, report_progress
@@ -25,7 +26,7 @@ contains
    !> u: displacements without rigid motions. status: STATUS_SINGULAR of provide_bodies and solve_contact_line.
    subroutine solve_dense_form(data, controls, reporter, store, results, solution, u, status)
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
@@ -53,7 +54,7 @@ contains
    !> Solves with the bodies as they are factored.
    subroutine solve_condensed(data, controls, reporter, store, results, problem, solution, u, status)
       type(scene_data_t), intent(in) :: data
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results

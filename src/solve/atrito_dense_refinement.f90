@@ -11,9 +11,10 @@ module atrito_dense_refinement
    use atrito_box_problem, only: box_problem_t
    use atrito_condensed_body, only: condensed_body_t, set_load
    use atrito_contact_problem, only: add_displacements
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_model, only: controls_t
    use atrito_outer_loop, only: continue_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
    use atrito_reporter, only: reporter_t, report_progress
@@ -42,7 +43,7 @@ contains
    !> Refines as often as it takes. Where `is_right` is false the solution is of no use.
    subroutine refine_dense_solution(data, controls, reporter, bodies, problem, solution, u, is_right)
       type(scene_data_t), intent(in) :: data
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
       type(box_problem_t), intent(inout) :: problem
@@ -109,7 +110,7 @@ contains
    !> One step.
    subroutine correct(data, controls, reporter, residual, bodies, problem, solution, contact, u, status)
       type(scene_data_t), intent(in) :: data
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       real(wp), intent(in) :: residual(:, :)
       type(condensed_body_t), intent(inout) :: bodies(:)

@@ -5,13 +5,14 @@ module atrito_multiplier_loop
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, normal_bounds, set_friction_bounds
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_contact_system, only: contact_system_t
    use atrito_idle_motions, only: settle_idle_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, forces_that_are_none
    use atrito_multiplier_step, only: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, &
                                      take_least_forces, clear_round_off
+   use atrito_model, only: controls_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
@@ -60,7 +61,7 @@ contains
       class(contact_system_t), intent(inout) :: system
       type(constraint_rows_t), intent(in) :: rows !< over displacements alone
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       character(len=*), intent(in) :: free_motion !< text of the status when a body moves
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution

@@ -4,11 +4,11 @@ module atrito_outer_loop
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
    use atrito_coarse_line, only: interpolation_t, has_coarse_line, coarsen_line, start_from_coarse
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, normal_bounds, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, &
-                                      may_be_round_off, relative_residual
+   use atrito_contact_line, only: contact_line_t, normal_bounds
+   use atrito_contact_solution, only: contact_solution_t, solve_with_bound, judge_condition, has_settled, may_be_round_off, &
+                                      relative_residual
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_model, only: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
+   use atrito_model, only: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
    use atrito_newton, only: iterate_newton
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: solve_history_t, begin_outer, end_outer
@@ -62,7 +62,7 @@ contains
    subroutine solve_contact_line(problem, line, controls, reporter, solution, status, rows)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
@@ -80,7 +80,7 @@ contains
    subroutine continue_contact_line(problem, line, controls, reporter, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
@@ -114,7 +114,7 @@ contains
    recursive subroutine solve_from_coarse(problem, line, controls, reporter, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
@@ -146,7 +146,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
-      type(outer_controls_t), parameter :: CONTROLS = outer_controls_t(METHOD_ANDERSON, 1.0e-3_wp, 30_ip, 1.0_wp)
+      type(controls_t), parameter :: CONTROLS = controls_t(METHOD_ANDERSON, 1.0e-3_wp, 30_ip, 1.0_wp)
       type(reporter_t), parameter :: NOBODY = reporter_t(quiet=.true.)
       type(anderson_t) :: anderson
       type(contact_solution_t) :: nothing
@@ -169,7 +169,7 @@ contains
    subroutine solve_from_plain_start(problem, line, controls, reporter, solution, status, rows)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
       type(status_t), intent(out) :: status
@@ -241,7 +241,7 @@ contains
    subroutine iterate_picard(problem, line, controls, reporter, tau, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       real(wp), intent(inout) :: tau(:)
       type(contact_solution_t), intent(inout) :: solution
@@ -256,7 +256,7 @@ contains
    subroutine newton_from(problem, line, controls, tau, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       real(wp), intent(in) :: tau(:)
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
@@ -278,7 +278,7 @@ contains
    subroutine iterate_with_fallbacks(problem, line, controls, reporter, tau, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       real(wp), intent(inout) :: tau(:)
       type(contact_solution_t), intent(inout) :: solution
@@ -329,7 +329,7 @@ contains
    subroutine try_again(problem, line, controls, reporter, attempt, first, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       integer, intent(in) :: attempt                 !< place in ATTEMPTS
       type(start_t), intent(in) :: first
@@ -337,7 +337,7 @@ contains
       type(status_t), intent(out) :: status
       type(anderson_t) :: anderson
       type(picard_t) :: picard
-      type(outer_controls_t) :: patient
+      type(controls_t) :: patient
       real(wp) :: tau(line%n)
 
       patient = controls
@@ -366,7 +366,7 @@ contains
    subroutine ease_friction(problem, line, controls, reporter, first, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(start_t), intent(in) :: first
       type(contact_solution_t), intent(inout) :: solution
@@ -401,7 +401,7 @@ contains
    subroutine solve_near(problem, line, controls, reporter, is_solved, near, tau, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       logical, intent(in) :: is_solved               !< near is a solution
       type(start_t), intent(in) :: near
@@ -427,7 +427,7 @@ contains
    subroutine iterate(problem, line, controls, reporter, accelerator, tau, solution, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       class(accelerator_t), intent(inout) :: accelerator
       real(wp), intent(inout) :: tau(:)
@@ -473,7 +473,7 @@ contains
    !> Whether the attempts so far went through so many entries of C that the other form of the contact system is cheaper.
    pure logical function is_too_much(problem, controls, history)
       type(box_problem_t), intent(in) :: problem
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(solve_history_t), intent(in) :: history
 
       is_too_much = history%n > LEAST_SOLVES .and. real(history%n, wp)*real(problem%m, wp)**2 > controls%most_entries

@@ -5,10 +5,11 @@ module atrito_shared_points
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_note
+   use atrito_model, only: controls_t
    use atrito_outer_loop, only: solve_contact_line
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_status, only: status_t, STATUS_SINGULAR
@@ -34,7 +35,7 @@ contains
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status

@@ -8,19 +8,19 @@ module atrito_solve
    use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_problem, only: motion_body
    use atrito_contact_scales, only: usual_growth
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_form, only: solve_dense_form
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_joint_sums, only: sum_joints
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, wp
    use atrito_messages, only: add_note, add_warning
-   use atrito_model, only: model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
+   use atrito_model, only: controls_t, model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: results_t, scene_t, pair_scene_t, iteration_t
+   use atrito_results, only: results_t, scene_t, pair_scene_t
    use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
@@ -56,7 +56,7 @@ module atrito_solve
       integer :: form, method
       integer(ip) :: times                                 !< MAXIT
       real(wp) :: relaxation
-      logical :: is_coarse                                 !< outer_controls_t
+      logical :: is_coarse                                 !< controls_t
    end type attempt_t
 
    type(attempt_t), parameter :: PATIENT(5) = [attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 1, 1.0_wp, .true.), &
@@ -127,12 +127,11 @@ contains
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
-      type(outer_controls_t) :: controls
+      type(controls_t) :: controls
 
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (.not. is_ok(status)) return
-      controls = outer_controls_t(model%controls%method, model%controls%tolerance, model%controls%max_iterations, &
-                                  model%controls%relaxation)
+      controls = model%controls
       if (options%contact_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
       if (data%contact_form == CONTACT_SPARSE .and. controls%method /= METHOD_ANDERSON) then
          call add_note('N-METHOD', 'METHOD is one of the dense form of the contact system; the sparse one, which was taken, has' &
@@ -170,7 +169,7 @@ contains
    subroutine solve_without_near(model, data, controls, reporter, store, results, solution, status)
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
@@ -193,7 +192,7 @@ contains
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
@@ -240,12 +239,12 @@ contains
    subroutine try_others(model, data, controls, reporter, store, results, solution)
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
-      type(outer_controls_t) :: newton, patient_controls
+      type(controls_t) :: newton, patient_controls
       integer :: attempt
 
       if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
@@ -261,7 +260,7 @@ contains
       if (size(data%line%point) > MOST_PATIENT) return
       do attempt = 1, size(PATIENT)
          if (results%converged .and. results%law_holds) return
-         patient_controls = outer_controls_t(PATIENT(attempt)%method, controls%tolerance, &
+         patient_controls = controls_t(PATIENT(attempt)%method, controls%tolerance, &
                                              PATIENT(attempt)%times*controls%max_iterations, PATIENT(attempt)%relaxation, &
                                              PATIENT(attempt)%is_coarse, controls%most_entries)
          call try_form(model, data, PATIENT(attempt)%form, patient_controls, reporter, store, results, solution)
@@ -272,7 +271,7 @@ contains
       type(model_t), intent(in) :: model
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
@@ -296,7 +295,7 @@ contains
    !> What an attempt is, besides its form.
    function attempt_text(model, controls) result(text)
       type(model_t), intent(in) :: model
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       character(len=:), allocatable :: text
 
       text = ''
@@ -403,15 +402,9 @@ contains
    pure subroutine copy_history(solution, results)
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results
-      integer(ip) :: i
 
-      allocate (results%iterations(solution%history%n))
-      do i = 1, solution%history%n
-         associate (r => solution%history%records(i))
-            results%iterations(i) = iteration_t(r%outer, r%inner, r%change_displacement, r%change_pressure, r%change_friction, &
-                                                r%open, r%stick, r%slip, r%residual)
-         end associate
-      end do
+      allocate (results%iterations(0))
+      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
       results%outer_iterations = solution%history%outer
       results%linear_solves = max(solution%history%n, 1_ip)
       results%contraction = solution%contraction

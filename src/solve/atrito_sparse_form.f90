@@ -4,9 +4,10 @@ module atrito_sparse_form
    use atrito_assembly, only: fem_t
    use atrito_condensed_body, only: check_held
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_loop, only: solve_by_multipliers
+   use atrito_model, only: controls_t
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t
@@ -24,7 +25,7 @@ contains
    !> u: displacements without rigid motions. status: STATUS_SINGULAR with FREE_MOTION, or with a body that is singular by itself.
    subroutine solve_sparse_form(data, controls, reporter, results, solution, u, status)
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(out) :: solution
