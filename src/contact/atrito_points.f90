@@ -278,7 +278,7 @@ contains
       do i = 1, points%n
          sight = look_along(points%x(:, i), points%normal(:, i), 2*points%length(i), master)
          ! where two faces meet at an angle, the mean normal may miss the end of the master
-         if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master)
+         if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master, any_side=.true.)
          points%gap(i) = sight%distance
          if (abs(sight%distance) <= round_off) points%gap(i) = 0.0_wp
          if (master%rigid) cycle

@@ -16,13 +16,15 @@ module atrito_build_model
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_draft, only: draft_t, prepare_draft, has_errors
-   use atrito_faces, only: list_node_elements
+   use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
+   use atrito_pairing, only: order_slaves, pair_all
+   use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_strings, only: deck_name
    implicit none (type, external)
@@ -72,6 +74,8 @@ contains
       type(model_t), intent(out) :: model
       type(draft_t) :: draft
       type(contact_rules_t) :: rules
+      type(chain_report_t), allocatable :: chains(:)
+      type(contact_points_t), allocatable :: points(:)
 
       call prepare_draft(deck, draft)
       draft%memory = memory
@@ -90,10 +94,13 @@ contains
       call build_loads(deck, model, draft)
       call build_requests(deck, model, draft)
       call check_mesh(deck, model, draft)
-      call check_surfaces_of_pairs(deck, model, draft)
+      call order_slaves(model, chains)
+      call check_surfaces_of_pairs(deck, model, draft, chains)
       if (has_errors()) return
       call find_contact(deck, rules, model, draft)
       call note_unused_interactions(deck, model, draft)
+      call pair_all(model, points)
+      call move_alloc(points, model%points)
       call check_points_of_pairs(deck, model, draft)
    end subroutine build_once
 

@@ -5,13 +5,12 @@ module atrito_check_contact
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_draft, only: draft_t, ids_text, place_text, has_errors, is_spoiled
    use atrito_face_geometry, only: has_quarter_node
-   use atrito_faces, only: order_chain, chain_report_t, face_list_t, face_normal
+   use atrito_faces, only: chain_report_t, face_list_t, face_normal
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_pairing, only: pairing_t, prepare_pairing, pair_points
    use atrito_points, only: contact_points_t
    use atrito_sorting, only: sorted_places
    use atrito_strings, only: to_text
@@ -24,7 +23,8 @@ module atrito_check_contact
    !> What the checks of the pairs share: thousands of pairs may have surfaces in common.
    type :: pairs_draft_t
       integer(ip), allocatable :: first_of(:)          !< (pairs) the first one of the same two surfaces
-      logical, allocatable :: is_ordered(:)            !< (surfaces) it is a slave, and its faces stand in their order
+      type(chain_report_t), allocatable :: chains(:)   !< (surfaces)
+      logical, allocatable :: is_judged(:)             !< (surfaces) it was the slave of an earlier pair
       integer(ip), allocatable :: first(:), face(:)    !< face(first(i):first(i + 1) - 1): the faces of masters at node i
       integer(ip), allocatable :: surface_of(:)        !< the surface of such a face
    end type pairs_draft_t
@@ -33,16 +33,18 @@ module atrito_check_contact
 
 contains
 
-   !> What can be told of each pair without looking for its points. Slave surfaces are put into the order of their chain.
-   subroutine check_surfaces_of_pairs(deck, model, draft)
+   !> What can be told of each pair without looking for its points.
+   subroutine check_surfaces_of_pairs(deck, model, draft, chains)
       type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
+      type(chain_report_t), intent(in) :: chains(:)    !< of each surface
       type(pairs_draft_t) :: known
       integer(ip) :: i
 
       known%first_of = first_of_each(model%pairs)
-      allocate (known%is_ordered(size(model%surfaces)), source=.false.)
+      known%chains = chains
+      allocate (known%is_judged(size(model%surfaces)), source=.false.)
       call list_masters(model, known)
       do i = 1, size(model%pairs, kind=ip)
          call check_sides(deck, model, draft, i, known)
@@ -98,7 +100,7 @@ contains
 
    subroutine check_sides(deck, model, draft, i, known)
       type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i
       type(pairs_draft_t), intent(inout) :: known
@@ -118,23 +120,22 @@ contains
                            keyword='CONTACT PAIR')
          return
       end if
-      call check_slave(deck, model, draft, slave, draft%slaves(i), known%is_ordered(slave))
+      call check_slave(deck, model, draft, slave, draft%slaves(i), known)
       call check_master(deck, model, draft, master, draft%masters(i))
       if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
          call check_shared_nodes(deck, model, slave, master, draft%masters(i), known)
       end if
    end subroutine check_sides
 
-   subroutine check_slave(deck, model, draft, i, place, is_ordered)
+   subroutine check_slave(deck, model, draft, i, place, known)
       type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i                     !< the slave's surface
       type(token_t), intent(in) :: place
-      logical, intent(inout) :: is_ordered             !< it was the slave of an earlier pair
-      type(chain_report_t) :: report
+      type(pairs_draft_t), intent(inout) :: known
 
-      associate (surface => model%surfaces(i))
+      associate (surface => model%surfaces(i), report => known%chains(i))
          if (is_spoiled(draft, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
             call report_error(deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
@@ -145,9 +146,8 @@ contains
             call report_no_faces(deck, place, surface%name)
             return
          end if
-         if (is_ordered) return
-         call order_chain(model%mesh, surface%faces, report)
-         is_ordered = .true.
+         if (known%is_judged(i)) return
+         known%is_judged(i) = .true.
          if (has_errors()) return            ! the chain may be broken by what was told already
          if (report%branch_node > 0) then
             call report_error(deck, place, 'E-CHAIN', 'the slave branches at node '// &
@@ -278,24 +278,20 @@ contains
       end do
    end subroutine note_unused_interactions
 
-   !> Places the points of each pair; for models without any error.
+   !> Judges the points of each pair; for models without any error.
    subroutine check_points_of_pairs(deck, model, draft)
       type(deck_t), intent(in) :: deck
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
-      type(pairing_t) :: pairing
-      type(contact_points_t) :: points
       logical :: is_judged(size(model%interactions))         ! its radius, too small for some points, was told of
       integer(ip) :: i
 
-      call prepare_pairing(model, pairing)
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
-         call pair_points(model, pairing, i, points)
-         if (points%n == 0) then
+         if (model%points(i)%n == 0) then
             call report_blind(deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, draft%slaves(i))
          else
-            call judge_points(deck, draft, model, i, points, is_judged(model%pairs(i)%interaction))
+            call judge_points(deck, draft, model, i, model%points(i), is_judged(model%pairs(i)%interaction))
          end if
       end do
    end subroutine check_points_of_pairs

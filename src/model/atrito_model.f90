@@ -1,6 +1,7 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
 module atrito_model
    use atrito_kinds, only: ip, wp
+   use atrito_points, only: contact_points_t
    use atrito_strings, only: string_t
    use atrito_mesh, only: mesh_t
    use atrito_sets, only: set_list_t
@@ -126,6 +127,7 @@ module atrito_model
       type(surface_t), allocatable :: surfaces(:)
       type(interaction_t), allocatable :: interactions(:)
       type(pair_t), allocatable :: pairs(:)
+      type(contact_points_t), allocatable :: points(:) !< of each pair
       type(nodal_values_t) :: prescribed            !< each dof once
       type(nodal_values_t) :: node_loads            !< several on one dof add up
       type(element_load_t) :: element_loads

@@ -8,11 +8,10 @@ module atrito_sparse_form
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_loop, only: solve_by_multipliers
    use atrito_model, only: controls_t
-   use atrito_outer_loop, only: FREE_MOTION
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, assemble
-   use atrito_shared_points, only: build_constraint_rows
+   use atrito_row_entries, only: build_constraint_rows
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
@@ -41,9 +40,9 @@ contains
       if (.not. is_ok(status)) return
       results%scene%near_elements = data%assembled%is_near
       call start_phase('iterate')
-      call build_constraint_rows(data%fem, data%rows, data%line, rows)
-      call solve_by_multipliers(data%assembled, rows, data%line, controls, FREE_MOTION, reporter, solution, x, &
-                                results%factorisations, status)
+      call build_constraint_rows(data%fem, data%rows, data%line, .false., rows)
+      call solve_by_multipliers(data%assembled, rows, data%line, controls, reporter, solution, x, status)
+      results%factorisations = solution%factorisations
       call stop_phase('iterate')
       if (data%assembled%matrix%failed > 0) call name_failure(data, status)
       if (.not. allocated(x)) return
