@@ -50,8 +50,7 @@ module atrito_build_block
 contains
 
    !> The nodes of a block, or of its copies, and the node sets.
-   subroutine read_block_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_block_card(i_card, model, draft)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -59,17 +58,16 @@ contains
       character(len=:), allocatable :: name
       logical :: ok, named
 
-      call option_text(deck, deck%cards(i_card), 'ELSET', name, named)
-      call read_spec(deck, deck%cards(i_card), spec, ok)
+      call option_text(draft%deck, draft%deck%cards(i_card), 'ELSET', name, named)
+      call read_spec(draft%deck, draft%deck%cards(i_card), spec, ok)
       ok = ok .and. named
-      if (ok) ok = fits_memory(deck, deck%cards(i_card)%place, model, draft, count_nodes(spec), &
-                               product(int(spec%n, lp))*product(int(spec%copies%n, lp)), 'BLOCK')
-      if (ok) call place_copies(deck, i_card, spec, name, model, draft, ok)
+      if (ok) ok = fits_memory(draft%deck%cards(i_card)%place, model, draft, count_nodes(spec), product(int(spec%n, &
+          lp))*product(int(spec%copies%n, lp)), 'BLOCK')
+      if (ok) call place_copies(i_card, spec, name, model, draft, ok)
       if (.not. ok) call spoil_block(draft, name)
    end subroutine read_block_card
 
-   subroutine place_copies(deck, i_card, spec, name, model, draft, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine place_copies(i_card, spec, name, model, draft, ok)
       integer(ip), intent(in) :: i_card
       type(spec_t), intent(in) :: spec
       character(len=*), intent(in) :: name             !< of the *BLOCK
@@ -81,15 +79,14 @@ contains
       ok = .true.
       do j = 1, spec%copies%n(2)
          do i = 1, spec%copies%n(1)
-            if (ok) call place_copy(deck, i_card, spec, name, i, j, model, draft, ok)
+            if (ok) call place_copy(i_card, spec, name, i, j, model, draft, ok)
          end do
       end do
       if (ok .and. spec%copies%given) call put_array_sets(i_card, name, model, draft)
    end subroutine place_copies
 
    !> Copy i, j of a block; the block itself where there are no others.
-   subroutine place_copy(deck, i_card, spec, name, i, j, model, draft, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine place_copy(i_card, spec, name, i, j, model, draft, ok)
       integer(ip), intent(in) :: i_card
       type(spec_t), intent(in) :: spec
       character(len=*), intent(in) :: name             !< of the *BLOCK
@@ -109,7 +106,7 @@ contains
       block%card = i_card
       block%state = spec%state
       block%order = spec%order
-      call place_block_nodes(deck, i_card, shifted, model, draft, block, ok)
+      call place_block_nodes(i_card, shifted, model, draft, block, ok)
       if (.not. ok) return
       call put_block_sets(model, draft, block)
       call add_draft_block(draft, block)
@@ -335,8 +332,7 @@ contains
    end subroutine read_breaks
 
    !> Makes the nodes of a block, sharing those of the set that MERGE= names.
-   subroutine place_block_nodes(deck, i_card, spec, model, draft, block, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine place_block_nodes(i_card, spec, model, draft, block, ok)
       integer(ip), intent(in) :: i_card
       type(spec_t), intent(in) :: spec
       type(model_t), intent(inout) :: model
@@ -351,7 +347,7 @@ contains
       call block_nodes(spec%corners, node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order), &
                        node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order), x)
       allocate (block%nodes(0:n(1), 0:n(2)), source=0_ip)
-      call share_nodes(deck, i_card, x, model, draft, block%nodes, ok)
+      call share_nodes(i_card, x, model, draft, block%nodes, ok)
       if (.not. ok) return
       k = 0
       n_new = 0
@@ -370,8 +366,8 @@ contains
          call note_places(draft%node_place, model%mesh%n_nodes - n_new + 1, model%mesh%n_nodes, -i_card)
          draft%greatest_node = draft%greatest_node + n_new
       else if (.not. ok) then
-         call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the node numbers of the block, which follow the greatest '// &
-                           'so far, are too large', keyword='BLOCK')
+         call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
+                           'the node numbers of the block, which follow the greatest '//'so far, are too large', keyword='BLOCK')
       end if
    end subroutine place_block_nodes
 
@@ -402,8 +398,7 @@ contains
    end function lines_of
 
    !> Finds the nodes on the outline of the block that lie on nodes of the set that MERGE= names.
-   subroutine share_nodes(deck, i_card, x, model, draft, nodes, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine share_nodes(i_card, x, model, draft, nodes, ok)
       integer(ip), intent(in) :: i_card
       real(wp), intent(in) :: x(:, :)                  !< of the block, row by row [L]
       type(model_t), intent(in) :: model
@@ -417,12 +412,12 @@ contains
       logical :: found
 
       ok = .true.
-      call option_text(deck, deck%cards(i_card), 'MERGE', other, found, place)
+      call option_text(draft%deck, draft%deck%cards(i_card), 'MERGE', other, found, place)
       if (.not. found) return
       i_set = find_set(model%node_sets, other)
       ok = i_set > 0
       if (.not. ok) then
-         call report_unknown(deck, draft, place, 'earlier node set', 'E-SET', model%node_sets%names, 'BLOCK')
+         call report_unknown(draft, place, 'earlier node set', 'E-SET', model%node_sets%names, 'BLOCK')
          return
       end if
       width = size(nodes, 1, kind=ip)
@@ -434,10 +429,9 @@ contains
          end do
       end associate
       ok = any(match > 0)
-      if (.not. ok) call report_error(deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
-                                      expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', &
-                                      keyword='BLOCK')
-      if (ok) call warn_of_hanging_nodes(deck, place, nodes)
+      if (.not. ok) call report_error(draft%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
+          expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
+      if (ok) call warn_of_hanging_nodes(draft%deck, place, nodes)
    end subroutine share_nodes
 
    pure function outline_of(width, height) result(outline)
@@ -538,8 +532,7 @@ contains
    end subroutine put_array_sets
 
    !> The elements of the blocks that a card made, if it could.
-   subroutine place_block_elements(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine place_block_elements(i_card, model, draft)
       integer(ip), intent(in) :: i_card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -549,7 +542,7 @@ contains
       b = draft%block_of_card(i_card)
       if (b == 0) return
       do
-         call place_elements_of(deck, b, model, draft)
+         call place_elements_of(b, model, draft)
          if (b == draft%n_blocks) exit
          if (draft%blocks(b + 1)%card /= i_card) exit
          b = b + 1
@@ -558,8 +551,7 @@ contains
                                                           [(k, k=first, model%mesh%n_elements)])
    end subroutine place_block_elements
 
-   subroutine place_elements_of(deck, b, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine place_elements_of(b, model, draft)
       integer(ip), intent(in) :: b                     !< place in draft%blocks
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -576,8 +568,9 @@ contains
             call note_places(draft%element_place, block%first_element, model%mesh%n_elements, -i_card)
             draft%greatest_element = draft%greatest_element + n
          else
-            call report_error(deck, deck%cards(i_card)%place, 'E-ID', 'the element numbers of the block, which follow the '// &
-                              'greatest so far, are too large', keyword='BLOCK')
+            call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
+                              'the element numbers of the block, which follow the '//'greatest so far, are too large', &
+                              keyword='BLOCK')
          end if
          draft%elements_to_come = draft%elements_to_come - n
          call grow_set(model%element_sets, block%name, [(k, k=block%first_element, model%mesh%n_elements)])

@@ -16,31 +16,30 @@ module atrito_build_contact
 contains
 
    !> All interactions and pairs of a model.
-   subroutine build_contact(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine build_contact(model, draft)
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       logical :: given(2)                              ! *SURFACE BEHAVIOR, *FRICTION of the current interaction
       integer(ip) :: i, current, n_pairs
 
-      allocate (model%interactions(count_cards(deck, 'SURFACE INTERACTION')), model%pairs(count_pair_lines(deck)))
+      allocate (model%interactions(count_cards(draft%deck, 'SURFACE INTERACTION')), model%pairs(count_pair_lines(draft%deck)))
       current = 0
       given = .false.
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('SURFACE INTERACTION')
-            call read_interaction_card(deck, deck%cards(i), model, draft, current)
+            call read_interaction_card(draft%deck%cards(i), model, draft, current)
             given = .false.
          case ('SURFACE BEHAVIOR')
-            if (current > 0) call read_behavior_card(deck, deck%cards(i), model%interactions(current), given(1))
+            if (current > 0) call read_behavior_card(draft%deck, draft%deck%cards(i), model%interactions(current), given(1))
          case ('FRICTION')
-            if (current > 0) call read_friction_card(deck, deck%cards(i), model%interactions(current), given(2))
+            if (current > 0) call read_friction_card(draft%deck, draft%deck%cards(i), model%interactions(current), given(2))
          end select
       end do
       model%interactions = model%interactions(:draft%interaction_names%n)
       n_pairs = 0
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(deck, deck%cards(i), model, draft, n_pairs)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(draft%deck%cards(i), model, draft, n_pairs)
       end do
       model%pairs = model%pairs(:n_pairs)
    end subroutine build_contact
@@ -56,8 +55,7 @@ contains
       end do
    end function count_pair_lines
 
-   subroutine read_interaction_card(deck, card, model, draft, current)
-      type(deck_t), intent(in) :: deck
+   subroutine read_interaction_card(card, model, draft, current)
       type(card_t), intent(in) :: card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -67,12 +65,12 @@ contains
       logical :: found
 
       current = 0
-      call option_text(deck, card, 'NAME', interaction%name, found, place)
+      call option_text(draft%deck, card, 'NAME', interaction%name, found, place)
       if (.not. found) return
       current = find_name(draft%interaction_names, interaction%name)
       if (current > 0) then
-         call report_error(deck, place, 'E-TWICE', 'surface interaction '//interaction%name//' is defined twice, first in '// &
-                           place_text(deck, draft%interactions(current), place), &
+         call report_error(draft%deck, place, 'E-TWICE', 'surface interaction '//interaction%name// &
+                           ' is defined twice, first in '// place_text(draft%deck, draft%interactions(current), place), &
                            expected='a name that no other surface interaction has', keyword='SURFACE INTERACTION')
          current = 0
          return
@@ -171,8 +169,7 @@ contains
    end subroutine read_friction_card
 
    !> *CONTACT PAIR: slave, master.
-   subroutine read_pair_card(deck, card, model, draft, n_pairs)
-      type(deck_t), intent(in) :: deck
+   subroutine read_pair_card(card, model, draft, n_pairs)
       type(card_t), intent(in) :: card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -183,35 +180,34 @@ contains
       integer(ip) :: i
       logical :: found
 
-      call option_text(deck, card, 'INTERACTION', name, found, place)
+      call option_text(draft%deck, card, 'INTERACTION', name, found, place)
       pair%interaction = find_name(draft%interaction_names, name)
-      if (found .and. pair%interaction == 0) call report_unknown(deck, draft, place, 'surface interaction', 'E-INTERACTION', &
-                                                                 draft%interaction_names, 'CONTACT PAIR')
-      pair%quadrature_given = has_option(deck, card, 'QUADRATURE')
+      if (found .and. pair%interaction == 0) call report_unknown(draft, place, 'surface interaction', 'E-INTERACTION', &
+          draft%interaction_names, 'CONTACT PAIR')
+      pair%quadrature_given = has_option(draft%deck, card, 'QUADRATURE')
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (.not. deck%lines(i)%ok) cycle
-         call find_surface(deck, deck%lines(i), 1_ip, draft, pair%slave)
-         call find_surface(deck, deck%lines(i), 2_ip, draft, pair%master)
+         if (.not. draft%deck%lines(i)%ok) cycle
+         call find_surface(draft%deck%lines(i), 1_ip, draft, pair%slave)
+         call find_surface(draft%deck%lines(i), 2_ip, draft, pair%master)
          draft%pairs_unsure = draft%pairs_unsure .or. pair%interaction == 0
          if (min(pair%interaction, pair%slave, pair%master) == 0) cycle
          n_pairs = n_pairs + 1
          model%pairs(n_pairs) = pair
-         call keep_token(draft%slaves, n_pairs, line_item(deck, deck%lines(i), 1_ip))
-         call keep_token(draft%masters, n_pairs, line_item(deck, deck%lines(i), 2_ip))
+         call keep_token(draft%slaves, n_pairs, line_item(draft%deck, draft%deck%lines(i), 1_ip))
+         call keep_token(draft%masters, n_pairs, line_item(draft%deck, draft%deck%lines(i), 2_ip))
       end do
    end subroutine read_pair_card
 
-   subroutine find_surface(deck, line, item, draft, surface)
-      type(deck_t), intent(in) :: deck
+   subroutine find_surface(line, item, draft, surface)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: item
       type(draft_t), intent(in) :: draft
       integer(ip), intent(out) :: surface              !< place; 0: unknown, reported
       type(token_t) :: token
 
-      token = line_item(deck, line, item)
-      surface = find_name(draft%surface_names, token_text(deck, token))
-      if (surface == 0) call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'CONTACT PAIR')
+      token = line_item(draft%deck, line, item)
+      surface = find_name(draft%surface_names, token_text(draft%deck, token))
+      if (surface == 0) call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'CONTACT PAIR')
    end subroutine find_surface
 
 end module atrito_build_contact

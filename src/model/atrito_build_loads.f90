@@ -23,23 +23,22 @@ module atrito_build_loads
 contains
 
    !> All loads of the step.
-   subroutine build_loads(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine build_loads(model, draft)
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
       integer(ip) :: i, k
 
-      do i = 1, deck%n_cards
-         associate (card => deck%cards(i))
+      do i = 1, draft%deck%n_cards
+         associate (card => draft%deck%cards(i))
             do k = card%first_line, card%first_line + card%n_lines - 1
-               if (.not. deck%lines(k)%ok) cycle
+               if (.not. draft%deck%lines(k)%ok) cycle
                select case (keyword_name(card))
                case ('CLOAD')
-                  call read_cload_line(deck, deck%lines(k), model, draft)
+                  call read_cload_line(draft%deck%lines(k), model, draft)
                case ('DLOAD')
-                  call read_dload_line(deck, deck%lines(k), model, draft)
+                  call read_dload_line(draft%deck%lines(k), model, draft)
                case ('DSLOAD')
-                  call read_dsload_line(deck, deck%lines(k), model, draft)
+                  call read_dsload_line(draft%deck%lines(k), model, draft)
                case default
                   exit
                end select
@@ -60,8 +59,7 @@ contains
    end function in_no_element
 
    !> Node or set, dof, force.
-   subroutine read_cload_line(deck, line, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_cload_line(line, model, draft)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
@@ -71,25 +69,25 @@ contains
       integer(ip) :: dof, i
       logical :: ok(3)
 
-      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
+      call find_nodes(model, draft, draft%deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
       ! a concentrated force stays where the deck puts it
       if (is_refined(draft%refinement)) nodes = pack(nodes, nodes <= draft%refinement%n_nodes)
-      call get_integer(deck, line_item(deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
-      call get_real(deck, line_item(deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
+      call get_integer(draft%deck, line_item(draft%deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
+      call get_real(draft%deck, line_item(draft%deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
       if (.not. all(ok(2:))) return
       if (dof > 2 .and. dof <= LAST_DOF .and. .not. abs(force) > 0.0_wp) then
-         call report_note(deck, line_item(deck, line, 2_ip), 'N-DOF', 'dof '//to_text(dof)// &
+         call report_note(draft%deck, line_item(draft%deck, line, 2_ip), 'N-DOF', 'dof '//to_text(dof)// &
                           ' does not exist in the plane; its force is 0', keyword='CLOAD')
          return
       end if
       if (dof < 1 .or. dof > 2) then
-         call report_error(deck, line_item(deck, line, 2_ip), 'E-DOF', 'dof '//to_text(dof)//' does not exist in the plane', &
-                           expected=WHAT, keyword='CLOAD')
+         call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-DOF', 'dof '//to_text(dof)// &
+                           ' does not exist in the plane', expected=WHAT, keyword='CLOAD')
          return
       end if
       if (.not. ok(1)) return
       if (any(in_no_element(draft, nodes)) .and. abs(force) > 0.0_wp) then
-         call report_error(deck, line_item(deck, line, 1_ip), 'E-NODE', 'node '// &
+         call report_error(draft%deck, line_item(draft%deck, line, 1_ip), 'E-NODE', 'node '// &
                            ids_text(pack(model%mesh%node_id(nodes), in_no_element(draft, nodes)))// &
                            ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
          return
@@ -97,12 +95,11 @@ contains
       do i = 1, size(nodes, kind=ip)
          call add_nodal_value(model%node_loads, nodes(i), dof, force)
       end do
-      call note_supported(deck, line, model, draft, nodes, dof)
+      call note_supported(line, model, draft, nodes, dof)
    end subroutine read_cload_line
 
    !> A force on a prescribed dof moves nothing.
-   subroutine note_supported(deck, line, model, draft, nodes, dof)
-      type(deck_t), intent(in) :: deck
+   subroutine note_supported(line, model, draft, nodes, dof)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
@@ -110,14 +107,13 @@ contains
       logical :: held(size(nodes))
 
       held = draft%dof_entry(dof, nodes) > 0
-      if (any(held)) call report_note(deck, line_item(deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)//' of node '// &
-                                      ids_text(pack(model%mesh%node_id(nodes), held))// &
-                                      ' is prescribed: the force goes into the reaction', keyword='CLOAD')
+      if (any(held)) call report_note(draft%deck, line_item(draft%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
+          ' of node '// ids_text(pack(model%mesh%node_id(nodes), held))//' is prescribed: the force goes into the reaction', &
+          keyword='CLOAD')
    end subroutine note_supported
 
    !> Element or set, label, magnitude[, direction].
-   subroutine read_dload_line(deck, line, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_dload_line(line, model, draft)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
@@ -126,19 +122,19 @@ contains
       real(wp) :: magnitude
       logical :: ok, good
 
-      call find_elements(deck, model, draft, deck%tokens(line%first_token), elements, ok, 'DLOAD')
-      label = upper_case(token_text(deck, line_item(deck, line, 2_ip)))
-      call get_real(deck, line_item(deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
-      ok = ok .and. good .and. has_no_rest(deck, line, label)
+      call find_elements(model, draft, draft%deck%tokens(line%first_token), elements, ok, 'DLOAD')
+      label = upper_case(token_text(draft%deck, line_item(draft%deck, line, 2_ip)))
+      call get_real(draft%deck, line_item(draft%deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
+      ok = ok .and. good .and. has_no_rest(draft%deck, line, label)
       select case (label)
       case ('P1', 'P2', 'P3', 'P4')
-         if (ok) call press_elements(deck, line, model, draft, elements, label, magnitude)
+         if (ok) call press_elements(line, model, draft, elements, label, magnitude)
       case ('BX')
          if (ok) call pull_elements(model, elements, [magnitude, 0.0_wp])
       case ('BY')
          if (ok) call pull_elements(model, elements, [0.0_wp, magnitude])
       case ('GRAV')
-         call weigh_elements(deck, line, model, draft, elements, magnitude, ok)
+         call weigh_elements(line, model, draft, elements, magnitude, ok)
       end select
    end subroutine read_dload_line
 
@@ -168,8 +164,7 @@ contains
       end select
    end function magnitude_of
 
-   subroutine press_elements(deck, line, model, draft, elements, label, pressure)
-      type(deck_t), intent(in) :: deck
+   subroutine press_elements(line, model, draft, elements, label, pressure)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
@@ -188,9 +183,9 @@ contains
             call add_number(inside, model%mesh%element_id(elements(i)))
          end if
       end do
-      if (inside%n > 0) call report_warning(deck, line_item(deck, line, 2_ip), 'W-FACE', 'the pressure acts inside the mesh, '// &
-                                            'too, on face '//label(2:2)//' of element '//ids_text(numbers_of(inside)), &
-                                            expected='elements on the outline of the body', keyword='DLOAD')
+      if (inside%n > 0) call report_warning(draft%deck, line_item(draft%deck, line, 2_ip), 'W-FACE', &
+          'the pressure acts inside the mesh, '//'too, on face '//label(2:2)//' of element '//ids_text(numbers_of(inside)), &
+          expected='elements on the outline of the body', keyword='DLOAD')
    end subroutine press_elements
 
    pure subroutine pull_elements(model, elements, force)
@@ -205,8 +200,7 @@ contains
    end subroutine pull_elements
 
    !> GRAV: density times acceleration, along a direction of any length.
-   subroutine weigh_elements(deck, line, model, draft, elements, acceleration, good)
-      type(deck_t), intent(in) :: deck
+   subroutine weigh_elements(line, model, draft, elements, acceleration, good)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
@@ -219,19 +213,19 @@ contains
       logical :: ok(3)
 
       do i = 1, 3
-         call get_real(deck, line_item(deck, line, 3 + i), WHAT, direction(i), ok(i), 0.0_wp, 'DLOAD')
+         call get_real(draft%deck, line_item(draft%deck, line, 3 + i), WHAT, direction(i), ok(i), 0.0_wp, 'DLOAD')
       end do
       if (.not. all(ok)) return
       if (abs(direction(3)) > 0.0_wp) then
-         call report_error(deck, line_item(deck, line, 6_ip), 'E-VALUE', 'the scene is plane: gz is not 0', expected='gz = 0', &
-                           keyword='DLOAD')
+         call report_error(draft%deck, line_item(draft%deck, line, 6_ip), 'E-VALUE', 'the scene is plane: gz is not 0', &
+                           expected='gz = 0', keyword='DLOAD')
       else if (.not. maxval(abs(direction)) > 0.0_wp) then
-         call report_error(deck, line_item(deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', 'gravity has no direction', &
-                           expected=WHAT, keyword='DLOAD')
+         call report_error(draft%deck, line_item(draft%deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', &
+                           'gravity has no direction', expected=WHAT, keyword='DLOAD')
       else if (good) then
          direction = direction/maxval(abs(direction))
          direction = direction/norm2(direction)
-         call need_density(deck, line, model, draft, elements)
+         call need_density(line, model, draft, elements)
          do i = 1, size(elements, kind=ip)
             density = density_of(model, elements(i))
             call add_element_load(model%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction(:2))
@@ -247,8 +241,7 @@ contains
       if (model%section_of(element) > 0) density = model%materials(model%sections(model%section_of(element))%material)%density
    end function density_of
 
-   subroutine need_density(deck, line, model, draft, elements)
-      type(deck_t), intent(in) :: deck
+   subroutine need_density(line, model, draft, elements)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
@@ -259,15 +252,15 @@ contains
          if (model%section_of(elements(i)) <= 0) cycle
          material = model%sections(model%section_of(elements(i)))%material
          if (model%materials(material)%density > 0.0_wp .or. is_spoiled(draft, model%materials(material)%name)) cycle
-         call report_error(deck, line_item(deck, line, 2_ip), 'E-DENSITY', 'material '//model%materials(material)%name// &
-                           ' has no density', expected='*DENSITY in this material [F T^2/L^4]', keyword='DENSITY')
+         call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-DENSITY', 'material '// &
+                           model%materials(material)%name//' has no density', expected='*DENSITY in this material [F T^2/L^4]', &
+                           keyword='DENSITY')
          return
       end do
    end subroutine need_density
 
    !> Surface, P, pressure.
-   subroutine read_dsload_line(deck, line, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_dsload_line(line, model, draft)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
@@ -276,20 +269,22 @@ contains
       integer(ip) :: i, s
       logical :: ok
 
-      token = deck%tokens(line%first_token)
-      call get_real(deck, line_item(deck, line, 3_ip), magnitude_of('P'), pressure, ok, keyword='DSLOAD')
-      s = find_name(draft%surface_names, token_text(deck, token))
+      token = draft%deck%tokens(line%first_token)
+      call get_real(draft%deck, line_item(draft%deck, line, 3_ip), magnitude_of('P'), pressure, ok, keyword='DSLOAD')
+      s = find_name(draft%surface_names, token_text(draft%deck, token))
       if (s == 0) then
-         call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'DSLOAD')
+         call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'DSLOAD')
          return
       end if
       associate (surface => model%surfaces(s))
          if (surface%kind /= SURFACE_ELEMENTS) then
-            call report_error(deck, token, 'E-SURFACE', 'surface '//surface%name//' is a drawn line, which carries no pressure', &
-                              expected='a surface of TYPE=ELEMENT', keyword='DSLOAD')
+            call report_error(draft%deck, token, 'E-SURFACE', 'surface '//surface%name// &
+                              ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT', &
+                              keyword='DSLOAD')
          else if (surface%faces%n == 0 .and. .not. is_spoiled(draft, surface%name)) then
-            call report_error(deck, token, 'E-SURFACE', 'surface '//surface%name//' has no faces: others join it everywhere', &
-                              expected='a surface on the outline of a body', keyword='DSLOAD')
+            call report_error(draft%deck, token, 'E-SURFACE', 'surface '//surface%name// &
+                              ' has no faces: others join it everywhere', expected='a surface on the outline of a body', &
+                              keyword='DSLOAD')
          end if
          if (.not. ok) return
          do i = 1, surface%faces%n

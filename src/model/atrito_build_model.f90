@@ -68,7 +68,7 @@ contains
    end subroutine build_model
 
    subroutine build_once(deck, levels, shape, memory, model)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in), target :: deck
       integer(ip), intent(in) :: levels, shape
       integer(lp), intent(in) :: memory
       type(model_t), intent(out) :: model
@@ -81,27 +81,27 @@ contains
       draft%memory = memory
       call take_titles(deck, model)
       call take_parameters(deck, model)
-      call build_nodes(deck, model, draft)
-      call build_elements(deck, model, draft)
+      call build_nodes(model, draft)
+      call build_elements(model, draft)
       call trim_mesh(model%mesh)
       draft%around = list_node_elements(model%mesh)
-      if (levels > 0 .or. shape > 0) call refine_model(deck, levels, shape, model, draft)
-      call build_surfaces(deck, model, draft)
-      call build_materials(deck, model, draft)
-      call build_contact(deck, model, draft)
-      call read_contact_rules(deck, model, draft, rules)
-      call build_supports(deck, model, draft)
-      call build_loads(deck, model, draft)
-      call build_requests(deck, model, draft)
-      call check_mesh(deck, model, draft)
+      if (levels > 0 .or. shape > 0) call refine_model(levels, shape, model, draft)
+      call build_surfaces(model, draft)
+      call build_materials(model, draft)
+      call build_contact(model, draft)
+      call read_contact_rules(model, draft, rules)
+      call build_supports(model, draft)
+      call build_loads(model, draft)
+      call build_requests(model, draft)
+      call check_mesh(model, draft)
       call order_slaves(model, chains)
-      call check_surfaces_of_pairs(deck, model, draft, chains)
+      call check_surfaces_of_pairs(model, draft, chains)
       if (has_errors()) return
-      call find_contact(deck, rules, model, draft)
-      call note_unused_interactions(deck, model, draft)
+      call find_contact(rules, model, draft)
+      call note_unused_interactions(model, draft)
       call pair_all(model, points)
       call move_alloc(points, model%points)
-      call check_points_of_pairs(deck, model, draft)
+      call check_points_of_pairs(model, draft)
    end subroutine build_once
 
    subroutine take_titles(deck, model)
@@ -140,56 +140,54 @@ contains
    end subroutine take_parameters
 
    !> Nodes, and the node sets.
-   subroutine build_nodes(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine build_nodes(model, draft)
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('NODE')
-            call read_node_card(deck, i, model, draft)
+            call read_node_card(i, model, draft)
          case ('NGEN')
-            call read_ngen_card(deck, i, model, draft)
+            call read_ngen_card(i, model, draft)
          case ('NFILL')
-            call read_nfill_card(deck, i, model, draft)
+            call read_nfill_card(i, model, draft)
          case ('NCOPY')
-            call read_ncopy_card(deck, i, model, draft)
+            call read_ncopy_card(i, model, draft)
          case ('BLOCK')
-            call read_block_card(deck, i, model, draft)
+            call read_block_card(i, model, draft)
          case ('NSET')
-            call try_nset_card(deck, i, model, draft)
+            call try_nset_card(i, model, draft)
          end select
       end do
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
-         call read_nset_card(deck, i, model, draft)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
+         call read_nset_card(i, model, draft)
       end do
    end subroutine build_nodes
 
    !> Elements, and the element sets.
-   subroutine build_elements(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine build_elements(model, draft)
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('ELEMENT')
-            call read_element_card(deck, i, model, draft)
+            call read_element_card(i, model, draft)
          case ('ELGEN')
-            call read_elgen_card(deck, i, model, draft)
+            call read_elgen_card(i, model, draft)
          case ('ELCOPY')
-            call read_elcopy_card(deck, i, model, draft)
+            call read_elcopy_card(i, model, draft)
          case ('BLOCK')
-            call place_block_elements(deck, i, model, draft)
+            call place_block_elements(i, model, draft)
          end select
       end do
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
-         call read_elset_card(deck, i, model, draft)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
+         call read_elset_card(i, model, draft)
       end do
    end subroutine build_elements
 

@@ -22,22 +22,19 @@ module atrito_build_requests
 contains
 
    !> Controls and requests of the step.
-   subroutine build_requests(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine build_requests(model, draft)
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
       integer(ip) :: i
 
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('CONTROLS')
-            call read_controls_card(deck, deck%cards(i), model%controls)
+            call read_controls_card(draft%deck, draft%deck%cards(i), model%controls)
          case ('NODE PRINT')
-            call read_node_card(deck, deck%cards(i), model%mesh, model%node_sets, draft, &
-                                model%requests%requested_t)
+            call read_node_card(draft%deck%cards(i), model%mesh, model%node_sets, draft, model%requests%requested_t)
          case ('EL PRINT')
-            call read_el_card(deck, deck%cards(i), model%mesh, model%element_sets, draft, &
-                              model%requests%requested_t)
+            call read_el_card(draft%deck%cards(i), model%mesh, model%element_sets, draft, model%requests%requested_t)
          case ('CONTACT PRINT')
             model%requests%contact = .true.
          case ('BODY PRINT')
@@ -45,16 +42,14 @@ contains
          case ('JOINT PRINT')
             model%requests%joints = .true.
          case ('NODE FILE')
-            call read_node_card(deck, deck%cards(i), model%mesh, model%node_sets, draft, &
-                                model%requests%fields)
+            call read_node_card(draft%deck%cards(i), model%mesh, model%node_sets, draft, model%requests%fields)
          case ('EL FILE')
-            call read_el_card(deck, deck%cards(i), model%mesh, model%element_sets, draft, &
-                              model%requests%fields)
+            call read_el_card(draft%deck%cards(i), model%mesh, model%element_sets, draft, model%requests%fields)
          case ('CONTACT FILE')
             model%requests%fields%contact = .true.
          end select
       end do
-      call check_relaxation(deck, model%controls)
+      call check_relaxation(draft%deck, model%controls)
    end subroutine build_requests
 
    subroutine read_controls_card(deck, card, controls)
@@ -128,8 +123,7 @@ contains
    end subroutine check_relaxation
 
    !> *NODE PRINT, *NODE FILE
-   subroutine read_node_card(deck, card, mesh, sets, draft, requested)
-      type(deck_t), intent(in) :: deck
+   subroutine read_node_card(card, mesh, sets, draft, requested)
       type(card_t), intent(in) :: card
       type(mesh_t), intent(in) :: mesh
       type(set_list_t), intent(in) :: sets
@@ -138,15 +132,14 @@ contains
       logical, allocatable :: chosen(:)
       logical :: ok
 
-      call choose_members(deck, card, 'NSET', 'node set', sets, mesh%n_nodes, draft, chosen, ok)
+      call choose_members(card, 'NSET', 'node set', sets, mesh%n_nodes, draft, chosen, ok)
       if (.not. ok) return
-      if (asks_for(deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
-      if (asks_for(deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
+      if (asks_for(draft%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
+      if (asks_for(draft%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
    end subroutine read_node_card
 
    !> *EL PRINT, *EL FILE
-   subroutine read_el_card(deck, card, mesh, sets, draft, requested)
-      type(deck_t), intent(in) :: deck
+   subroutine read_el_card(card, mesh, sets, draft, requested)
       type(card_t), intent(in) :: card
       type(mesh_t), intent(in) :: mesh
       type(set_list_t), intent(in) :: sets
@@ -155,9 +148,9 @@ contains
       logical, allocatable :: chosen(:)
       logical :: ok
 
-      call choose_members(deck, card, 'ELSET', 'element set', sets, mesh%n_elements, draft, chosen, ok)
+      call choose_members(card, 'ELSET', 'element set', sets, mesh%n_elements, draft, chosen, ok)
       if (.not. ok) return
-      if (asks_for(deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
+      if (asks_for(draft%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
    end subroutine read_el_card
 
    !> Adds members to those asked for before.
@@ -190,8 +183,7 @@ contains
    end subroutine refuse_field_files
 
    !> The members of the set that an option names; all without it.
-   subroutine choose_members(deck, card, option, noun, sets, n, draft, chosen, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine choose_members(card, option, noun, sets, n, draft, chosen, ok)
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: option, noun
       type(set_list_t), intent(in) :: sets
@@ -204,7 +196,7 @@ contains
       integer(ip) :: i
       logical :: found
 
-      call option_text(deck, card, option, name, found, place)
+      call option_text(draft%deck, card, option, name, found, place)
       allocate (chosen(n), source=.not. found)
       ok = .true.
       if (.not. found) return
@@ -213,7 +205,7 @@ contains
       if (ok) then
          chosen(sets%sets(i)%members) = .true.
       else
-         call report_unknown(deck, draft, place, noun, 'E-SET', sets%names, keyword_name(card))
+         call report_unknown(draft, place, noun, 'E-SET', sets%names, keyword_name(card))
       end if
    end subroutine choose_members
 

@@ -21,26 +21,24 @@ contains
 
    !> Reads a *NSET when all of its members are known by now, so that a *NFILL or *BLOCK below can use it. One with members that
    !> follow later is left to read_nset_card.
-   subroutine try_nset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine try_nset_card(i_card, model, draft)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
 
-      if (.not. members_are_known(deck, deck%cards(i_card), model%mesh%node_map, model%node_sets)) return
-      call read_nset_card(deck, i_card, model, draft)
+      if (.not. members_are_known(draft%deck, draft%deck%cards(i_card), model%mesh%node_map, model%node_sets)) return
+      call read_nset_card(i_card, model, draft)
       draft%card_done(i_card) = .true.
    end subroutine try_nset_card
 
    !> The same of a *ELSET, for a *ELCOPY below.
-   subroutine try_elset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine try_elset_card(i_card, model, draft)
       integer(ip), intent(in) :: i_card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
 
-      if (.not. members_are_known(deck, deck%cards(i_card), model%mesh%element_map, model%element_sets)) return
-      call read_elset_card(deck, i_card, model, draft)
+      if (.not. members_are_known(draft%deck, draft%deck%cards(i_card), model%mesh%element_map, model%element_sets)) return
+      call read_elset_card(i_card, model, draft)
       draft%card_done(i_card) = .true.
    end subroutine try_elset_card
 
@@ -106,8 +104,7 @@ contains
    end function ranges_are_known
 
    !> *NSET.
-   subroutine read_nset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_nset_card(i_card, model, draft)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -116,23 +113,22 @@ contains
       integer(ip) :: i
       logical :: found
 
-      associate (card => deck%cards(i_card))
-         call option_text(deck, card, 'NSET', name, found)
+      associate (card => draft%deck%cards(i_card))
+         call option_text(draft%deck, card, 'NSET', name, found)
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. deck%lines(i)%ok) cycle
-            if (has_option(deck, card, 'GENERATE')) then
-               call read_range(deck, deck%lines(i), model%mesh%node_map, draft%spoiled_nodes, 'node', 'NSET', members)
+            if (.not. draft%deck%lines(i)%ok) cycle
+            if (has_option(draft%deck, card, 'GENERATE')) then
+               call read_range(draft%deck, draft%deck%lines(i), model%mesh%node_map, draft%spoiled_nodes, 'node', 'NSET', members)
             else
-               call read_node_items(deck, deck%lines(i), i_card, model, draft, members)
+               call read_node_items(draft%deck%lines(i), i_card, model, draft, members)
             end if
          end do
          call put_node_set(model, draft, i_card, name, numbers_of(members))
       end associate
    end subroutine read_nset_card
 
-   subroutine read_node_items(deck, line, i_card, model, draft, members)
-      type(deck_t), intent(in) :: deck
+   subroutine read_node_items(line, i_card, model, draft, members)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
       type(model_t), intent(in) :: model
@@ -144,16 +140,15 @@ contains
       logical :: ok
 
       do i = 1, line%n_tokens
-         token = line_item(deck, line, i)
-         call find_nodes(deck, model, draft, token, found, ok, 'NSET')
-         if (ok) ok = is_earlier(deck, token, i_card, model, draft)
+         token = line_item(draft%deck, line, i)
+         call find_nodes(model, draft, token, found, ok, 'NSET')
+         if (ok) ok = is_earlier(token, i_card, model, draft)
          if (ok) call add_numbers(members, found)
       end do
    end subroutine read_node_items
 
    !> A set in a list must be an earlier one: it could not be complete otherwise.
-   logical function is_earlier(deck, token, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   logical function is_earlier(token, i_card, model, draft)
       type(token_t), intent(in) :: token
       integer(ip), intent(in) :: i_card
       type(model_t), intent(in) :: model
@@ -161,18 +156,17 @@ contains
       integer(ip) :: i
 
       is_earlier = .true.
-      if (is_id_token(deck, token)) return
-      i = find_set(model%node_sets, token_text(deck, token))
-      if (keyword_name(deck%cards(draft%set_card(i))) /= 'NSET') return
+      if (is_id_token(draft%deck, token)) return
+      i = find_set(model%node_sets, token_text(draft%deck, token))
+      if (keyword_name(draft%deck%cards(draft%set_card(i))) /= 'NSET') return
       is_earlier = draft%set_card(i) < i_card
-      if (.not. is_earlier) call report_error(deck, token, 'E-SET', 'node set '//token_text(deck, token)// &
-                                           ' is defined later, in '//place_text(deck, deck%cards(draft%set_card(i))%place, token), &
-                                              expected='a node set that is defined above', keyword='NSET')
+      if (.not. is_earlier) call report_error(draft%deck, token, 'E-SET', 'node set '//token_text(draft%deck, token)// &
+          ' is defined later, in '//place_text(draft%deck, draft%deck%cards(draft%set_card(i))%place, token), &
+          expected='a node set that is defined above', keyword='NSET')
    end function is_earlier
 
    !> *ELSET.
-   subroutine read_elset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_elset_card(i_card, model, draft)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
@@ -181,23 +175,23 @@ contains
       integer(ip) :: i
       logical :: found
 
-      associate (card => deck%cards(i_card))
-         call option_text(deck, card, 'ELSET', name, found)
+      associate (card => draft%deck%cards(i_card))
+         call option_text(draft%deck, card, 'ELSET', name, found)
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. deck%lines(i)%ok) cycle
-            if (has_option(deck, card, 'GENERATE')) then
-               call read_range(deck, deck%lines(i), model%mesh%element_map, draft%spoiled_elements, 'element', 'ELSET', members)
+            if (.not. draft%deck%lines(i)%ok) cycle
+            if (has_option(draft%deck, card, 'GENERATE')) then
+               call read_range(draft%deck, draft%deck%lines(i), model%mesh%element_map, draft%spoiled_elements, 'element', &
+                               'ELSET', members)
             else
-               call read_element_items(deck, deck%lines(i), model, draft, members)
+               call read_element_items(draft%deck%lines(i), model, draft, members)
             end if
          end do
          call grow_set(model%element_sets, name, numbers_of(members))
       end associate
    end subroutine read_elset_card
 
-   subroutine read_element_items(deck, line, model, draft, members)
-      type(deck_t), intent(in) :: deck
+   subroutine read_element_items(line, model, draft, members)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
@@ -208,8 +202,8 @@ contains
       logical :: ok
 
       do i = 1, line%n_tokens
-         token = line_item(deck, line, i)
-         call find_elements(deck, model, draft, token, found, ok, 'ELSET')
+         token = line_item(draft%deck, line, i)
+         call find_elements(model, draft, token, found, ok, 'ELSET')
          if (ok) call add_numbers(members, found)
       end do
    end subroutine read_element_items

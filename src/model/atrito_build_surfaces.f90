@@ -26,30 +26,28 @@ module atrito_build_surfaces
 contains
 
    !> All surfaces of a model.
-   subroutine build_surfaces(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine build_surfaces(model, draft)
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
       ! each block may have four sides of its own, and those of all copies are of their *BLOCK
-      allocate (model%surfaces((draft%n_blocks + count_cards(deck, 'BLOCK'))*size(BLOCK_SIDES, kind=ip) + &
-                               count_cards(deck, 'SURFACE')))
+      allocate (model%surfaces((draft%n_blocks + count_cards(draft%deck, 'BLOCK'))*size(BLOCK_SIDES, &
+                kind=ip) + count_cards(draft%deck, 'SURFACE')))
       do i = 1, draft%n_blocks
-         call put_block_surfaces(deck, draft%blocks(i), model, draft)
+         call put_block_surfaces(draft%blocks(i), model, draft)
       end do
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'SURFACE') call read_surface_card(deck, deck%cards(i), model, draft)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) == 'SURFACE') call read_surface_card(draft%deck%cards(i), model, draft)
       end do
       if (draft%surface_names%n < size(model%surfaces)) model%surfaces = model%surfaces(:draft%surface_names%n)
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(deck, deck%cards(i), model, draft)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(draft%deck%cards(i), model, draft)
       end do
    end subroutine build_surfaces
 
    !> The four sides of a block, and its part of the sides of all copies; faces that another block has joined are left out.
-   subroutine put_block_surfaces(deck, block, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine put_block_surfaces(block, model, draft)
       type(block_t), intent(in) :: block
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -82,7 +80,7 @@ contains
 
          s = find_name(draft%surface_names, name)
          if (s == 0) then
-            call add_surface(model, draft, surface_t(name=name), deck%cards(block%card)%place)
+            call add_surface(model, draft, surface_t(name=name), draft%deck%cards(block%card)%place)
             s = draft%surface_names%n
          end if
          do k = 1, size(pieces, kind=ip)
@@ -105,8 +103,7 @@ contains
    end subroutine add_surface
 
    !> *SURFACE.
-   subroutine read_surface_card(deck, card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_surface_card(card, model, draft)
       type(card_t), intent(in) :: card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -115,30 +112,29 @@ contains
       integer(ip) :: i
       logical :: found, ok
 
-      call option_text(deck, card, 'NAME', surface%name, found, place)
+      call option_text(draft%deck, card, 'NAME', surface%name, found, place)
       if (.not. found) return
       i = find_name(draft%surface_names, surface%name)
       if (i > 0) then
-         call report_error(deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
-                           place_text(deck, draft%surfaces(i), place), expected='a name that no other surface has', &
+         call report_error(draft%deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
+                           place_text(draft%deck, draft%surfaces(i), place), expected='a name that no other surface has', &
                            keyword='SURFACE')
          return
       end if
       ok = card%ok
       if (.not. ok) then
          ! the reader has not checked the words of its lines
-      else if (option_word(deck, card, 'TYPE') == 'ELEMENT') then
-         call read_faces(deck, card, model, draft, surface%faces, ok)
+      else if (option_word(draft%deck, card, 'TYPE') == 'ELEMENT') then
+         call read_faces(card, model, draft, surface%faces, ok)
       else
          surface%kind = SURFACE_SEGMENTS
-         call read_segments(deck, card, surface, ok)
+         call read_segments(draft%deck, card, surface, ok)
       end if
       if (.not. ok) call spoil_name(draft, surface%name)
       call add_surface(model, draft, surface, place)
    end subroutine read_surface_card
 
-   subroutine read_faces(deck, card, model, draft, faces, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine read_faces(card, model, draft, faces, ok)
       type(card_t), intent(in) :: card
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
@@ -150,9 +146,9 @@ contains
 
       ok = .true.
       do i = card%first_line, card%first_line + card%n_lines - 1
-         good = deck%lines(i)%ok
-         if (good) call find_elements(deck, model, draft, line_item(deck, deck%lines(i), 1_ip), elements, good, 'SURFACE')
-         if (good) call take_faces(deck, deck%lines(i), model, draft, elements, faces, good)
+         good = draft%deck%lines(i)%ok
+         if (good) call find_elements(model, draft, line_item(draft%deck, draft%deck%lines(i), 1_ip), elements, good, 'SURFACE')
+         if (good) call take_faces(draft%deck%lines(i), model, draft, elements, faces, good)
          ok = ok .and. good
       end do
       call keep_once(faces)
@@ -174,8 +170,7 @@ contains
    end subroutine keep_once
 
    !> The face of each element that a line names, or all their outer faces.
-   subroutine take_faces(deck, line, model, draft, elements, faces, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine take_faces(line, model, draft, elements, faces, ok)
       type(data_line_t), intent(in) :: line
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
@@ -188,7 +183,7 @@ contains
       integer(ip) :: i, face
       integer :: outcome
 
-      word = token_text(deck, line_item(deck, line, 2_ip))
+      word = token_text(draft%deck, line_item(draft%deck, line, 2_ip))
       if (len(word) == 0) then
          outer = outer_faces(model%mesh, draft%around, elements)
          do i = 1, outer%n
@@ -208,9 +203,9 @@ contains
       end do
       ok = inside%n == 0
       if (ok) return
-      call report_error(deck, line_item(deck, line, 2_ip), 'E-FACE', 'face '//word//' lies inside the mesh, of element '// &
-                        ids_text(numbers_of(inside)), expected='faces on the outline of the body; without a face, all of them', &
-                        keyword='SURFACE')
+      call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-FACE', 'face '//word// &
+                        ' lies inside the mesh, of element '// ids_text(numbers_of(inside)), &
+                        expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
    end subroutine take_faces
 
    !> START, LINE and CIRCL.
@@ -325,8 +320,7 @@ contains
    end function has_length
 
    !> *RIGID BODY.
-   subroutine read_rigid_body_card(deck, card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_rigid_body_card(card, model, draft)
       type(card_t), intent(in) :: card
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -335,13 +329,13 @@ contains
       integer(ip) :: i
       logical :: found
 
-      call option_text(deck, card, 'ANALYTICAL SURFACE', name, found, place)
+      call option_text(draft%deck, card, 'ANALYTICAL SURFACE', name, found, place)
       if (.not. found) return
       i = find_name(draft%surface_names, name)
       if (i == 0) then
-         call report_unknown(deck, draft, place, 'surface', 'E-SURFACE', draft%surface_names, 'RIGID BODY')
+         call report_unknown(draft, place, 'surface', 'E-SURFACE', draft%surface_names, 'RIGID BODY')
       else if (model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
-         call report_error(deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
+         call report_error(draft%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
       else
          model%surfaces(i)%is_rigid_body = .true.

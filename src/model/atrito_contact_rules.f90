@@ -39,28 +39,27 @@ module atrito_contact_rules
 contains
 
    !> All rules of a deck.
-   subroutine read_contact_rules(deck, model, draft, rules)
-      type(deck_t), intent(in) :: deck
+   subroutine read_contact_rules(model, draft, rules)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(contact_rules_t), intent(out) :: rules
       integer(ip) :: i
 
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('CONTACT')
-            call read_contact_card(deck, deck%cards(i), rules)
+            call read_contact_card(draft%deck, draft%deck%cards(i), rules)
          case ('CONTACT INCLUSIONS')
-            if (has_option(deck, deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
-            call read_lines(deck, deck%cards(i), model, draft, rules%included)
+            if (has_option(draft%deck, draft%deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
+            call read_lines(draft%deck%cards(i), model, draft, rules%included)
          case ('CONTACT EXCLUSIONS')
-            call read_lines(deck, deck%cards(i), model, draft, rules%excluded)
+            call read_lines(draft%deck%cards(i), model, draft, rules%excluded)
          case ('CONTACT PROPERTY ASSIGNMENT')
-            call read_lines(deck, deck%cards(i), model, draft, rules%assigned)
+            call read_lines(draft%deck%cards(i), model, draft, rules%assigned)
          end select
       end do
       if (.not. rules%given .or. rules%included%n > 0 .or. has_errors()) return
-      call report_error(deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
+      call report_error(draft%deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
                         expected='*CONTACT INCLUSIONS, ALL EXTERIOR, or lines of surfaces', keyword='CONTACT INCLUSIONS')
    end subroutine read_contact_rules
 
@@ -88,8 +87,7 @@ contains
    end subroutine read_contact_card
 
    !> Lines of two surfaces, and of an interaction where one belongs.
-   subroutine read_lines(deck, card, model, draft, rules)
-      type(deck_t), intent(in) :: deck
+   subroutine read_lines(card, model, draft, rules)
       type(card_t), intent(in) :: card
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
@@ -98,23 +96,22 @@ contains
       logical :: ok(3)
 
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (.not. deck%lines(i)%ok) cycle
-         associate (line => deck%lines(i))
-            call find_surface(deck, card, line_item(deck, line, 1_ip), model, draft, ANY_BODY, surface(1), ok(1))
-            call find_surface(deck, card, line_item(deck, line, 2_ip), model, draft, surface(1), surface(2), ok(2))
+         if (.not. draft%deck%lines(i)%ok) cycle
+         associate (line => draft%deck%lines(i))
+            call find_surface(card, line_item(draft%deck, line, 1_ip), model, draft, ANY_BODY, surface(1), ok(1))
+            call find_surface(card, line_item(draft%deck, line, 2_ip), model, draft, surface(1), surface(2), ok(2))
             value = 1
             ok(3) = .true.
             if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
-               call find_interaction(deck, line_item(deck, line, 3_ip), draft, value, ok(3))
+               call find_interaction(line_item(draft%deck, line, 3_ip), draft, value, ok(3))
             end if
-            if (all(ok(:2))) ok(1) = has_body(deck, card, line, model, surface)
+            if (all(ok(:2))) ok(1) = has_body(draft%deck, card, line, model, surface)
             if (all(ok)) call add_rule(rules, surface(1), surface(2), value)
          end associate
       end do
    end subroutine read_lines
 
-   subroutine find_surface(deck, card, token, model, draft, default, surface, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine find_surface(card, token, model, draft, default, surface, ok)
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
       type(model_t), intent(in) :: model
@@ -126,14 +123,14 @@ contains
       surface = default
       ok = .true.
       if (is_empty_token(token)) return
-      surface = find_name(draft%surface_names, token_text(deck, token))
+      surface = find_name(draft%surface_names, token_text(draft%deck, token))
       ok = surface > 0
       if (.not. ok) then
-         call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', draft%surface_names, keyword_name(card))
+         call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, keyword_name(card))
       else if (model%surfaces(surface)%kind == SURFACE_SEGMENTS .and. .not. model%surfaces(surface)%is_rigid_body) then
          if (draft%rigid_unsure .and. has_errors()) return
          ok = .false.
-         call report_error(deck, token, 'E-PAIR', 'the drawn surface '//model%surfaces(surface)%name//' belongs to no body', &
+         call report_error(draft%deck, token, 'E-PAIR', 'the drawn surface '//model%surfaces(surface)%name//' belongs to no body', &
                            expected='*RIGID BODY, ANALYTICAL SURFACE='//model%surfaces(surface)%name, keyword='RIGID BODY')
       end if
    end subroutine find_surface
@@ -160,17 +157,16 @@ contains
                                             keyword=keyword_name(card))
    end function has_body
 
-   subroutine find_interaction(deck, token, draft, interaction, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine find_interaction(token, draft, interaction, ok)
       type(token_t), intent(in) :: token
       type(draft_t), intent(in) :: draft
       integer(ip), intent(out) :: interaction
       logical, intent(out) :: ok
 
-      interaction = find_name(draft%interaction_names, token_text(deck, token))
+      interaction = find_name(draft%interaction_names, token_text(draft%deck, token))
       ok = interaction > 0
-      if (.not. ok) call report_unknown(deck, draft, token, 'surface interaction', 'E-INTERACTION', draft%interaction_names, &
-                                        'CONTACT PROPERTY ASSIGNMENT')
+      if (.not. ok) call report_unknown(draft, token, 'surface interaction', 'E-INTERACTION', draft%interaction_names, &
+          'CONTACT PROPERTY ASSIGNMENT')
    end subroutine find_interaction
 
    !> Adds a rule to those that there are.

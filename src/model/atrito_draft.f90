@@ -36,6 +36,7 @@ module atrito_draft
    end type block_t
 
    type :: draft_t
+      type(deck_t), pointer :: deck => null()
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(name_list_t) :: spoiled                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
@@ -67,10 +68,11 @@ contains
 
    !> Begins a draft: the names and numbers that faulty cards would have defined are spoiled.
    subroutine prepare_draft(deck, draft)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in), target :: deck
       type(draft_t), intent(out) :: draft
       integer(ip) :: i
 
+      draft%deck => deck
       allocate (draft%blocks(64), draft%set_card(0))
       allocate (draft%node_place(64), draft%element_place(64))
       allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
@@ -79,10 +81,10 @@ contains
       allocate (draft%block_of_card(deck%n_cards), source=0_ip)
       if (.not. has_errors()) return
       do i = 1, deck%n_cards
-         call note_nameless(deck, deck%cards(i), draft)
+         call note_nameless(deck%cards(i), draft)
          if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
-         call spoil_options(deck, deck%cards(i), draft)
-         if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck, deck%cards(i), draft)
+         call spoil_options(deck%cards(i), draft)
+         if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck%cards(i), draft)
       end do
    end subroutine prepare_draft
 
@@ -103,24 +105,23 @@ contains
    end subroutine add_draft_block
 
    !> A definition without its name, or with one that cannot be read: any unknown name may be the one that was meant.
-   subroutine note_nameless(deck, card, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine note_nameless(card, draft)
       type(card_t), intent(in) :: card
       type(draft_t), intent(inout) :: draft
 
       select case (keyword_name(card))
       case ('MATERIAL')
-         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'material')
+         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'material')
       case ('SURFACE INTERACTION')
-         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'surface interaction')
+         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'surface interaction')
       case ('SURFACE')
-         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'surface')
+         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'surface')
       case ('NSET')
-         if (is_nameless(deck, card, 'NSET')) call note_unsure(draft, 'node set')
+         if (is_nameless(draft%deck, card, 'NSET')) call note_unsure(draft, 'node set')
       case ('ELSET')
-         if (is_nameless(deck, card, 'ELSET')) call note_unsure(draft, 'element set')
+         if (is_nameless(draft%deck, card, 'ELSET')) call note_unsure(draft, 'element set')
       case ('BLOCK')
-         if (.not. is_nameless(deck, card, 'ELSET')) return
+         if (.not. is_nameless(draft%deck, card, 'ELSET')) return
          call note_unsure(draft, 'node set')
          call note_unsure(draft, 'earlier node set')
          call note_unsure(draft, 'element set')
@@ -157,8 +158,7 @@ contains
       has_control = any([(iachar(name(i:i)) < iachar(' '), i=1, len(name))])
    end function has_control
 
-   subroutine spoil_options(deck, card, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_options(card, draft)
       type(card_t), intent(in) :: card
       type(draft_t), intent(inout) :: draft
       character(len=:), allocatable :: name
@@ -166,27 +166,26 @@ contains
 
       if (.not. allocated(card%options)) return
       do i = 1, size(card%options)
-         name = token_text(deck, card%options(i)%name)
+         name = token_text(draft%deck, card%options(i)%name)
          if (len(keyword_name(card)) == 0) then
             if (same_name(name, 'MATERIAL')) draft%sections_unsure = .true.
             if (same_name(name, 'INTERACTION')) draft%pairs_unsure = .true.
          end if
          if (.not. card%options(i)%has_value) cycle
-         if (.not. is_empty_token(card%options(i)%value)) call spoil_name(draft, token_text(deck, card%options(i)%value))
+         if (.not. is_empty_token(card%options(i)%value)) call spoil_name(draft, token_text(draft%deck, card%options(i)%value))
       end do
    end subroutine spoil_options
 
    !> What an unknown keyword would have defined begins each of its lines.
-   subroutine spoil_numbers(deck, card, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_numbers(card, draft)
       type(card_t), intent(in) :: card
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (deck%lines(i)%n_tokens == 0) cycle
-         call spoil_node(deck, deck%lines(i), draft)
-         call spoil_element(deck, deck%lines(i), draft)
+         if (draft%deck%lines(i)%n_tokens == 0) cycle
+         call spoil_node(draft%deck%lines(i), draft)
+         call spoil_element(draft%deck%lines(i), draft)
       end do
    end subroutine spoil_numbers
 
@@ -216,21 +215,19 @@ contains
    end subroutine spoil_name
 
    !> Passes over, in silence, all that refers to the node with which a data line begins.
-   subroutine spoil_node(deck, line, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_node(line, draft)
       type(data_line_t), intent(in) :: line
       type(draft_t), intent(inout) :: draft
 
-      call spoil_id(deck, line, draft%spoiled_nodes)
+      call spoil_id(draft%deck, line, draft%spoiled_nodes)
    end subroutine spoil_node
 
    !> As spoil_node for an element.
-   subroutine spoil_element(deck, line, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_element(line, draft)
       type(data_line_t), intent(in) :: line
       type(draft_t), intent(inout) :: draft
 
-      call spoil_id(deck, line, draft%spoiled_elements)
+      call spoil_id(draft%deck, line, draft%spoiled_elements)
    end subroutine spoil_element
 
    subroutine spoil_id(deck, line, map)

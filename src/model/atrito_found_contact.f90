@@ -46,8 +46,7 @@ module atrito_found_contact
 contains
 
    !> Adds pairs to those that the deck gives, each with a surface for its slave; for models without any error.
-   subroutine find_contact(deck, rules, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine find_contact(rules, model, draft)
       type(contact_rules_t), intent(inout) :: rules
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
@@ -59,8 +58,8 @@ contains
       call choose_parties(model, rules, search)
       call choose_slaves(model, search)
       call make_chains(search, chains)
-      call make_pairs(deck, rules, search, chains, model, draft)
-      call tell_what_was_found(deck, rules, search, chains)
+      call make_pairs(rules, search, chains, model, draft)
+      call tell_what_was_found(draft%deck, rules, search, chains)
    end subroutine find_contact
 
    subroutine begin_search(model, draft, rules, search)
@@ -396,8 +395,7 @@ contains
    end subroutine follow_chain
 
    !> A pair for each chain, with a surface for its slave; the outline of a body is the master of all pairs that need it.
-   subroutine make_pairs(deck, rules, search, chains, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine make_pairs(rules, search, chains, model, draft)
       type(contact_rules_t), intent(in) :: rules
       type(search_t), intent(in) :: search
       type(chains_t), intent(in) :: chains
@@ -407,7 +405,7 @@ contains
       type(pair_t) :: pairs(chains%n)
       integer(ip) :: surface_of(size(search%masters)), number(chains%n), default_law, i, n
 
-      call provide_law(deck, rules, search, model, draft, default_law)
+      call provide_law(rules, search, model, draft, default_law)
       n = size(model%surfaces, kind=ip)
       allocate (surfaces(n + chains%n + search%bodies%n))
       surfaces(:n) = model%surfaces
@@ -462,8 +460,7 @@ contains
    end function count_alike
 
    !> The law of pairs to which none is assigned, where there are such pairs.
-   subroutine provide_law(deck, rules, search, model, draft, law)
-      type(deck_t), intent(in) :: deck
+   subroutine provide_law(rules, search, model, draft, law)
       type(contact_rules_t), intent(in) :: rules
       type(search_t), intent(in) :: search
       type(model_t), intent(inout) :: model
@@ -475,7 +472,7 @@ contains
       model%interactions = [model%interactions, interaction_t(name='(default)')]
       law = size(model%interactions, kind=ip)
       call keep_token(draft%interactions, law, rules%place)
-      call report_note(deck, rules%place, 'N-DEFAULT-LAW', 'no interaction is assigned to some of the contact that is '// &
+      call report_note(draft%deck, rules%place, 'N-DEFAULT-LAW', 'no interaction is assigned to some of the contact that is '// &
                        'found: it is hard and without friction', keyword='CONTACT PROPERTY ASSIGNMENT')
    end subroutine provide_law
 

@@ -2,7 +2,7 @@
 !> read afterwards and follow them.
 module atrito_refine_model
    use atrito_build_nodes, only: MOST_NODES
-   use atrito_deck, only: deck_t, token_t
+   use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
    use atrito_faces, only: list_node_elements
@@ -21,8 +21,7 @@ contains
 
    !> Replaces the mesh, and the members of all sets. A mesh that would be too large is reported and left as it is. Of a nine-node
    !> element come four of four nodes, on the same nodes; of one of four nodes comes one of nine.
-   subroutine refine_model(deck, levels, shape, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine refine_model(levels, shape, model, draft)
       integer(ip), intent(in) :: levels                !< >= 0; each quadrilateral into 4**levels
       integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES for all elements; 0: their own
       type(model_t), intent(inout) :: model
@@ -34,12 +33,12 @@ contains
       if (shape == Q1_NODES .and. any(model%mesh%shape == Q2_NODES)) then
          pieces = 2*pieces
          if (any(model%mesh%shape == Q1_NODES)) then
-            call report_deck_error(deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
+            call report_deck_error(draft%deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
                                    expected='a mesh of one kind')
             return
          end if
       end if
-      if (.not. is_possible(deck, levels, pieces, shape, model, draft)) return
+      if (.not. is_possible(levels, pieces, shape, model, draft)) return
       coarse = model%mesh
       call refine_mesh(coarse, draft%around, pieces, shape, model%mesh, draft%refinement)
       model%levels = levels
@@ -59,8 +58,7 @@ contains
    end subroutine refine_model
 
    !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
-   logical function is_possible(deck, levels, pieces, shape, model, draft)
-      type(deck_t), intent(in) :: deck
+   logical function is_possible(levels, pieces, shape, model, draft)
       integer(ip), intent(in) :: levels, pieces, shape
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
@@ -71,15 +69,15 @@ contains
       greatest = maxval(model%mesh%node_id(:model%mesh%n_nodes))
       is_possible = n <= int(MOST_NODES, lp)
       if (.not. is_possible) then
-         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
+         call report_deck_error(draft%deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
                                 ' nodes', expected='a smaller number: each one more makes four elements of one')
          return
       end if
       is_possible = greatest + (n - int(model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
-      if (.not. is_possible) call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//': the numbers of the new '// &
-                                                    'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
-                                                    expected='smaller node numbers')
-      if (is_possible) is_possible = fits_memory(deck, nowhere, model, draft, n, int(model%mesh%n_elements, lp)*int(pieces, lp)**2)
+      if (.not. is_possible) call report_deck_error(draft%deck, 'E-REFINE', '--refine '//to_text(levels)// &
+          ': the numbers of the new '//'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
+          expected='smaller node numbers')
+      if (is_possible) is_possible = fits_memory(nowhere, model, draft, n, int(model%mesh%n_elements, lp)*int(pieces, lp)**2)
    end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.
