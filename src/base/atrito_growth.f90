@@ -21,7 +21,7 @@ module atrito_growth
       module procedure resize_real_columns
    end interface resize
 
-   !> call make_room(list, used, needed): room for `needed` entries; a list that is too short doubles, one that is not there is made.
+   !> call make_room(list, used, needed): room for so many entries; a list that is too short doubles, one that is not there is made.
    interface make_room
       module procedure make_room_for_numbers
       module procedure make_room_for_reals

@@ -2,11 +2,11 @@
 module atrito_build_contact
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, keep_token, count_cards
+   use atrito_draft, only: draft_t, keep_token, define_name, count_cards
    use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
-   use atrito_name_list, only: add_name, find_name
+   use atrito_name_list, only: find_name
    use atrito_references, only: report_unknown
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -60,25 +60,10 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(out) :: current              !< the interaction that has begun; 0: none
-      type(interaction_t) :: interaction
-      type(token_t) :: place
-      logical :: found
+      character(len=:), allocatable :: name
 
-      current = 0
-      call option_text(draft%deck, card, 'NAME', interaction%name, found, place)
-      if (.not. found) return
-      current = find_name(draft%interaction_names, interaction%name)
-      if (current > 0) then
-         call report_error(draft%deck, place, 'E-TWICE', 'surface interaction '//interaction%name// &
-                           ' is defined twice, first in '// place_text(draft%deck, draft%interactions(current), place), &
-                           expected='a name that no other surface interaction has', keyword='SURFACE INTERACTION')
-         current = 0
-         return
-      end if
-      call add_name(draft%interaction_names, interaction%name)
-      current = draft%interaction_names%n
-      model%interactions(current) = interaction
-      call keep_token(draft%interactions, current, place)
+      call define_name(draft%deck, card, 'surface interaction', draft%interaction_names, draft%interactions, name, current)
+      if (current > 0) model%interactions(current) = interaction_t(name=name)
    end subroutine read_interaction_card
 
    !> A keyword that an interaction has at most once.

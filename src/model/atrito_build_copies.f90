@@ -2,7 +2,7 @@
 module atrito_build_copies
    use atrito_build_elements, only: copy_element_once
    use atrito_build_nodes, only: place_node, put_node_set
-   use atrito_build_sets, only: try_elset_card
+   use atrito_build_sets, only: try_set_card
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
@@ -247,7 +247,7 @@ contains
 
       ! sets of elements are read after all elements, those that are wanted here before
       do i = 1, i_card - 1
-         if (keyword_name(draft%deck%cards(i)) == 'ELSET' .and. .not. draft%card_done(i)) call try_elset_card(i, model, draft)
+         if (keyword_name(draft%deck%cards(i)) == 'ELSET' .and. .not. draft%card_done(i)) call try_set_card(i, model, draft)
       end do
       associate (card => draft%deck%cards(i_card))
          call read_number(draft%deck, card, 'ELEMENT SHIFT', shift, ok(1))

@@ -2,11 +2,11 @@
 module atrito_build_materials
    use atrito_deck, only: deck_t, card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, keep_token, count_cards, ids_text, has_errors
+   use atrito_draft, only: draft_t, place_text, keep_token, define_name, count_cards, ids_text, has_errors
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, material_t, section_t, FORMULATION_BBAR
-   use atrito_name_list, only: add_name, find_name
+   use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set
@@ -64,27 +64,13 @@ contains
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(out) :: current              !< the material that has begun; 0: none
-      type(material_t) :: material
-      type(token_t) :: place
-      logical :: found
+      character(len=:), allocatable :: name
 
-      current = 0
-      call option_text(draft%deck, card, 'NAME', material%name, found, place)
-      if (.not. found) return
-      current = find_name(draft%material_names, material%name)
-      if (current > 0) then
-         call report_error(draft%deck, place, 'E-TWICE', 'material '//material%name//' is defined twice, first in '// &
-                           place_text(draft%deck, draft%materials(current), place), expected='a name that no other material has', &
-                           keyword='MATERIAL')
-         current = 0
-         return
-      end if
-      call add_name(draft%material_names, material%name)
-      current = draft%material_names%n
-      model%materials(current) = material
+      call define_name(draft%deck, card, 'material', draft%material_names, draft%materials, name, current)
+      if (current == 0) return
+      model%materials(current) = material_t(name=name)
       draft%elastic_spoiled(current) = .not. card%ok
-      call keep_token(draft%materials, current, place)
-      call keep_token(draft%poisson, current, place)
+      call keep_token(draft%poisson, current, draft%materials(current))
    end subroutine read_material_card
 
    subroutine read_elastic_card(card, material, draft, i)

@@ -8,7 +8,7 @@ module atrito_build_model
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
    use atrito_build_requests, only: build_requests
-   use atrito_build_sets, only: try_nset_card, read_nset_card, read_elset_card
+   use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
@@ -158,12 +158,12 @@ contains
          case ('BLOCK')
             call read_block_card(i, model, draft)
          case ('NSET')
-            call try_nset_card(i, model, draft)
+            call try_set_card(i, model, draft)
          end select
       end do
       do i = 1, draft%deck%n_cards
          if (keyword_name(draft%deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
-         call read_nset_card(i, model, draft)
+         call read_set_card(i, model, draft)
       end do
    end subroutine build_nodes
 
@@ -187,7 +187,7 @@ contains
       end do
       do i = 1, draft%deck%n_cards
          if (keyword_name(draft%deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
-         call read_elset_card(i, model, draft)
+         call read_set_card(i, model, draft)
       end do
    end subroutine build_elements
 

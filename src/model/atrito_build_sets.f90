@@ -15,32 +15,29 @@ module atrito_build_sets
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: try_nset_card, try_elset_card, read_nset_card, read_elset_card
+   public :: try_set_card, read_set_card
 
 contains
 
-   !> Reads a *NSET when all of its members are known by now, so that a *NFILL or *BLOCK below can use it. One with members that
-   !> follow later is left to read_nset_card.
-   subroutine try_nset_card(i_card, model, draft)
-      integer(ip), intent(in) :: i_card                !< place in deck%cards
+   !> Reads a *NSET or *ELSET when all of its members are known by now, so that a *NFILL, *BLOCK or *ELCOPY below can use it. One
+   !> with members that follow later is left to read_set_card.
+   subroutine try_set_card(i_card, model, draft)
+      integer(ip), intent(in) :: i_card                !< place in the deck's cards
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
+      logical :: known
 
-      if (.not. members_are_known(draft%deck, draft%deck%cards(i_card), model%mesh%node_map, model%node_sets)) return
-      call read_nset_card(i_card, model, draft)
+      associate (deck => draft%deck, card => draft%deck%cards(i_card))
+         if (keyword_name(card) == 'NSET') then
+            known = members_are_known(deck, card, model%mesh%node_map, model%node_sets)
+         else
+            known = members_are_known(deck, card, model%mesh%element_map, model%element_sets)
+         end if
+      end associate
+      if (.not. known) return
+      call read_set_card(i_card, model, draft)
       draft%card_done(i_card) = .true.
-   end subroutine try_nset_card
-
-   !> The same of a *ELSET, for a *ELCOPY below.
-   subroutine try_elset_card(i_card, model, draft)
-      integer(ip), intent(in) :: i_card
-      type(model_t), intent(inout) :: model
-      type(draft_t), intent(inout) :: draft
-
-      if (.not. members_are_known(draft%deck, draft%deck%cards(i_card), model%mesh%element_map, model%element_sets)) return
-      call read_elset_card(i_card, model, draft)
-      draft%card_done(i_card) = .true.
-   end subroutine try_elset_card
+   end subroutine try_set_card
 
    pure logical function members_are_known(deck, card, map, sets) result(known)
       type(deck_t), intent(in) :: deck
@@ -103,32 +100,40 @@ contains
       end do
    end function ranges_are_known
 
-   !> *NSET.
-   subroutine read_nset_card(i_card, model, draft)
-      integer(ip), intent(in) :: i_card                !< place in deck%cards
+   !> *NSET and *ELSET.
+   subroutine read_set_card(i_card, model, draft)
+      integer(ip), intent(in) :: i_card                !< place in the deck's cards
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: members
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, keyword
       integer(ip) :: i
       logical :: found
 
       associate (card => draft%deck%cards(i_card))
-         call option_text(draft%deck, card, 'NSET', name, found)
+         keyword = keyword_name(card)
+         call option_text(draft%deck, card, keyword, name, found)
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. draft%deck%lines(i)%ok) cycle
-            if (has_option(draft%deck, card, 'GENERATE')) then
-               call read_range(draft%deck, draft%deck%lines(i), model%mesh%node_map, draft%spoiled_nodes, 'node', 'NSET', members)
+            if (.not. has_option(draft%deck, card, 'GENERATE')) then
+               call read_items(draft%deck%lines(i), i_card, model, draft, members)
+            else if (keyword == 'NSET') then
+               call read_range(draft%deck, draft%deck%lines(i), model%mesh%node_map, draft%spoiled_nodes, 'node', keyword, members)
             else
-               call read_node_items(draft%deck%lines(i), i_card, model, draft, members)
+               call read_range(draft%deck, draft%deck%lines(i), model%mesh%element_map, draft%spoiled_elements, 'element', &
+                               keyword, members)
             end if
          end do
-         call put_node_set(model, draft, i_card, name, numbers_of(members))
       end associate
-   end subroutine read_nset_card
+      if (keyword == 'NSET') then
+         call put_node_set(model, draft, i_card, name, numbers_of(members))
+      else
+         call grow_set(model%element_sets, name, numbers_of(members))
+      end if
+   end subroutine read_set_card
 
-   subroutine read_node_items(line, i_card, model, draft, members)
+   subroutine read_items(line, i_card, model, draft, members)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
       type(model_t), intent(in) :: model
@@ -141,11 +146,15 @@ contains
 
       do i = 1, line%n_tokens
          token = line_item(draft%deck, line, i)
-         call find_nodes(model, draft, token, found, ok, 'NSET')
-         if (ok) ok = is_earlier(token, i_card, model, draft)
+         if (keyword_name(draft%deck%cards(i_card)) == 'NSET') then
+            call find_nodes(model, draft, token, found, ok, 'NSET')
+            if (ok) ok = is_earlier(token, i_card, model, draft)
+         else
+            call find_elements(model, draft, token, found, ok, 'ELSET')
+         end if
          if (ok) call add_numbers(members, found)
       end do
-   end subroutine read_node_items
+   end subroutine read_items
 
    !> A set in a list must be an earlier one: it could not be complete otherwise.
    logical function is_earlier(token, i_card, model, draft)
@@ -164,49 +173,6 @@ contains
           ' is defined later, in '//place_text(draft%deck, draft%deck%cards(draft%set_card(i))%place, token), &
           expected='a node set that is defined above', keyword='NSET')
    end function is_earlier
-
-   !> *ELSET.
-   subroutine read_elset_card(i_card, model, draft)
-      integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(model_t), intent(inout) :: model
-      type(draft_t), intent(in) :: draft
-      type(number_list_t) :: members
-      character(len=:), allocatable :: name
-      integer(ip) :: i
-      logical :: found
-
-      associate (card => draft%deck%cards(i_card))
-         call option_text(draft%deck, card, 'ELSET', name, found)
-         if (.not. found) return
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. draft%deck%lines(i)%ok) cycle
-            if (has_option(draft%deck, card, 'GENERATE')) then
-               call read_range(draft%deck, draft%deck%lines(i), model%mesh%element_map, draft%spoiled_elements, 'element', &
-                               'ELSET', members)
-            else
-               call read_element_items(draft%deck%lines(i), model, draft, members)
-            end if
-         end do
-         call grow_set(model%element_sets, name, numbers_of(members))
-      end associate
-   end subroutine read_elset_card
-
-   subroutine read_element_items(line, model, draft, members)
-      type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
-      type(number_list_t), intent(inout) :: members
-      type(token_t) :: token
-      integer(ip), allocatable :: found(:)
-      integer(ip) :: i
-      logical :: ok
-
-      do i = 1, line%n_tokens
-         token = line_item(draft%deck, line, i)
-         call find_elements(model, draft, token, found, ok, 'ELSET')
-         if (ok) call add_numbers(members, found)
-      end do
-   end subroutine read_element_items
 
    !> A line of GENERATE: first number, last number, increment.
    subroutine read_range(deck, line, map, spoiled, noun, keyword, members)

@@ -12,7 +12,7 @@ module atrito_check_contact
    use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_points, only: contact_points_t
-   use atrito_sorting, only: sorted_places
+   use atrito_sorting, only: sorted_places, each_once
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -227,7 +227,7 @@ contains
          end do
       end associate
       if (shared%n > 0) call report_error(deck, place, 'E-PAIR', 'slave and master share node '// &
-                                          ids_text(model%mesh%node_id(rising(numbers_of(shared)))), &
+                                          ids_text(model%mesh%node_id(each_once(numbers_of(shared)))), &
                                           expected='surfaces of different bodies, each with its own nodes', &
                                           keyword='CONTACT PAIR')
    end subroutine check_shared_nodes
@@ -243,18 +243,6 @@ contains
          is_on = is_on .or. known%surface_of(known%face(k)) == master
       end do
    end function is_on
-
-   !> Numbers in rising order, each once.
-   pure function rising(numbers) result(once)
-      integer(ip), intent(in) :: numbers(:)
-      integer(ip), allocatable :: once(:)
-      logical :: is_new(size(numbers))
-
-      once = numbers(sorted_places(int(numbers, lp)))
-      is_new = .true.
-      is_new(2:) = once(2:) > once(:size(once) - 1)
-      once = pack(once, is_new)
-   end function rising
 
    !> Tells of interactions that no pair has; for models without any error.
    subroutine note_unused_interactions(model, draft)

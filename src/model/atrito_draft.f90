@@ -5,12 +5,14 @@
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_draft
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
    use atrito_faces, only: node_elements_t
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id
+   use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
-   use atrito_name_list, only: name_list_t, add_name, has_name
+   use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
    use atrito_strings, only: same_name, to_text
@@ -18,7 +20,7 @@ module atrito_draft
    private
    public :: draft_t, block_t, BLOCK_SIDES
    public :: prepare_draft, add_draft_block, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, is_unsure, has_errors
-   public :: place_token, place_text, note_place, note_places, keep_token, count_cards, ids_text
+   public :: place_token, place_text, note_place, note_places, keep_token, define_name, count_cards, ids_text
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
    character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
@@ -346,6 +348,32 @@ contains
       end do
       list(i) = token
    end subroutine keep_token
+
+   !> The name that a card defines becomes the last of a list, unless it is there already, which is reported.
+   subroutine define_name(deck, card, noun, names, places, name, i)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: noun             !< what is defined, e.g. 'material'
+      type(name_list_t), intent(inout) :: names        !< of all that there are
+      type(token_t), allocatable, intent(inout) :: places(:) !< where they are defined
+      character(len=:), allocatable, intent(out) :: name
+      integer(ip), intent(out) :: i                    !< its place; 0: it cannot be defined
+      type(token_t) :: place
+      logical :: found
+
+      i = 0
+      call option_text(deck, card, 'NAME', name, found, place)
+      if (.not. found) return
+      if (has_name(names, name)) then
+         call report_error(deck, place, 'E-TWICE', noun//' '//name//' is defined twice, first in '// &
+                           place_text(deck, places(find_name(names, name)), place), &
+                           expected='a name that no other '//noun//' has', keyword=keyword_name(card))
+         return
+      end if
+      call add_name(names, name)
+      i = names%n
+      call keep_token(places, i, place)
+   end subroutine define_name
 
    !> How many cards of a keyword a deck has: as many things as they can make at most.
    pure integer(ip) function count_cards(deck, keyword) result(n)
