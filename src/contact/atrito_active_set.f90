@@ -27,6 +27,7 @@ module atrito_active_set
       real(wp) :: condition = 1.0_wp
       integer(ip) :: dependent = 0                !< unknown whose row depends on others
       logical :: used_dual_steps = .false.
+      logical, allocatable :: is_shared(:)        !< (m) the force is not unique, the least is given; not allocated: not asked for
    end type box_outcome_t
 
 contains

@@ -55,7 +55,8 @@ contains
       call set_friction_bounds(line, problem, tau, solution%bounds, solution%state)
       if (allocated(solution%rows)) then
          call solve_box_proximal(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
-                                 solution%factor, solution%rows, solution%is_shared)
+                                 solution%factor, solution%rows)
+         call move_alloc(solution%inner%is_shared, solution%is_shared)
       else
          call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
                         solution%factor)

@@ -17,7 +17,7 @@ module atrito_dense_refinement
    use atrito_model, only: controls_t
    use atrito_outer_loop, only: continue_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: report_progress
    use atrito_scene_data, only: scene_data_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
@@ -48,10 +48,9 @@ module atrito_dense_refinement
 contains
 
    !> Refines as often as it takes. Where `is_right` is false the solution is of no use.
-   subroutine refine_dense_solution(data, controls, reporter, bodies, problem, solution, u, is_right)
+   subroutine refine_dense_solution(data, controls, bodies, problem, solution, u, is_right)
       type(scene_data_t), intent(in) :: data
       type(controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
       type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
       type(box_problem_t), intent(inout) :: problem
       type(contact_solution_t), intent(inout) :: solution !< converged
@@ -73,8 +72,8 @@ contains
          call find_residual(data, now, share)
          is_right = share <= TOO_MUCH
          if (.not. is_right .or. share <= ENOUGH .or. share > FALLS*last_share) exit
-         call report_progress(reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
-         call correct(data, controls, reporter, bodies, problem, solution, now, status)
+         call report_progress(data%reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
+         call correct(data, controls, bodies, problem, solution, now, status)
          is_right = is_ok(status) .and. solution%converged
          if (.not. is_right .or. share**2 <= ENOUGH) exit ! the next one will be no more than round-off
          last_share = share
@@ -117,10 +116,9 @@ contains
    end subroutine find_residual
 
    !> One step.
-   subroutine correct(data, controls, reporter, bodies, problem, solution, now, status)
+   subroutine correct(data, controls, bodies, problem, solution, now, status)
       type(scene_data_t), intent(in) :: data
       type(controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
       type(condensed_body_t), intent(inout) :: bodies(:)
       type(box_problem_t), intent(inout) :: problem
       type(contact_solution_t), intent(inout) :: solution
@@ -133,7 +131,7 @@ contains
          call set_load(data%fem, b, now%residual, bodies(b))
          call add_displacements(data%fem, b, bodies(b), data%rows, data%line, problem)
       end do
-      call continue_contact_line(problem, data%line, controls, reporter, solution, status)
+      call continue_contact_line(problem, data%line, controls, data%reporter, solution, status)
       if (.not. is_ok(status)) return
       change = -now%contact
       now%contact = contact_forces(data%fem, data%rows, data%line, solution)

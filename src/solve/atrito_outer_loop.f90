@@ -107,7 +107,7 @@ contains
       if (.not. coarse%converged) return
       call report_progress(task%reporter, 'start from '//to_text(coarse_line%n)//' of '//to_text(task%line%n)//' contact points')
       call begin_history(task%problem, task%line, solution)
-      call start_from_coarse(task%problem, task%line, interpolation, coarse_line, coarse%state, coarse%p, solution%bounds, &
+      call start_from_coarse(task%problem, task%line, interpolation, coarse_line, coarse%state, solution%bounds, &
                              solution%state, tau)
       if (task%line%has_friction) then
          call iterate(task, anderson, tau, solution, status)

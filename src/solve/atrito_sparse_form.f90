@@ -8,7 +8,6 @@ module atrito_sparse_form
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_loop, only: solve_by_multipliers
    use atrito_model, only: controls_t
-   use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, assemble
    use atrito_row_entries, only: build_constraint_rows
@@ -22,10 +21,9 @@ module atrito_sparse_form
 contains
 
    !> u: displacements without rigid motions. status: STATUS_SINGULAR with FREE_MOTION, or with a body that is singular by itself.
-   subroutine solve_sparse_form(data, controls, reporter, results, solution, u, status)
+   subroutine solve_sparse_form(data, controls, results, solution, u, status)
       type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: u(:, :)
@@ -41,7 +39,7 @@ contains
       results%scene%near_elements = data%assembled%is_near
       call start_phase('iterate')
       call build_constraint_rows(data%fem, data%rows, data%line, .false., rows)
-      call solve_by_multipliers(data%assembled, rows, data%line, controls, reporter, solution, x, status)
+      call solve_by_multipliers(data%assembled, rows, data%line, controls, data%reporter, solution, x, status)
       results%factorisations = solution%factorisations
       call stop_phase('iterate')
       if (data%assembled%matrix%failed > 0) call name_failure(data, status)
