@@ -14,7 +14,6 @@ module atrito_build_block
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh
-   use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_references, only: report_unknown
@@ -29,9 +28,8 @@ module atrito_build_block
 
 contains
 
-   subroutine read_block_card(i_card, model, draft)
+   subroutine read_block_card(i_card, draft)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(block_spec_t) :: spec
       character(len=:), allocatable :: name
@@ -40,17 +38,16 @@ contains
       call option_text(draft%deck, draft%deck%cards(i_card), 'ELSET', name, named)
       call read_block_spec(draft%deck, draft%deck%cards(i_card), spec, ok)
       ok = ok .and. named
-      if (ok) ok = fits_memory(draft%deck%cards(i_card)%place, model, draft, count_nodes(spec), product(int(spec%n, &
-          lp))*product(int(spec%copies%n, lp)), 'BLOCK')
-      if (ok) call place_copies(i_card, spec, name, model, draft, ok)
+      if (ok) ok = fits_memory(draft%deck%cards(i_card)%place, draft, count_nodes(spec), product(int(spec%n, &
+                                                                                      lp))*product(int(spec%copies%n, lp)), 'BLOCK')
+      if (ok) call place_copies(i_card, spec, name, draft, ok)
       if (.not. ok) call spoil_block(draft, name)
    end subroutine read_block_card
 
-   subroutine place_copies(i_card, spec, name, model, draft, ok)
+   subroutine place_copies(i_card, spec, name, draft, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
       character(len=*), intent(in) :: name             !< of the *BLOCK
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       logical, intent(out) :: ok
       integer(ip) :: i, j
@@ -58,18 +55,17 @@ contains
       ok = .true.
       do j = 1, spec%copies%n(2)
          do i = 1, spec%copies%n(1)
-            if (ok) call place_copy(i_card, spec, name, i, j, model, draft, ok)
+            if (ok) call place_copy(i_card, spec, name, i, j, draft, ok)
          end do
       end do
-      if (ok .and. spec%copies%given) call put_array_sets(i_card, name, model, draft)
+      if (ok .and. spec%copies%given) call put_array_sets(i_card, name, draft)
    end subroutine place_copies
 
-   subroutine place_copy(i_card, spec, name, i, j, model, draft, ok)
+   subroutine place_copy(i_card, spec, name, i, j, draft, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
       character(len=*), intent(in) :: name             !< of the *BLOCK
       integer(ip), intent(in) :: i, j
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       logical, intent(out) :: ok
       type(block_spec_t) :: shifted
@@ -84,17 +80,16 @@ contains
       block%card = i_card
       block%state = spec%state
       block%order = spec%order
-      call place_block_nodes(i_card, shifted, model, draft, block, ok)
+      call place_block_nodes(i_card, shifted, draft, block, ok)
       if (.not. ok) return
-      call put_block_sets(model, draft, block)
+      call put_block_sets(draft, block)
       call add_draft_block(draft, block)
       draft%elements_to_come = draft%elements_to_come + count_elements(block)
    end subroutine place_copy
 
-   subroutine place_block_nodes(i_card, spec, model, draft, block, ok)
+   subroutine place_block_nodes(i_card, spec, draft, block, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(block_t), intent(inout) :: block
       logical, intent(out) :: ok
@@ -106,7 +101,7 @@ contains
       call block_nodes(spec%corners, node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order), &
                        node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order), x)
       allocate (block%nodes(0:n(1), 0:n(2)), source=0_ip)
-      call share_nodes(i_card, x, model, draft, block%nodes, ok)
+      call share_nodes(i_card, x, draft, block%nodes, ok)
       if (.not. ok) return
       k = 0
       n_new = 0
@@ -116,13 +111,13 @@ contains
             if (block%nodes(i, j) > 0) cycle
             n_new = n_new + 1
             x(:, n_new) = x(:, k)
-            block%nodes(i, j) = model%mesh%n_nodes + n_new
+            block%nodes(i, j) = draft%model%mesh%n_nodes + n_new
          end do
       end do
       ok = draft%greatest_node <= huge(1_ip) - n_new
       if (ok .and. n_new > 0) then
-         call add_nodes(model%mesh, draft%greatest_node + 1, x(:, :n_new))
-         call note_places(draft%node_place, model%mesh%n_nodes - n_new + 1, model%mesh%n_nodes, -i_card)
+         call add_nodes(draft%model%mesh, draft%greatest_node + 1, x(:, :n_new))
+         call note_places(draft%node_place, draft%model%mesh%n_nodes - n_new + 1, draft%model%mesh%n_nodes, -i_card)
          draft%greatest_node = draft%greatest_node + n_new
       else if (.not. ok) then
          call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
@@ -155,10 +150,9 @@ contains
       end if
    end function lines_of
 
-   subroutine share_nodes(i_card, x, model, draft, nodes, ok)
+   subroutine share_nodes(i_card, x, draft, nodes, ok)
       integer(ip), intent(in) :: i_card
       real(wp), intent(in) :: x(:, :)                  !< of the block, row by row [L]
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(inout) :: nodes(0:, 0:)      !< 0 so far
       logical, intent(out) :: ok
@@ -171,23 +165,23 @@ contains
       ok = .true.
       call option_text(draft%deck, draft%deck%cards(i_card), 'MERGE', other, found, place)
       if (.not. found) return
-      i_set = find_set(model%node_sets, other)
+      i_set = find_set(draft%model%node_sets, other)
       ok = i_set > 0
       if (.not. ok) then
-         call report_unknown(draft, place, 'earlier node set', 'E-SET', model%node_sets%names, 'BLOCK')
+         call report_unknown(draft, place, 'earlier node set', 'E-SET', draft%model%node_sets%names, 'BLOCK')
          return
       end if
       width = size(nodes, 1, kind=ip)
       outline = outline_of(width, size(nodes, 2, kind=ip))
-      associate (members => model%node_sets%sets(i_set)%members)
-         match = match_points(x(:, outline), model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
+      associate (members => draft%model%node_sets%sets(i_set)%members)
+         match = match_points(x(:, outline), draft%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
          do k = 1, size(outline, kind=ip)
             if (match(k) > 0) nodes(modulo(outline(k) - 1, width), (outline(k) - 1)/width) = members(match(k))
          end do
       end associate
       ok = any(match > 0)
       if (.not. ok) call report_error(draft%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
-          expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
+                               expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
       if (ok) call warn_of_hanging_nodes(draft%deck, place, nodes)
    end subroutine share_nodes
 
@@ -237,15 +231,14 @@ contains
       if (first > 0) n = count(side(first:last) == 0, kind=ip)
    end function between
 
-   subroutine put_block_sets(model, draft, block)
-      type(model_t), intent(inout) :: model
+   subroutine put_block_sets(draft, block)
       type(draft_t), intent(inout) :: draft
       type(block_t), intent(in) :: block
       integer(ip) :: k
 
-      call put_node_set(model, draft, block%card, block%name, reshape(block%nodes, [size(block%nodes)]))
+      call put_node_set(draft, block%card, block%name, reshape(block%nodes, [size(block%nodes)]))
       do k = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(model, draft, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
+         call put_node_set(draft, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
       end do
    end subroutine put_block_sets
 
@@ -266,60 +259,57 @@ contains
       end select
    end function side_nodes
 
-   subroutine put_array_sets(i_card, name, model, draft)
+   subroutine put_array_sets(i_card, name, draft)
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name             !< of the *BLOCK
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: at_side(size(BLOCK_SIDES))
       integer(ip) :: b, k, first
 
       first = draft%blocks(draft%block_of_card(i_card))%nodes(0, 0)
-      call put_node_set(model, draft, i_card, name, [(k, k=first, model%mesh%n_nodes)])
+      call put_node_set(draft, i_card, name, [(k, k=first, draft%model%mesh%n_nodes)])
       do b = draft%block_of_card(i_card), draft%n_blocks
          do k = 1, size(BLOCK_SIDES, kind=ip)
             if (draft%blocks(b)%at_side(k)) call add_numbers(at_side(k), side_nodes(draft%blocks(b), k))
          end do
       end do
       do k = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(model, draft, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side(k)))
+         call put_node_set(draft, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side(k)))
       end do
    end subroutine put_array_sets
 
-   subroutine place_block_elements(i_card, model, draft)
+   subroutine place_block_elements(i_card, draft)
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: b, k, first
 
-      first = model%mesh%n_elements + 1
+      first = draft%model%mesh%n_elements + 1
       b = draft%block_of_card(i_card)
       if (b == 0) return
       do
-         call place_elements_of(b, model, draft)
+         call place_elements_of(b, draft)
          if (b == draft%n_blocks) exit
          if (draft%blocks(b + 1)%card /= i_card) exit
          b = b + 1
       end do
-      if (allocated(draft%blocks(b)%array)) call grow_set(model%element_sets, draft%blocks(b)%array, &
-                                                          [(k, k=first, model%mesh%n_elements)])
+      if (allocated(draft%blocks(b)%array)) call grow_set(draft%model%element_sets, draft%blocks(b)%array, [(k, k=first, &
+                                                                                                      draft%model%mesh%n_elements)])
    end subroutine place_block_elements
 
-   subroutine place_elements_of(b, model, draft)
+   subroutine place_elements_of(b, draft)
       integer(ip), intent(in) :: b                     !< place in draft%blocks
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: k, n
       logical :: ok
 
       associate (block => draft%blocks(b), i_card => draft%blocks(b)%card)
          n = count_elements(block)
-         block%first_element = model%mesh%n_elements + 1
+         block%first_element = draft%model%mesh%n_elements + 1
          ok = draft%greatest_element <= huge(1_ip) - n
          if (ok) then
-            call reserve_mesh(model%mesh, 0_ip, draft%elements_to_come)   ! with those of the blocks that follow
-            call add_block(model%mesh, draft%greatest_element + 1, block%state, block%order, block%nodes)
-            call note_places(draft%element_place, block%first_element, model%mesh%n_elements, -i_card)
+            call reserve_mesh(draft%model%mesh, 0_ip, draft%elements_to_come)   ! with those of the blocks that follow
+            call add_block(draft%model%mesh, draft%greatest_element + 1, block%state, block%order, block%nodes)
+            call note_places(draft%element_place, block%first_element, draft%model%mesh%n_elements, -i_card)
             draft%greatest_element = draft%greatest_element + n
          else
             call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
@@ -327,7 +317,7 @@ contains
                               keyword='BLOCK')
          end if
          draft%elements_to_come = draft%elements_to_come - n
-         call grow_set(model%element_sets, block%name, [(k, k=block%first_element, model%mesh%n_elements)])
+         call grow_set(draft%model%element_sets, block%name, [(k, k=block%first_element, draft%model%mesh%n_elements)])
       end associate
    end subroutine place_elements_of
 

@@ -5,7 +5,7 @@ module atrito_build_materials
    use atrito_draft, only: draft_t, place_text, keep_token, define_name, count_cards, ids_text, has_errors
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, material_t, section_t, FORMULATION_BBAR
+   use atrito_model, only: material_t, section_t, FORMULATION_BBAR
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: report_unknown
@@ -21,27 +21,26 @@ module atrito_build_materials
 contains
 
    !> All materials and sections of a model.
-   subroutine build_materials(model, draft)
-      type(model_t), intent(inout) :: model
+   subroutine build_materials(draft)
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i, current, n_sections
       logical :: is_open                               ! nothing but *ELASTIC and *DENSITY since the last *MATERIAL
 
       i = count_cards(draft%deck, 'MATERIAL')
-      allocate (model%materials(i), model%sections(count_cards(draft%deck, 'SOLID SECTION')))
+      allocate (draft%model%materials(i), draft%model%sections(count_cards(draft%deck, 'SOLID SECTION')))
       allocate (draft%elastic_given(i), draft%elastic_spoiled(i), source=.false.)
-      allocate (model%section_of(model%mesh%n_elements), source=0_ip)
+      allocate (draft%model%section_of(draft%model%mesh%n_elements), source=0_ip)
       current = 0
       is_open = .false.
       do i = 1, draft%deck%n_cards
          select case (keyword_name(draft%deck%cards(i)))
          case ('MATERIAL')
-            call read_material_card(draft%deck%cards(i), model, draft, current)
+            call read_material_card(draft%deck%cards(i), draft, current)
             is_open = current > 0
          case ('ELASTIC')
-            if (current > 0) call read_elastic_card(draft%deck%cards(i), model%materials(current), draft, current)
+            if (current > 0) call read_elastic_card(draft%deck%cards(i), draft%model%materials(current), draft, current)
          case ('DENSITY')
-            if (current > 0) call read_density_card(draft%deck, draft%deck%cards(i), model%materials(current))
+            if (current > 0) call read_density_card(draft%deck, draft%deck%cards(i), draft%model%materials(current))
          case ('')
             ! a misspelt *ELASTIC: the material is not blamed for missing it
             if (is_open .and. has_errors()) draft%elastic_spoiled(current) = .true.
@@ -49,26 +48,25 @@ contains
             is_open = .false.
          end select
       end do
-      model%materials = model%materials(:draft%material_names%n)
+      draft%model%materials = draft%model%materials(:draft%material_names%n)
       n_sections = 0
       do i = 1, draft%deck%n_cards
          if (keyword_name(draft%deck%cards(i)) == 'SOLID SECTION') then
-            call read_section_card(draft%deck%cards(i), model, draft, n_sections)
+            call read_section_card(draft%deck%cards(i), draft, n_sections)
          end if
       end do
-      model%sections = model%sections(:n_sections)
+      draft%model%sections = draft%model%sections(:n_sections)
    end subroutine build_materials
 
-   subroutine read_material_card(card, model, draft, current)
+   subroutine read_material_card(card, draft, current)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(out) :: current              !< the material that has begun; 0: none
       character(len=:), allocatable :: name
 
       call define_name(draft%deck, card, 'material', draft%material_names, draft%materials, name, current)
       if (current == 0) return
-      model%materials(current) = material_t(name=name)
+      draft%model%materials(current) = material_t(name=name)
       draft%elastic_spoiled(current) = .not. card%ok
       call keep_token(draft%poisson, current, draft%materials(current))
    end subroutine read_material_card
@@ -84,7 +82,7 @@ contains
 
       if (draft%elastic_given(i)) then
          if (card%ok) call report_error(draft%deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
-             expected='one *ELASTIC a material', keyword='ELASTIC')
+                                        expected='one *ELASTIC a material', keyword='ELASTIC')
          return
       end if
       draft%elastic_given(i) = .true.
@@ -126,9 +124,8 @@ contains
    end subroutine read_density_card
 
    !> *SOLID SECTION.
-   subroutine read_section_card(card, model, draft, n_sections)
+   subroutine read_section_card(card, draft, n_sections)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(inout) :: n_sections         !< that there are
       type(section_t) :: section
@@ -138,9 +135,9 @@ contains
       logical :: named, ok
 
       call option_text(draft%deck, card, 'ELSET', section%elset, named, place)
-      i_set = find_set(model%element_sets, section%elset)
-      if (named .and. i_set == 0) call report_unknown(draft, place, 'element set', 'E-SET', model%element_sets%names, &
-          'SOLID SECTION')
+      i_set = find_set(draft%model%element_sets, section%elset)
+      if (named .and. i_set == 0) call report_unknown(draft, place, 'element set', 'E-SET', draft%model%element_sets%names, &
+                                                      'SOLID SECTION')
       ok = i_set > 0 .and. card%ok
       if (option_word(draft%deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
       call read_thickness(draft%deck, card, section%thickness, ok)
@@ -149,16 +146,16 @@ contains
       call option_text(draft%deck, card, 'MATERIAL', material, named, place)
       section%material = find_name(draft%material_names, material)
       if (named .and. section%material == 0) call report_unknown(draft, place, 'material', 'E-MATERIAL', draft%material_names, &
-          'SOLID SECTION')
+                                                                 'SOLID SECTION')
       ok = ok .and. section%material > 0
       number = SECTION_SPOILED
       if (ok) then
          n_sections = n_sections + 1
-         model%sections(n_sections) = section
+         draft%model%sections(n_sections) = section
          call keep_token(draft%sections, n_sections, card%place)
          number = n_sections
       end if
-      if (i_set > 0) call assign_section(card, model, draft, model%element_sets%sets(i_set)%members, number)
+      if (i_set > 0) call assign_section(card, draft, draft%model%element_sets%sets(i_set)%members, number)
    end subroutine read_section_card
 
    subroutine read_thickness(deck, card, thickness, ok)
@@ -183,9 +180,8 @@ contains
    end subroutine read_thickness
 
    !> Gives elements their section; those that have one already are an error, told in one message.
-   subroutine assign_section(card, model, draft, elements, number)
+   subroutine assign_section(card, draft, elements, number)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: elements(:), number
       type(number_list_t) :: twice
@@ -196,11 +192,11 @@ contains
 
       first = 0
       do i = 1, size(elements, kind=ip)
-         if (model%section_of(elements(i)) /= 0) then
-            call add_number(twice, model%mesh%element_id(elements(i)))
-            first = max(first, model%section_of(elements(i)))
+         if (draft%model%section_of(elements(i)) /= 0) then
+            call add_number(twice, draft%model%mesh%element_id(elements(i)))
+            first = max(first, draft%model%section_of(elements(i)))
          end if
-         model%section_of(elements(i)) = number
+         draft%model%section_of(elements(i)) = number
       end do
       if (twice%n == 0) return
       call option_text(draft%deck, card, 'ELSET', elset, found, place)

@@ -71,33 +71,34 @@ contains
       type(deck_t), intent(in), target :: deck
       integer(ip), intent(in) :: levels, shape
       integer(lp), intent(in) :: memory
-      type(model_t), intent(out) :: model
+      type(model_t), intent(out), target :: model
       type(draft_t) :: draft
       type(contact_rules_t) :: rules
       type(chain_report_t), allocatable :: chains(:)
       type(contact_points_t), allocatable :: points(:)
 
       call prepare_draft(deck, draft)
+      draft%model => model
       draft%memory = memory
       call take_titles(deck, model)
       call take_parameters(deck, model)
-      call build_nodes(model, draft)
-      call build_elements(model, draft)
+      call build_nodes(draft)
+      call build_elements(draft)
       call trim_mesh(model%mesh)
       draft%around = list_node_elements(model%mesh)
-      if (levels > 0 .or. shape > 0) call refine_model(levels, shape, model, draft)
-      call build_surfaces(model, draft)
-      call build_materials(model, draft)
-      call build_contact(model, draft)
-      call read_contact_rules(model, draft, rules)
-      call build_supports(model, draft)
-      call build_loads(model, draft)
-      call build_requests(model, draft)
+      if (levels > 0 .or. shape > 0) call refine_model(levels, shape, draft)
+      call build_surfaces(draft)
+      call build_materials(draft)
+      call build_contact(draft)
+      call read_contact_rules(draft, rules)
+      call build_supports(draft)
+      call build_loads(draft)
+      call build_requests(draft)
       call check_mesh(model, draft)
       call order_slaves(model, chains)
       call check_surfaces_of_pairs(model, draft, chains)
       if (has_errors()) return
-      call find_contact(rules, model, draft)
+      call find_contact(rules, draft)
       call note_unused_interactions(model, draft)
       call pair_all(model, points)
       call move_alloc(points, model%points)
@@ -140,54 +141,52 @@ contains
    end subroutine take_parameters
 
    !> Nodes, and the node sets.
-   subroutine build_nodes(model, draft)
-      type(model_t), intent(inout) :: model
+   subroutine build_nodes(draft)
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
       do i = 1, draft%deck%n_cards
          select case (keyword_name(draft%deck%cards(i)))
          case ('NODE')
-            call read_node_card(i, model, draft)
+            call read_node_card(i, draft)
          case ('NGEN')
-            call read_ngen_card(i, model, draft)
+            call read_ngen_card(i, draft)
          case ('NFILL')
-            call read_nfill_card(i, model, draft)
+            call read_nfill_card(i, draft)
          case ('NCOPY')
-            call read_ncopy_card(i, model, draft)
+            call read_ncopy_card(i, draft)
          case ('BLOCK')
-            call read_block_card(i, model, draft)
+            call read_block_card(i, draft)
          case ('NSET')
-            call try_set_card(i, model, draft)
+            call try_set_card(i, draft)
          end select
       end do
       do i = 1, draft%deck%n_cards
          if (keyword_name(draft%deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
-         call read_set_card(i, model, draft)
+         call read_set_card(i, draft)
       end do
    end subroutine build_nodes
 
    !> Elements, and the element sets.
-   subroutine build_elements(model, draft)
-      type(model_t), intent(inout) :: model
+   subroutine build_elements(draft)
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
       do i = 1, draft%deck%n_cards
          select case (keyword_name(draft%deck%cards(i)))
          case ('ELEMENT')
-            call read_element_card(i, model, draft)
+            call read_element_card(i, draft)
          case ('ELGEN')
-            call read_elgen_card(i, model, draft)
+            call read_elgen_card(i, draft)
          case ('ELCOPY')
-            call read_elcopy_card(i, model, draft)
+            call read_elcopy_card(i, draft)
          case ('BLOCK')
-            call place_block_elements(i, model, draft)
+            call place_block_elements(i, draft)
          end select
       end do
       do i = 1, draft%deck%n_cards
          if (keyword_name(draft%deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
-         call read_set_card(i, model, draft)
+         call read_set_card(i, draft)
       end do
    end subroutine build_elements
 

@@ -7,7 +7,6 @@ module atrito_build_sets
    use atrito_id_map, only: id_map_t, find_id
    use atrito_items, only: get_integer, has_option, option_text
    use atrito_kinds, only: ip
-   use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_references, only: get_id, find_nodes, find_elements
@@ -21,21 +20,20 @@ contains
 
    !> Reads a *NSET or *ELSET when all of its members are known by now, so that a *NFILL, *BLOCK or *ELCOPY below can use it. One
    !> with members that follow later is left to read_set_card.
-   subroutine try_set_card(i_card, model, draft)
+   subroutine try_set_card(i_card, draft)
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       logical :: known
 
       associate (deck => draft%deck, card => draft%deck%cards(i_card))
          if (keyword_name(card) == 'NSET') then
-            known = members_are_known(deck, card, model%mesh%node_map, model%node_sets)
+            known = members_are_known(deck, card, draft%model%mesh%node_map, draft%model%node_sets)
          else
-            known = members_are_known(deck, card, model%mesh%element_map, model%element_sets)
+            known = members_are_known(deck, card, draft%model%mesh%element_map, draft%model%element_sets)
          end if
       end associate
       if (.not. known) return
-      call read_set_card(i_card, model, draft)
+      call read_set_card(i_card, draft)
       draft%card_done(i_card) = .true.
    end subroutine try_set_card
 
@@ -101,9 +99,8 @@ contains
    end function ranges_are_known
 
    !> *NSET and *ELSET.
-   subroutine read_set_card(i_card, model, draft)
+   subroutine read_set_card(i_card, draft)
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: members
       character(len=:), allocatable :: name, keyword
@@ -117,26 +114,26 @@ contains
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (.not. draft%deck%lines(i)%ok) cycle
             if (.not. has_option(draft%deck, card, 'GENERATE')) then
-               call read_items(draft%deck%lines(i), i_card, model, draft, members)
+               call read_items(draft%deck%lines(i), i_card, draft, members)
             else if (keyword == 'NSET') then
-               call read_range(draft%deck, draft%deck%lines(i), model%mesh%node_map, draft%spoiled_nodes, 'node', keyword, members)
+               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%node_map, draft%spoiled_nodes, 'node', keyword, &
+                               members)
             else
-               call read_range(draft%deck, draft%deck%lines(i), model%mesh%element_map, draft%spoiled_elements, 'element', &
+               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%element_map, draft%spoiled_elements, 'element', &
                                keyword, members)
             end if
          end do
       end associate
       if (keyword == 'NSET') then
-         call put_node_set(model, draft, i_card, name, numbers_of(members))
+         call put_node_set(draft, i_card, name, numbers_of(members))
       else
-         call grow_set(model%element_sets, name, numbers_of(members))
+         call grow_set(draft%model%element_sets, name, numbers_of(members))
       end if
    end subroutine read_set_card
 
-   subroutine read_items(line, i_card, model, draft, members)
+   subroutine read_items(line, i_card, draft, members)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(number_list_t), intent(inout) :: members
       type(token_t) :: token
@@ -147,31 +144,30 @@ contains
       do i = 1, line%n_tokens
          token = line_item(draft%deck, line, i)
          if (keyword_name(draft%deck%cards(i_card)) == 'NSET') then
-            call find_nodes(model, draft, token, found, ok, 'NSET')
-            if (ok) ok = is_earlier(token, i_card, model, draft)
+            call find_nodes(draft, token, found, ok, 'NSET')
+            if (ok) ok = is_earlier(token, i_card, draft)
          else
-            call find_elements(model, draft, token, found, ok, 'ELSET')
+            call find_elements(draft, token, found, ok, 'ELSET')
          end if
          if (ok) call add_numbers(members, found)
       end do
    end subroutine read_items
 
    !> A set in a list must be an earlier one: it could not be complete otherwise.
-   logical function is_earlier(token, i_card, model, draft)
+   logical function is_earlier(token, i_card, draft)
       type(token_t), intent(in) :: token
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip) :: i
 
       is_earlier = .true.
       if (is_id_token(draft%deck, token)) return
-      i = find_set(model%node_sets, token_text(draft%deck, token))
+      i = find_set(draft%model%node_sets, token_text(draft%deck, token))
       if (keyword_name(draft%deck%cards(draft%set_card(i))) /= 'NSET') return
       is_earlier = draft%set_card(i) < i_card
       if (.not. is_earlier) call report_error(draft%deck, token, 'E-SET', 'node set '//token_text(draft%deck, token)// &
-          ' is defined later, in '//place_text(draft%deck, draft%deck%cards(draft%set_card(i))%place, token), &
-          expected='a node set that is defined above', keyword='NSET')
+                               ' is defined later, in '//place_text(draft%deck, draft%deck%cards(draft%set_card(i))%place, token), &
+                                              expected='a node set that is defined above', keyword='NSET')
    end function is_earlier
 
    !> A line of GENERATE: first number, last number, increment.

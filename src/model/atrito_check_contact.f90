@@ -113,8 +113,8 @@ contains
       end if
       k = known%first_of(i)
       if (k < i) then
-         call report_error(draft%deck, draft%slaves(i), 'E-TWICE', 'this pair is given twice, first in '// place_text(draft%deck, &
-                           draft%slaves(k), draft%slaves(i)), expected='each pair of surfaces once', keyword='CONTACT PAIR')
+         call report_error(draft%deck, draft%slaves(i), 'E-TWICE', 'this pair is given twice, first in '//place_text(draft%deck, &
+                                   draft%slaves(k), draft%slaves(i)), expected='each pair of surfaces once', keyword='CONTACT PAIR')
          return
       end if
       call check_slave(model, draft, slave, draft%slaves(i), known)
@@ -301,14 +301,14 @@ contains
       logical, intent(inout) :: is_judged              !< of the interaction
 
       if (points%n_left_out > 0) call report_note(draft%deck, draft%slaves(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
-          to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
+               to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
       if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) then
          call report_error(draft%deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides '//of_pair(model, i)// &
                            'do not match, and MORTAR, the quadrature for such sides, is not built yet', &
                            expected='QUADRATURE=NODAL, or sides whose nodes face each other', keyword='CONTACT PAIR')
       end if
       if (.not. is_judged) call judge_radius(draft%deck, draft%interactions(model%pairs(i)%interaction), &
-          model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)
+                                             model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)
    end subroutine judge_points
 
    !> What a pair is called that the deck does not give; '' for one that it gives.

@@ -28,7 +28,7 @@ contains
 
       if (model%mesh%n_elements == 0) then
          if (.not. has_errors()) call report_deck_error(draft%deck, 'E-EMPTY', 'the deck has no elements', &
-             expected='*ELEMENT or *BLOCK', keyword='BLOCK')
+                                                        expected='*ELEMENT or *BLOCK', keyword='BLOCK')
          return
       end if
       call check_shapes(model%mesh, draft)

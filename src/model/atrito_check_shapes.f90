@@ -47,11 +47,11 @@ contains
             if (shape == SHAPE_GOOD) cycle
             n = n + 1
             if (n <= MOST_ERRORS) call report_shape(draft%deck, mesh, e, shape, node, place_token(draft%deck, &
-                draft%element_place(e)))
+                                                                                                  draft%element_place(e)))
          end do
       end do
       if (n > MOST_ERRORS) call report_deck_error(draft%deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &
-          ' further elements are clockwise or degenerate', expected='corners counter-clockwise', keyword='ELEMENT')
+                           ' further elements are clockwise or degenerate', expected='corners counter-clockwise', keyword='ELEMENT')
    end subroutine check_shapes
 
    !> Whether some elements, one after the other, all have a good shape.

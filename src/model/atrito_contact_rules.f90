@@ -39,8 +39,7 @@ module atrito_contact_rules
 contains
 
    !> All rules of a deck.
-   subroutine read_contact_rules(model, draft, rules)
-      type(model_t), intent(in) :: model
+   subroutine read_contact_rules(draft, rules)
       type(draft_t), intent(in) :: draft
       type(contact_rules_t), intent(out) :: rules
       integer(ip) :: i
@@ -51,11 +50,11 @@ contains
             call read_contact_card(draft%deck, draft%deck%cards(i), rules)
          case ('CONTACT INCLUSIONS')
             if (has_option(draft%deck, draft%deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
-            call read_lines(draft%deck%cards(i), model, draft, rules%included)
+            call read_lines(draft%deck%cards(i), draft, rules%included)
          case ('CONTACT EXCLUSIONS')
-            call read_lines(draft%deck%cards(i), model, draft, rules%excluded)
+            call read_lines(draft%deck%cards(i), draft, rules%excluded)
          case ('CONTACT PROPERTY ASSIGNMENT')
-            call read_lines(draft%deck%cards(i), model, draft, rules%assigned)
+            call read_lines(draft%deck%cards(i), draft, rules%assigned)
          end select
       end do
       if (.not. rules%given .or. rules%included%n > 0 .or. has_errors()) return
@@ -87,9 +86,8 @@ contains
    end subroutine read_contact_card
 
    !> Lines of two surfaces, and of an interaction where one belongs.
-   subroutine read_lines(card, model, draft, rules)
+   subroutine read_lines(card, draft, rules)
       type(card_t), intent(in) :: card
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(rule_list_t), intent(inout) :: rules
       integer(ip) :: i, surface(2), value
@@ -98,23 +96,22 @@ contains
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. draft%deck%lines(i)%ok) cycle
          associate (line => draft%deck%lines(i))
-            call find_surface(card, line_item(draft%deck, line, 1_ip), model, draft, ANY_BODY, surface(1), ok(1))
-            call find_surface(card, line_item(draft%deck, line, 2_ip), model, draft, surface(1), surface(2), ok(2))
+            call find_surface(card, line_item(draft%deck, line, 1_ip), draft, ANY_BODY, surface(1), ok(1))
+            call find_surface(card, line_item(draft%deck, line, 2_ip), draft, surface(1), surface(2), ok(2))
             value = 1
             ok(3) = .true.
             if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
                call find_interaction(line_item(draft%deck, line, 3_ip), draft, value, ok(3))
             end if
-            if (all(ok(:2))) ok(1) = has_body(draft%deck, card, line, model, surface)
+            if (all(ok(:2))) ok(1) = has_body(draft%deck, card, line, draft%model, surface)
             if (all(ok)) call add_rule(rules, surface(1), surface(2), value)
          end associate
       end do
    end subroutine read_lines
 
-   subroutine find_surface(card, token, model, draft, default, surface, ok)
+   subroutine find_surface(card, token, draft, default, surface, ok)
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: default             !< of an empty item
       integer(ip), intent(out) :: surface            !< place, or ANY_BODY
@@ -127,11 +124,12 @@ contains
       ok = surface > 0
       if (.not. ok) then
          call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, keyword_name(card))
-      else if (model%surfaces(surface)%kind == SURFACE_SEGMENTS .and. .not. model%surfaces(surface)%is_rigid_body) then
+      else if (draft%model%surfaces(surface)%kind == SURFACE_SEGMENTS .and. .not. draft%model%surfaces(surface)%is_rigid_body) then
          if (draft%rigid_unsure .and. has_errors()) return
          ok = .false.
-         call report_error(draft%deck, token, 'E-PAIR', 'the drawn surface '//model%surfaces(surface)%name//' belongs to no body', &
-                           expected='*RIGID BODY, ANALYTICAL SURFACE='//model%surfaces(surface)%name, keyword='RIGID BODY')
+         call report_error(draft%deck, token, 'E-PAIR', 'the drawn surface '//draft%model%surfaces(surface)%name// &
+                           ' belongs to no body', expected='*RIGID BODY, ANALYTICAL SURFACE='//draft%model%surfaces(surface)%name, &
+                           keyword='RIGID BODY')
       end if
    end subroutine find_surface
 
@@ -166,7 +164,7 @@ contains
       interaction = find_name(draft%interaction_names, token_text(draft%deck, token))
       ok = interaction > 0
       if (.not. ok) call report_unknown(draft, token, 'surface interaction', 'E-INTERACTION', draft%interaction_names, &
-          'CONTACT PROPERTY ASSIGNMENT')
+                                        'CONTACT PROPERTY ASSIGNMENT')
    end subroutine find_interaction
 
    !> Adds a rule to those that there are.

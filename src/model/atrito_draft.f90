@@ -1,5 +1,5 @@
-!> What the builders share while a model grows and nobody needs afterwards: places in the deck, and which names and numbers an
-!> error has spoiled.
+!> What the builders share while a model grows: the deck, the model so far, and what nobody needs afterwards: places in the deck, and
+!> which names and numbers an error has spoiled.
 !>
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
@@ -12,6 +12,7 @@ module atrito_draft
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
+   use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
@@ -39,6 +40,7 @@ module atrito_draft
 
    type :: draft_t
       type(deck_t), pointer :: deck => null()
+      type(model_t), pointer :: model => null()        !< so far
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(name_list_t) :: spoiled                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists

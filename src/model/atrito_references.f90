@@ -9,7 +9,6 @@ module atrito_references
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element
    use atrito_messages, only: has_room, SEVERITY_ERROR
-   use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, names_of
    use atrito_refinement, only: fine_elements, is_refined
    use atrito_sets, only: set_list_t, find_set
@@ -37,8 +36,7 @@ contains
    end subroutine get_id
 
    !> The place of the node whose number an item is.
-   subroutine find_one_node(model, draft, token, node, ok, keyword)
-      type(model_t), intent(in) :: model
+   subroutine find_one_node(draft, token, node, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), intent(out) :: node
@@ -49,18 +47,17 @@ contains
       node = 0
       call get_id(draft%deck, token, 'node number', id, ok, keyword)
       if (.not. ok) return
-      node = find_node(model%mesh, id)
+      node = find_node(draft%model%mesh, id)
       ok = node > 0
       if (ok) return
       if (has_errors() .and. find_id(draft%spoiled_nodes, id) > 0 .or. is_unsure(draft, 'node')) return
       call report_error(draft%deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
                         expected='the number of a node that *NODE, *NGEN, *NFILL or *BLOCK defines ('// &
-                        range_text(model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
+                        range_text(draft%model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
    end subroutine find_one_node
 
    !> The place of the element whose number an item is, in the mesh of the deck.
-   subroutine find_one_element(model, draft, token, element, ok, keyword)
-      type(model_t), intent(in) :: model
+   subroutine find_one_element(draft, token, element, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), intent(out) :: element
@@ -74,14 +71,14 @@ contains
       if (is_refined(draft%refinement)) then
          element = find_id(draft%deck_elements, id)
       else
-         element = find_element(model%mesh, id)
+         element = find_element(draft%model%mesh, id)
       end if
       ok = element > 0
       if (ok) return
       if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0 .or. is_unsure(draft, 'element')) return
       call report_error(draft%deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
                         expected='the number of an element that *ELEMENT, *ELGEN or *BLOCK defines ('// &
-                        range_text(model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)
+                        range_text(draft%model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)
    end subroutine find_one_element
 
    pure function range_text(n, noun, greatest) result(text)
@@ -97,8 +94,7 @@ contains
    end function range_text
 
    !> The places of the nodes that an item names: a number or a node set.
-   subroutine find_nodes(model, draft, token, members, ok, keyword)
-      type(model_t), intent(in) :: model
+   subroutine find_nodes(draft, token, members, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), allocatable, intent(out) :: members(:)
@@ -107,16 +103,15 @@ contains
       integer(ip) :: node
 
       if (is_id_token(draft%deck, token)) then
-         call find_one_node(model, draft, token, node, ok, keyword)
+         call find_one_node(draft, token, node, ok, keyword)
          members = pack([node], [ok])
       else
-         call find_members(model%node_sets, draft, token, 'node', members, ok, keyword)
+         call find_members(draft%model%node_sets, draft, token, 'node', members, ok, keyword)
       end if
    end subroutine find_nodes
 
    !> The places of the elements that an item names: a number or an element set.
-   subroutine find_elements(model, draft, token, members, ok, keyword)
-      type(model_t), intent(in) :: model
+   subroutine find_elements(draft, token, members, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), allocatable, intent(out) :: members(:)
@@ -125,11 +120,11 @@ contains
       integer(ip) :: element
 
       if (is_id_token(draft%deck, token)) then
-         call find_one_element(model, draft, token, element, ok, keyword)
+         call find_one_element(draft, token, element, ok, keyword)
          members = pack([element], [ok])
          if (is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
       else
-         call find_members(model%element_sets, draft, token, 'element', members, ok, keyword)
+         call find_members(draft%model%element_sets, draft, token, 'element', members, ok, keyword)
       end if
    end subroutine find_elements
 
