@@ -3,7 +3,7 @@ module atrito_growth
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: grow
+   public :: grow, resize, make_room
 
    !> call grow(list, length): makes an allocated list longer; the new entries are undefined.
    !> call grow(list, length, enough): the same; where the memory does not suffice `enough` is false, and the list stays.
@@ -12,6 +12,22 @@ module atrito_growth
       module procedure grow_long_numbers
       module procedure grow_reals
    end interface grow
+
+   !> call resize(list, used, length): another length, the first `used` entries (or columns) kept; one that is not there is made.
+   interface resize
+      module procedure resize_numbers
+      module procedure resize_reals
+      module procedure resize_number_columns
+      module procedure resize_real_columns
+   end interface resize
+
+   !> call make_room(list, used, needed): room for so many entries; a list that is too short doubles, one that is not there is made.
+   interface make_room
+      module procedure make_room_for_numbers
+      module procedure make_room_for_reals
+   end interface make_room
+
+   integer(ip), parameter :: FIRST_LENGTH = 16
 
 contains
 
@@ -68,5 +84,61 @@ contains
       longer(:size(list)) = list
       call move_alloc(longer, list)
    end subroutine grow_reals
+
+   pure subroutine resize_numbers(list, used, length)
+      integer(ip), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(in) :: used, length
+      integer(ip), allocatable :: other(:)
+
+      allocate (other(length))
+      if (allocated(list)) other(:used) = list(:used)
+      call move_alloc(other, list)
+   end subroutine resize_numbers
+
+   pure subroutine resize_number_columns(list, used, length)
+      integer(ip), allocatable, intent(inout) :: list(:, :)    !< allocated: it says how long a column is
+      integer(ip), intent(in) :: used, length
+      integer(ip), allocatable :: other(:, :)
+
+      allocate (other(size(list, 1), length))
+      other(:, :used) = list(:, :used)
+      call move_alloc(other, list)
+   end subroutine resize_number_columns
+
+   pure subroutine make_room_for_numbers(list, used, needed)
+      integer(ip), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(in) :: used, needed
+
+      if (.not. allocated(list)) allocate (list(max(needed, FIRST_LENGTH)))
+      if (needed > size(list)) call resize(list, used, max(needed, 2*size(list, kind=ip)))
+   end subroutine make_room_for_numbers
+
+   pure subroutine resize_reals(list, used, length)
+      real(wp), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(in) :: used, length
+      real(wp), allocatable :: other(:)
+
+      allocate (other(length))
+      if (allocated(list)) other(:used) = list(:used)
+      call move_alloc(other, list)
+   end subroutine resize_reals
+
+   pure subroutine resize_real_columns(list, used, length)
+      real(wp), allocatable, intent(inout) :: list(:, :)    !< allocated: it says how long a column is
+      integer(ip), intent(in) :: used, length
+      real(wp), allocatable :: other(:, :)
+
+      allocate (other(size(list, 1), length))
+      other(:, :used) = list(:, :used)
+      call move_alloc(other, list)
+   end subroutine resize_real_columns
+
+   pure subroutine make_room_for_reals(list, used, needed)
+      real(wp), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(in) :: used, needed
+
+      if (.not. allocated(list)) allocate (list(max(needed, FIRST_LENGTH)))
+      if (needed > size(list)) call resize(list, used, max(needed, 2*size(list, kind=ip)))
+   end subroutine make_room_for_reals
 
 end module atrito_growth

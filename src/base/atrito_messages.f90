@@ -49,7 +49,6 @@ contains
    !> counted only (a large deck can be wrong in every line).
    subroutine add_message(message)
       type(message_t), intent(in) :: message
-      type(message_t), allocatable :: longer(:)
       integer(ip) :: i
 
       if (.not. has_room(message%severity)) then
@@ -60,11 +59,7 @@ contains
       do i = 1, stored
          if (is_same(store(i), message)) return
       end do
-      if (stored == size(store)) then
-         allocate (longer(2*stored))
-         longer(:stored) = store
-         call move_alloc(longer, store)
-      end if
+      if (stored == size(store)) store = [store, store]    ! doubled
       stored = stored + 1
       store(stored) = message
       counted(message%severity) = counted(message%severity) + 1

@@ -1,9 +1,9 @@
-!> Sorting by whole numbers.
+!> Sorting by whole numbers, and what is found in sorted lists.
 module atrito_sorting
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: sorted_places
+   public :: sorted_places, each_once, first_at_least, order_key
 
 contains
 
@@ -53,5 +53,43 @@ contains
          end if
       end do
    end subroutine merge_runs
+
+   !> Numbers in rising order, each once.
+   pure function each_once(numbers) result(once)
+      integer(ip), intent(in) :: numbers(:)
+      integer(ip), allocatable :: once(:)
+      logical :: is_new(size(numbers))
+
+      once = numbers(sorted_places(int(numbers, lp)))
+      is_new = .true.
+      is_new(2:) = once(2:) > once(:size(once) - 1)
+      once = pack(once, is_new)
+   end function each_once
+
+   !> Place of the first key that is not below a bound; one more than there are when all are.
+   pure integer(ip) function first_at_least(key, bound) result(low)
+      integer(lp), intent(in) :: key(:)              !< rising
+      integer(lp), intent(in) :: bound
+      integer(ip) :: high, middle
+
+      low = 1
+      high = size(key, kind=ip) + 1
+      do while (low < high)
+         middle = low + (high - low)/2
+         if (key(middle) < bound) then
+            low = middle + 1
+         else
+            high = middle
+         end if
+      end do
+   end function first_at_least
+
+   !> A whole number for a real: they have the same order.
+   pure elemental integer(lp) function order_key(x) result(key)
+      real(wp), intent(in) :: x
+
+      key = transfer(x, key)
+      if (key < 0_lp) key = ieor(key, huge(key))
+   end function order_key
 
 end module atrito_sorting

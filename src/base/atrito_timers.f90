@@ -1,6 +1,6 @@
 !> Wall and processor time by phase.
 module atrito_timers
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: lp, wp
    implicit none (type, external)
    private
    public :: phase_time_t, start_phase, stop_phase, get_phases, reset_timers

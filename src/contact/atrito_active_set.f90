@@ -12,7 +12,7 @@ module atrito_active_set
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: box_outcome_t, solve_box, is_settled
+   public :: box_outcome_t, solve_box, change_states, is_settled
 
    !> Full steps, and unknowns for each where they are many: the front of a slip zone may move by a few points a step.
    integer(ip), parameter :: MOST_FULL_STEPS = 20, UNKNOWNS_A_STEP = 20
@@ -27,6 +27,7 @@ module atrito_active_set
       real(wp) :: condition = 1.0_wp
       integer(ip) :: dependent = 0                !< unknown whose row depends on others
       logical :: used_dual_steps = .false.
+      logical, allocatable :: is_shared(:)        !< (m) the force is not unique, the least is given; not allocated: not asked for
    end type box_outcome_t
 
 contains
@@ -54,7 +55,7 @@ contains
          if (.not. is_ok(status)) return
          call record_solve(history, problem, bounds, state)
          if (solution%moves) exit
-         call change_all(problem, bounds, state, changes)
+         call change_states(problem, bounds, state, changes)
          outcome%solved = changes == 0
          if (.not. outcome%solved) cycle
          if (allocated(solution%idle)) outcome%idle = solution%idle
@@ -80,7 +81,7 @@ contains
    end subroutine put_at_bounds
 
    !> The full step: every unknown that breaks its condition changes.
-   subroutine change_all(problem, bounds, state, changes)
+   subroutine change_states(problem, bounds, state, changes)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
@@ -104,7 +105,7 @@ contains
          end select
          if (state%state(i) /= old) changes = changes + 1
       end do
-   end subroutine change_all
+   end subroutine change_states
 
    !> Whether no unknown breaks its condition.
    logical function is_settled(problem, bounds, state)
@@ -115,7 +116,7 @@ contains
       integer(ip) :: changes
 
       next = state
-      call change_all(problem, bounds, next, changes)
+      call change_states(problem, bounds, next, changes)
       is_settled = changes == 0
    end function is_settled
 
@@ -145,14 +146,14 @@ contains
       if (is_released) is_released = wrong > row_round_off(problem, state, i)
    end function is_released
 
-   !> A number that tells states apart (FNV-1a).
+   !> A number that tells states apart (FNV-1a, of 38 bits: their product with the prime fits into a long integer).
    pure integer(lp) function state_code(state) result(code)
       type(box_state_t), intent(in) :: state
       integer(ip) :: i
 
       code = 1469598103_lp
       do i = 1, size(state%state, kind=ip)
-         code = iand(ieor(code, int(state%state(i), lp))*16777619_lp, int(z'7fffffffff', lp))
+         code = iand(ieor(code, int(state%state(i), lp))*16777619_lp, int(z'3fffffffff', lp))
       end do
    end function state_code
 

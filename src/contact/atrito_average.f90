@@ -5,7 +5,7 @@ module atrito_average
    use atrito_neighbours, only: grid_t, build_grid, count_near, list_near
    implicit none (type, external)
    private
-   public :: average_t, identity_average, build_average, count_entries, join_averages, apply_average
+   public :: average_t, identity_average, build_average, count_entries, join_averages, apply_average, least_spacing
 
    !> 1 / integral of exp(1/(r^2-1)) over (-1,1): the constant c of the kernel, times rho.
    real(wp), parameter :: KERNEL_CONSTANT = 2.252283621043581_wp

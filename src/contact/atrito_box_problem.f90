@@ -69,6 +69,11 @@ module atrito_box_problem
    real(wp), parameter :: VANISHING = 1.0e-25_wp    !< of the force that would undo the displacements: refinement leaves it of 0
    character(len=*), parameter :: DEPENDENT_POINTS = 'dependent contact points'
 
+   !> How firmly the free set holds each motion: eigenvectors and eigenvalues of G' M^-1 G, scaled to a unit diagonal.
+   type :: complement_t
+      real(wp), allocatable :: vectors(:, :), values(:), scale(:)
+   end type complement_t
+
 contains
 
    !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. solution%moves: no equilibrium, and a is
@@ -153,70 +158,74 @@ contains
       real(wp), intent(out) :: q(:)              !< scaled
       real(wp), intent(inout) :: a(:)
       type(equality_solution_t), intent(inout) :: solution
-      real(wp), allocatable :: y(:, :), values(:), vectors(:, :), column_scale(:), x(:), correction(:), da(:)
+      type(complement_t) :: complement
+      real(wp), allocatable :: y(:, :), x(:), correction(:), da(:)
 
       associate (gs => system%g, rhs => system%rhs, load => system%load)
          y = gs
          call solve_cholesky(factor, y)
-         call complement_modes(gs, y, vectors, values, column_scale)
+         call complement_modes(gs, y, complement)
          x = rhs
          call solve_cholesky(factor, x)
-         call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), x), a)
+         call solve_motions(complement, load - matmul(transpose(gs), x), a)
          q = x + matmul(y, a)
          ! one refinement: the residual of both equations with the same factors
          correction = rhs + matmul(gs, a) - scaled_product(problem%c, system, q)
          call solve_cholesky(factor, correction)
          allocate (da, mold=a)
-         call solve_motions(vectors, values, column_scale, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
+         call solve_motions(complement, load - matmul(transpose(gs), q) - matmul(transpose(gs), correction), da)
          q = q + correction + matmul(y, da)
          a = a + da
-         call judge_motions(problem, vectors, values, column_scale, system, held, q, a, solution)
+         call judge_motions(problem, complement, system, held, q, a, solution)
       end associate
    end subroutine solve_saddle
 
-   !> Eigenvectors and eigenvalues of G' M^-1 G, scaled to a unit diagonal: how firmly the free set holds each motion.
-   subroutine complement_modes(gs, y, vectors, values, column_scale)
+   subroutine complement_modes(gs, y, complement)
       real(wp), intent(in) :: gs(:, :), y(:, :)
-      real(wp), allocatable, intent(out) :: vectors(:, :), values(:), column_scale(:)
+      type(complement_t), intent(out) :: complement
       integer(ip) :: i, j, k, info
 
       k = size(gs, 2, kind=ip)
-      vectors = matmul(transpose(gs), y)
-      vectors = 0.5_wp*(vectors + transpose(vectors))
-      allocate (column_scale(k), values(k))
-      do j = 1, k
-         column_scale(j) = 1.0_wp
-         if (vectors(j, j) > 0.0_wp) column_scale(j) = 1.0_wp/sqrt(vectors(j, j))
-      end do
-      do j = 1, k
-         do i = 1, k
-            vectors(i, j) = vectors(i, j)*column_scale(i)*column_scale(j)
+      complement%vectors = matmul(transpose(gs), y)
+      complement%vectors = 0.5_wp*(complement%vectors + transpose(complement%vectors))
+      allocate (complement%scale(k), complement%values(k))
+      associate (vectors => complement%vectors, scale => complement%scale)
+         do j = 1, k
+            scale(j) = 1.0_wp
+            if (vectors(j, j) > 0.0_wp) scale(j) = 1.0_wp/sqrt(vectors(j, j))
          end do
-      end do
-      call eigen_symmetric(vectors, values, info)
+         do j = 1, k
+            do i = 1, k
+               vectors(i, j) = vectors(i, j)*scale(i)*scale(j)
+            end do
+         end do
+         call eigen_symmetric(vectors, complement%values, info)
+      end associate
    end subroutine complement_modes
 
    !> a from G' M^-1 G a = force; a motion that the free set does not hold takes no part.
-   subroutine solve_motions(vectors, values, column_scale, force, a)
-      real(wp), intent(in) :: vectors(:, :), values(:), column_scale(:), force(:)
+   subroutine solve_motions(complement, force, a)
+      type(complement_t), intent(in) :: complement
+      real(wp), intent(in) :: force(:)
       real(wp), intent(out) :: a(:)
       integer(ip) :: j
 
       a = 0.0_wp
-      do j = 1, size(values, kind=ip)
-         if (values(j) <= NULL_MOTION) cycle
-         a = a + vectors(:, j)*(dot_product(vectors(:, j), force*column_scale)/values(j))
+      do j = 1, size(complement%values, kind=ip)
+         if (complement%values(j) <= NULL_MOTION) cycle
+         a = a + complement%vectors(:, j)*(dot_product(complement%vectors(:, j), force*complement%scale)/complement%values(j))
       end do
-      a = a*column_scale
+      a = a*complement%scale
    end subroutine solve_motions
 
    !> Whether the load works on a motion that the free set does not hold: then solution%moves. The load is measured by the forces of
    !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
    !> may be larger by any factor, and say nothing.
-   subroutine judge_motions(problem, vectors, values, column_scale, system, held, q, a, solution)
+   subroutine judge_motions(problem, complement, system, held, q, a, solution)
       type(box_problem_t), intent(in) :: problem
-      real(wp), intent(in) :: vectors(:, :), values(:), column_scale(:), held(:)
+      type(complement_t), intent(in) :: complement
       type(free_system_t), intent(in) :: system
+      real(wp), intent(in) :: held(:)
       real(wp), intent(in) :: q(:)               !< scaled, of the free set
       real(wp), intent(in) :: a(:)
       type(equality_solution_t), intent(inout) :: solution
@@ -224,7 +233,7 @@ contains
       real(wp) :: part, size_of_part, round_off
       integer(ip) :: j
 
-      if (all(values > NULL_MOTION)) return
+      if (all(complement%values > NULL_MOTION)) return
       solution%hardly = .true.
       all_q = held
       all_q(system%set) = q*system%scale
@@ -233,13 +242,13 @@ contains
       size_of_work = size_of_load(problem) + matmul(transpose(abs(problem%g)), abs(all_q))
       motion = 0.0_wp
       do j = 1, problem%k
-         if (values(j) > NULL_MOTION) cycle
-         way = vectors(:, j)*column_scale
+         if (complement%values(j) > NULL_MOTION) cycle
+         way = complement%vectors(:, j)*complement%scale
          part = dot_product(way, work)
          size_of_part = dot_product(abs(way), size_of_work)
          round_off = dot_product(abs(matmul(problem%g, way)), none)
          if (abs(part) > NO_LOAD*size_of_part + round_off) then
-            motion = motion + vectors(:, j)*part
+            motion = motion + complement%vectors(:, j)*part
             solution%hardly = solution%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
          else
             solution%idle = way
@@ -247,7 +256,7 @@ contains
       end do
       if (all(motion == 0.0_wp)) return
       solution%moves = .true.
-      solution%motion = motion*column_scale
+      solution%motion = motion*complement%scale
    end subroutine judge_motions
 
    pure function size_of_load(problem)

@@ -38,6 +38,12 @@ module atrito_certificate
    integer(ip), parameter :: MOST_PASSES = 3_ip
    integer(ip), parameter :: MANY_MOTIONS = 500_ip !< from here on interior points are faster than simplex steps
 
+   !> Bodies that touch each other, by their motions, and the points that they do it at.
+   type :: group_t
+      logical, allocatable :: member(:)          !< (k)
+      logical, allocatable :: touched(:)         !< (line%n)
+   end type group_t
+
 contains
 
    !> Judges all groups. IMPOSSIBLE: one of them has a motion that proves it, that of the greatest excess over its loads is given.
@@ -118,8 +124,11 @@ contains
       type(certificate_t), intent(inout) :: certificate
       logical, intent(out) :: solved
       real(wp) :: v(rows%k), q(rows%m), sizes(rows%k), body_force(rows%k)
+      integer :: outcome
 
-      call solve_balance(rows, line, member, touched, scale, .false., q, v, certificate%solver_missing, solved)
+      call solve_balance(rows, line, group_t(member, touched), scale, .false., q, v, outcome)
+      certificate%solver_missing = outcome == LP_NOT_AVAILABLE
+      solved = outcome == LP_OPTIMAL
       if (.not. solved) return
       certificate%q = q
       if (forces_balance(rows, line, q, member)) then
@@ -166,24 +175,23 @@ contains
       real(wp), intent(in) :: scale(:)
       type(certificate_t), intent(inout) :: certificate
       real(wp) :: v(rows%k), q(rows%m), sizes(rows%k), body_force(rows%k)
-      logical :: moves(rows%k), solved, missing
+      integer :: outcome
 
-      moves = abs(certificate%motion) > 0.0_wp
-      call solve_balance(rows, line, moves, touched, scale, .true., q, v, missing, solved)
-      if (.not. solved) return
+      call solve_balance(rows, line, group_t(abs(certificate%motion) > 0.0_wp, touched), scale, .true., q, v, outcome)
+      if (outcome /= LP_OPTIMAL) return
       sizes = scale
       call measure_forces(rows, certificate%q, scale > 0.0_wp, sizes, body_force)
       call accept_motion(rows, line, body_force, scale, v, certificate)
    end subroutine simplify_motion
 
-   subroutine solve_balance(rows, line, member, touched, scale, least_largest, q, v, missing, solved)
+   subroutine solve_balance(rows, line, group, scale, least_largest, q, v, outcome)
       type(motion_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      logical, intent(in) :: member(:), touched(:)
+      type(group_t), intent(in) :: group
       real(wp), intent(in) :: scale(:)
       logical, intent(in) :: least_largest
       real(wp), intent(out) :: q(:), v(:)
-      logical, intent(out) :: missing, solved
+      integer, intent(out) :: outcome            !< LP_*
       type(balance_program_t) :: balance
       type(linear_solution_t) :: solution
       integer(ip) :: row_of_motion(rows%k), i, n
@@ -191,18 +199,17 @@ contains
       row_of_motion = 0
       n = 0
       do i = 1, rows%k
-         if (.not. member(i)) cycle
+         if (.not. group%member(i)) cycle
          n = n + 1
          row_of_motion(i) = n
       end do
-      call build_balance_program(rows, line, touched, row_of_motion, scale, least_largest, balance)
+      call build_balance_program(rows, line, group%touched, row_of_motion, scale, least_largest, balance)
       call solve_linear_program(balance%program, method_for(n, least_largest), solution)
       if (solution%status /= LP_OPTIMAL .and. n > MANY_MOTIONS) call solve_linear_program(balance%program, LP_BY_SIMPLEX, solution)
-      missing = solution%status == LP_NOT_AVAILABLE
-      solved = solution%status == LP_OPTIMAL
+      outcome = solution%status
       q = 0.0_wp
       v = 0.0_wp
-      if (.not. solved) return
+      if (outcome /= LP_OPTIMAL) return
       call forces_of_columns(balance, solution%x, q)
       call motion_of_duals(balance, solution%dual, v)
    end subroutine solve_balance

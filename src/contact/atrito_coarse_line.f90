@@ -7,7 +7,7 @@
 module atrito_coarse_line
    use atrito_average, only: average_t, identity_average
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
-   use atrito_contact_line, only: contact_line_t, last_of_pair, number_unknowns, normal_bounds, friction_bound
+   use atrito_contact_line, only: pressure_of, contact_line_t, last_of_pair, number_unknowns, normal_bounds, friction_bound
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -198,18 +198,18 @@ contains
    end function unknown_of
 
    !> States of a line from those of the nearest points of its coarse line, and the friction bound of the coarse pressure.
-   subroutine start_from_coarse(problem, line, interpolation, coarse_line, coarse_state, coarse_pressure, bounds, state, tau)
+   subroutine start_from_coarse(problem, line, interpolation, coarse_line, coarse_state, bounds, state, tau)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line, coarse_line
       type(interpolation_t), intent(in) :: interpolation
       type(box_state_t), intent(in) :: coarse_state
-      real(wp), intent(in) :: coarse_pressure(:)     !< (n_c) [F/L^2]
       type(box_bounds_t), intent(out) :: bounds
       type(box_state_t), intent(out) :: state
       real(wp), intent(out) :: tau(:)                !< (n) [F/L^2]
-      real(wp) :: p(line%n)
+      real(wp) :: p(line%n), coarse_pressure(coarse_line%n)
       integer(ip) :: i, j, c, u
 
+      coarse_pressure = pressure_of(coarse_line, coarse_state%q)
       call normal_bounds(line, problem, bounds, state)
       state%a = coarse_state%a
       do i = 1, problem%m

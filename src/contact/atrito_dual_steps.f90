@@ -36,13 +36,13 @@ contains
       logical, intent(out) :: solved
       type(status_t), intent(out) :: status
       type(line_factor_t), intent(inout), optional :: kept
-      integer(ip) :: left, worst, bound, i
+      integer(ip) :: left, worst, i
 
       solved = .false.
       left = SOLVES_PER_UNKNOWN*problem%m + 50
       call release_until_right(problem, bounds, state, history, solution, left, status, kept)
       do while (is_ok(status) .and. left > 0 .and. .not. solution%moves)
-         call find_worst(problem, bounds, state, worst, bound)
+         call find_worst(problem, bounds, state, worst)
          if (worst == 0) then
             ! an idle motion may have turned a multiplier
             solved = .not. any([(is_wrong(problem, state, i), i=1, problem%m)])
@@ -50,7 +50,8 @@ contains
             call release_until_right(problem, bounds, state, history, solution, left, status, kept)
             cycle
          end if
-         call drive_to_bound(problem, bounds, worst, bound, state, history, solution, left, status, kept)
+         state%state(worst) = DRIVEN
+         call drive_to_bound(problem, bounds, state, history, solution, left, status, kept)
       end do
    end subroutine take_dual_steps
 
@@ -92,12 +93,10 @@ contains
    end subroutine release_until_right
 
    !> (ii) and (iii) for one unknown.
-   subroutine drive_to_bound(problem, bounds, i, bound, state, history, solution, left, status, kept)
+   subroutine drive_to_bound(problem, bounds, state, history, solution, left, status, kept)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
-      integer(ip), intent(in) :: i                   !< free, beyond its bound
-      integer(ip), intent(in) :: bound               !< AT_LOWER or AT_UPPER
-      type(box_state_t), intent(inout) :: state
+      type(box_state_t), intent(inout) :: state      !< one unknown is DRIVEN, beyond its bound
       type(solve_history_t), intent(inout) :: history
       type(equality_solution_t), intent(out) :: solution
       integer(ip), intent(inout) :: left
@@ -105,9 +104,10 @@ contains
       type(line_factor_t), intent(inout), optional :: kept
       type(box_state_t) :: target
       real(wp) :: t, motion(problem%k)
-      integer(ip) :: first
+      integer(ip) :: i, bound, first
 
-      state%state(i) = DRIVEN
+      i = findloc(state%state, DRIVEN, dim=1, kind=ip)
+      bound = merge(AT_LOWER, AT_UPPER, state%q(i) < bounds%lower(i))
       do while (left > 0)
          target = state
          target%q(i) = merge(bounds%lower(i), bounds%upper(i), bound == AT_LOWER)
@@ -175,17 +175,16 @@ contains
       if (is_ok(status)) call record_solve(history, problem, bounds, state)
    end subroutine solve_and_record
 
-   !> The free unknown that breaks a bound most, as a force, and that bound; 0 when none does.
-   pure subroutine find_worst(problem, bounds, state, worst, bound)
+   !> The free unknown that breaks a bound most, as a force; 0 when none does.
+   pure subroutine find_worst(problem, bounds, state, worst)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
-      integer(ip), intent(out) :: worst, bound
+      integer(ip), intent(out) :: worst
       real(wp) :: most, excess, little
       integer(ip) :: i
 
       worst = 0
-      bound = AT_LOWER
       most = 0.0_wp
       little = BREAKS*maxval([abs(state%q), 0.0_wp])
       do i = 1, problem%m
@@ -198,7 +197,6 @@ contains
          end if
          most = excess
          worst = i
-         bound = merge(AT_LOWER, AT_UPPER, state%q(i) < bounds%lower(i))
       end do
    end subroutine find_worst
 

@@ -4,6 +4,7 @@
 !> millionth: a <- H^-1 (kappa a), H the matrix that was factored last. So a vector without pattern becomes an idle motion, or
 !> nothing. Of the displacements that differ by idle motions those are given whose relative displacements at the points are least.
 module atrito_idle_motions
+   use atrito_bodies, only: reduce_columns
    use atrito_box_problem, only: box_bounds_t, box_state_t, FREE
    use atrito_constraint_rows, only: multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
@@ -99,25 +100,11 @@ contains
    !> The motion of the space with the fewest amplitudes, those that come first: the basis reduced by columns.
    pure function simplest(basis) result(motion)
       real(wp), intent(in) :: basis(:, :)
-      real(wp) :: motion(size(basis, 1))
-      real(wp) :: reduced(size(basis, 1), size(basis, 2)), column(size(basis, 1))
+      real(wp) :: motion(size(basis, 1)), reduced(size(basis, 1), size(basis, 2))
       real(wp), parameter :: ROUND_OFF = 1.0e-6_wp
-      integer(ip) :: row, j, k, pivot
 
       reduced = basis
-      k = 0
-      do row = 1, size(basis, 1, kind=ip)
-         if (k == size(basis, 2)) exit
-         pivot = k + maxloc(abs(reduced(row, k + 1:)), dim=1, kind=ip)
-         if (abs(reduced(row, pivot)) < ROUND_OFF) cycle
-         k = k + 1
-         column = reduced(:, pivot)/reduced(row, pivot)
-         reduced(:, pivot) = reduced(:, k)
-         reduced(:, k) = column
-         do j = 1, size(basis, 2, kind=ip)
-            if (j /= k) reduced(:, j) = reduced(:, j) - column*reduced(row, j)
-         end do
-      end do
+      call reduce_columns(reduced, ROUND_OFF)
       motion = reduced(:, 1)
       where (abs(motion) < ROUND_OFF*maxval(abs(motion))) motion = 0.0_wp
    end function simplest

@@ -42,6 +42,11 @@ module atrito_kept_factor
    real(wp), parameter :: LEAST_CURVATURE = 1.0e-13_wp !< of M; below it points depend on each other, which a factor tells
    real(wp), parameter :: WEAKLY_HELD = 1.0e-6_wp   !< a motion that the free set hardly holds asks for a factor of its own
 
+   !> Forces and motions of the system so far, and the residual of their rows.
+   type :: approximation_t
+      real(wp), allocatable :: x(:), b(:), r(:)
+   end type approximation_t
+
 contains
 
    !> Solves from the present q and a. solved is false where the factor's set is not near or has served its time, a motion is held
@@ -54,7 +59,8 @@ contains
       real(wp), intent(inout) :: a(:)            !< (k) [L]
       logical, intent(out) :: solved
       type(preconditioner_t) :: p
-      real(wp) :: x(size(q)), b(size(a)), r(size(q)), terms, remains
+      type(approximation_t) :: found
+      real(wp) :: terms, remains
       integer(ip) :: most, steps
 
       solved = .false.
@@ -65,18 +71,19 @@ contains
       if (2*p%relation%differences > size(q)) return
       call prepare_motions(factor, system, p, solved)
       if (.not. solved) return
-      x = q
-      b = a
-      call correct(factor, c, system, p, x, b, remains)
-      call true_residual(c, system, x, b, r, terms)
-      call take_steps(factor, c, system, p, most, ROUND_OFF*terms, x, b, r, steps, solved)
+      found%x = q
+      found%b = a
+      call correct(factor, c, system, p, found, remains)
+      call find_residual(c, system, found, terms)
+      call take_steps(factor, c, system, p, most, ROUND_OFF*terms, found, steps)
+      solved = maxval(abs(found%r)) <= ROUND_OFF*terms
       factor%steps = factor%steps + max(steps - FEW_STEPS, 0_ip)
       if (.not. solved) return
-      call correct(factor, c, system, p, x, b, remains)
+      call correct(factor, c, system, p, found, remains)
       solved = remains <= FALSE_END
       if (.not. solved) return
-      q = x
-      a = b
+      q = found%x
+      a = found%b
    end subroutine solve_with_kept
 
    !> P^-1 G and the inverse of G' P^-1 G, where the set holds all motions.
@@ -115,71 +122,70 @@ contains
    end subroutine prepare_motions
 
    !> One step with both residuals.
-   subroutine correct(factor, c, system, p, x, b, remains)
+   subroutine correct(factor, c, system, p, found, remains)
       type(line_factor_t), intent(in) :: factor
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
       type(preconditioner_t), intent(in) :: p
-      real(wp), intent(inout) :: x(:), b(:)
+      type(approximation_t), intent(inout) :: found
       real(wp), intent(out) :: remains           !< largest entry of the residual before, over its terms
-      real(wp) :: r(size(x)), z(size(x)), db(size(b)), terms
+      real(wp) :: z(size(found%x)), db(size(found%b)), terms
 
-      call true_residual(c, system, x, b, r, terms)
+      call find_residual(c, system, found, terms)
       remains = 0.0_wp
-      if (terms > 0.0_wp) remains = maxval(abs(r))/terms
-      call apply_inverse(factor, p%relation, r, z)
-      db = matmul(p%inverse, system%load - matmul(transpose(system%g), x) - matmul(transpose(system%g), z))
-      x = x + z + matmul(p%y, db)
-      b = b + db
+      if (terms > 0.0_wp) remains = maxval(abs(found%r))/terms
+      call apply_inverse(factor, p%relation, found%r, z)
+      db = matmul(p%inverse, system%load - matmul(transpose(system%g), found%x) - matmul(transpose(system%g), z))
+      found%x = found%x + z + matmul(p%y, db)
+      found%b = found%b + db
    end subroutine correct
 
    !> r, and the size of what it is the difference of.
-   subroutine true_residual(c, system, x, b, r, terms)
+   subroutine find_residual(c, system, found, terms)
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
-      real(wp), intent(in) :: x(:), b(:)
-      real(wp), intent(out) :: r(:), terms
-      real(wp) :: moved(size(x)), product(size(x))
+      type(approximation_t), intent(inout) :: found
+      real(wp), intent(out) :: terms
+      real(wp) :: moved(size(found%x)), product(size(found%x))
 
-      moved = matmul(system%g, b)
-      product = scaled_product(c, system, x)
-      r = system%rhs + moved - product
+      moved = matmul(system%g, found%b)
+      product = scaled_product(c, system, found%x)
+      found%r = system%rhs + moved - product
       terms = maxval(abs(system%rhs)) + maxval(abs(moved)) + maxval(abs(product))
-   end subroutine true_residual
+   end subroutine find_residual
 
    !> Conjugate gradients until the largest entry of r is small enough.
-   subroutine take_steps(factor, c, system, p, most, enough, x, b, r, step, solved)
+   subroutine take_steps(factor, c, system, p, most, enough, found, step)
       type(line_factor_t), intent(in) :: factor
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
       type(preconditioner_t), intent(in) :: p
       integer(ip), intent(in) :: most
       real(wp), intent(in) :: enough
-      real(wp), intent(inout) :: x(:), b(:), r(:)
+      type(approximation_t), intent(inout) :: found
       integer(ip), intent(out) :: step           !< steps that were made
-      logical, intent(out) :: solved
-      real(wp) :: z(size(x)), direction(size(x)), product(size(x)), db(size(b)), begin, now, rz, last_rz, curvature
+      real(wp) :: z(size(found%x)), direction(size(found%x)), product(size(found%x)), db(size(found%b))
+      real(wp) :: begin, now, rz, last_rz, curvature
 
       direction = 0.0_wp
       last_rz = 1.0_wp
-      begin = maxval(abs(r))
+      begin = maxval(abs(found%r))
       do step = 0, most
-         now = maxval(abs(r))
-         solved = now <= enough
-         if (solved) return
+         now = maxval(abs(found%r))
+         if (now <= enough) return
          if (step >= 2*FEW_STEPS .and. is_slow(step, most, enough, begin, now)) return
-         call apply_inverse(factor, p%relation, r, z)
+         call apply_inverse(factor, p%relation, found%r, z)
          db = -matmul(p%inverse, matmul(transpose(system%g), z))
          z = z + matmul(p%y, db)
-         r = r + matmul(system%g, db)
-         b = b + db
-         rz = dot_product(r, z)
+         found%r = found%r + matmul(system%g, db)
+         found%b = found%b + db
+         rz = dot_product(found%r, z)
          direction = z + (rz/last_rz)*direction
          product = scaled_product(c, system, direction)
          curvature = dot_product(direction, product)
          if (.not. (rz > 0.0_wp .and. curvature > LEAST_CURVATURE*dot_product(direction, direction))) return
-         x = x + (rz/curvature)*direction
-         r = r - (rz/curvature)*product
+         found%x = found%x + (rz/curvature)*direction
+         found%r = found%r - (rz/curvature)*product
          last_rz = rz
       end do
    end subroutine take_steps

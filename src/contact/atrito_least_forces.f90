@@ -12,7 +12,8 @@
 module atrito_least_forces
    use atrito_constraint_rows, only: constraint_rows_t, list_components
    use atrito_dense, only: least_squares
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_sorting, only: each_once, first_at_least
    implicit none (type, external)
    private
    public :: find_least_forces
@@ -71,7 +72,7 @@ contains
       integer(ip), intent(in) :: own(:)
       real(wp), intent(in) :: scale(:), lower(:), upper(:), q(:)
       type(component_t), intent(out) :: component
-      integer(ip), allocatable :: dofs(:)
+      integer(lp), allocatable :: dofs(:)
       integer(ip) :: i, k, n
 
       component%n = size(own, kind=ip)
@@ -85,9 +86,9 @@ contains
             component%value(at:component%first(i + 1) - 1) = rows%value(from:to)*scale(own(i))
          end associate
       end do
-      dofs = sorted(component%column)
+      dofs = int(each_once(component%column), lp)
       do k = 1, n
-         component%column(k) = place_of(dofs, component%column(k))
+         component%column(k) = first_at_least(dofs, int(component%column(k), lp))
       end do
       component%k = size(dofs, kind=ip)
       call scale_columns(component)
@@ -111,64 +112,6 @@ contains
          if (length(component%column(k)) > 0.0_wp) component%value(k) = component%value(k)/length(component%column(k))
       end do
    end subroutine scale_columns
-
-   !> The different numbers of a list, rising: merge sort from below.
-   pure function sorted(list) result(values)
-      integer(ip), intent(in) :: list(:)
-      integer(ip), allocatable :: values(:)
-      integer(ip) :: half(size(list)), width, at, n, i
-
-      values = list
-      n = size(list, kind=ip)
-      width = 1
-      do while (width < n)
-         do at = 1, n, 2*width
-            call merge_halves(values(at:min(at + width, n + 1) - 1), values(min(at + width, n + 1):min(at + 2*width, n + 1) - 1), &
-                              half(at:min(at + 2*width, n + 1) - 1))
-         end do
-         values = half
-         width = 2*width
-      end do
-      values = [(pack(values(i:i), i == 1 .or. values(max(i - 1, 1)) /= values(i)), i=1, n)]
-   end function sorted
-
-   pure subroutine merge_halves(a, b, c)
-      integer(ip), intent(in) :: a(:), b(:)
-      integer(ip), intent(out) :: c(:)
-      integer(ip) :: i, j, k
-      logical :: from_a
-
-      i = 1
-      j = 1
-      do k = 1, size(c, kind=ip)
-         from_a = j > size(b)
-         if (.not. from_a .and. i <= size(a)) from_a = a(i) <= b(j)
-         if (from_a) then
-            c(k) = a(i)
-            i = i + 1
-         else
-            c(k) = b(j)
-            j = j + 1
-         end if
-      end do
-   end subroutine merge_halves
-
-   !> Place of a value in a rising list.
-   pure integer(ip) function place_of(list, value) result(low)
-      integer(ip), intent(in) :: list(:), value
-      integer(ip) :: high, middle
-
-      low = 1
-      high = size(list, kind=ip)
-      do while (low < high)
-         middle = (low + high)/2
-         if (list(middle) < value) then
-            low = middle + 1
-         else
-            high = middle
-         end if
-      end do
-   end function place_of
 
    !> The shortest y with the same A y within the bounds, from the present one.
    subroutine shorten(component)

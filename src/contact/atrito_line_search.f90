@@ -11,6 +11,14 @@ module atrito_line_search
    integer(ip), parameter :: MOST_STAYS = 3_ip   !< steps after which an end that stays is no use: the next one halves the interval
    real(wp), parameter :: EXACT = 1.0e-10_wp     !< of the slope at the start
 
+   !> An interval with the values at its ends, which may be weighted.
+   type :: bracket_t
+      real(wp) :: before = 0.0_wp, after = 1.0_wp
+      real(wp) :: s_before = 0.0_wp, s_after = 0.0_wp
+      integer(ip) :: side = 0                    !< -1 and 1: the end that came last
+      integer(ip) :: stays = 0                   !< steps since the other one came
+   end type bracket_t
+
 contains
 
    !> q = clip((e + h)/c, lower, upper).
@@ -26,44 +34,27 @@ contains
    pure real(wp) function search_line(constant, slope, v, e, h, c, lower, upper) result(t)
       real(wp), intent(in) :: constant, slope
       real(wp), intent(in) :: v(:), e(:), h(:), c(:), lower(:), upper(:)
-      real(wp) :: start, before, after, here, s_before, s_after, s
-      integer(ip) :: i, side, stays
+      type(bracket_t) :: bracket
+      real(wp) :: start, s
+      integer(ip) :: i
 
       start = value_at(0.0_wp)
-      before = 0.0_wp
-      s_before = start
-      after = 1.0_wp
-      s_after = value_at(after)
+      bracket%s_before = start
+      bracket%s_after = value_at(bracket%after)
       do i = 1, MOST_DOUBLINGS
-         if (s_after >= 0.0_wp) exit
-         before = after
-         s_before = s_after
-         after = 2*after
-         s_after = value_at(after)
+         if (bracket%s_after >= 0.0_wp) exit
+         bracket%before = bracket%after
+         bracket%s_before = bracket%s_after
+         bracket%after = 2*bracket%after
+         bracket%s_after = value_at(bracket%after)
       end do
-      t = after
-      if (s_after <= EXACT*abs(start)) return
-      side = 0
-      stays = 0
+      t = bracket%after
+      if (bracket%s_after <= EXACT*abs(start)) return
       do i = 1, MOST_STEPS
-         ! false position, the end that stays weighted by half (Illinois)
-         here = (before*s_after - after*s_before)/(s_after - s_before)
-         if (stays >= MOST_STAYS .or. .not. (here > before .and. here < after)) here = 0.5_wp*(before + after)
-         s = value_at(here)
-         t = here
+         t = place_within(bracket)
+         s = value_at(t)
          if (abs(s) <= EXACT*abs(start)) return
-         stays = merge(stays + 1_ip, 0_ip, side == merge(-1_ip, 1_ip, s < 0.0_wp) .and. stays < MOST_STAYS)
-         if (s < 0.0_wp) then
-            before = here
-            s_before = s
-            if (side == -1) s_after = 0.5_wp*s_after
-            side = -1
-         else
-            after = here
-            s_after = s
-            if (side == 1) s_before = 0.5_wp*s_before
-            side = 1
-         end if
+         call narrow(bracket, t, s)
       end do
 
    contains
@@ -75,5 +66,35 @@ contains
       end function value_at
 
    end function search_line
+
+   !> By false position, or the middle where that is no use.
+   pure real(wp) function place_within(bracket) result(here)
+      type(bracket_t), intent(in) :: bracket
+
+      associate (b => bracket)
+         here = (b%before*b%s_after - b%after*b%s_before)/(b%s_after - b%s_before)
+         if (b%stays >= MOST_STAYS .or. .not. (here > b%before .and. here < b%after)) here = 0.5_wp*(b%before + b%after)
+      end associate
+   end function place_within
+
+   !> A new end; the one that stays once more is weighted by half (Illinois).
+   pure subroutine narrow(bracket, here, s)
+      type(bracket_t), intent(inout) :: bracket
+      real(wp), intent(in) :: here, s
+      integer(ip) :: side
+
+      side = merge(-1_ip, 1_ip, s < 0.0_wp)
+      bracket%stays = merge(bracket%stays + 1_ip, 0_ip, side == bracket%side .and. bracket%stays < MOST_STAYS)
+      if (s < 0.0_wp) then
+         bracket%before = here
+         bracket%s_before = s
+         if (side == bracket%side) bracket%s_after = 0.5_wp*bracket%s_after
+      else
+         bracket%after = here
+         bracket%s_after = s
+         if (side == bracket%side) bracket%s_before = 0.5_wp*bracket%s_before
+      end if
+      bracket%side = side
+   end subroutine narrow
 
 end module atrito_line_search

@@ -25,6 +25,7 @@ module atrito_master
       integer(ip) :: n_tried = 0                    !< pieces that were looked at
    end type sight_t
 
+   real(wp), parameter :: ANY_SIDE_FACES = 2.0_wp  !< no cosine of two normals is above it
    !> Closer than this to a node of the master is at the node.
    real(wp), parameter :: NODE_TOLERANCE = 1.0e-10_wp
 
@@ -160,10 +161,12 @@ contains
       if (away > turn*abs(best%distance) .or. best%distance < -max(reach, norm2(master%d(:, best%piece)))) best = sight_t()
    end function look_at_end
 
-   !> The master's end that is nearest to the line through x along the normal.
-   pure function nearest_end(x, normal, master) result(best)
+   !> The master's end that is nearest to the line through x along the normal, of the pieces that face it. Where none does, piece 0;
+   !> or the nearest of all, on any side.
+   pure function nearest_end(x, normal, master, any_side) result(best)
       real(wp), intent(in) :: x(2), normal(2)
       type(master_t), intent(in) :: master
+      logical, intent(in), optional :: any_side
       type(sight_t) :: best
       type(search_t) :: search
       real(wp) :: least
@@ -173,19 +176,24 @@ contains
       least = huge(least)
       do
          call next_leaf(master%tree, least, search, first, last)
-         if (last < first) return
+         if (last < first) exit
          do i = first, last
-            call look_at_ends(x, normal, master, master%tree%order(i), least, best)
+            call look_at_ends(x, normal, master, master%tree%order(i), FACING, least, best)
          end do
          best%n_tried = best%n_tried + (last - first + 1)
+      end do
+      if (best%piece > 0 .or. .not. present(any_side)) return
+      do i = 1, size(master%tree%order, kind=ip)
+         call look_at_ends(x, normal, master, i, ANY_SIDE_FACES, least, best)
       end do
    end function nearest_end
 
    !> Takes an end of a piece where it is nearer than the best so far, or as near and earlier in the list.
-   pure subroutine look_at_ends(x, normal, master, i, least, best)
+   pure subroutine look_at_ends(x, normal, master, i, facing_below, least, best)
       real(wp), intent(in) :: x(2), normal(2)
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i
+      real(wp), intent(in) :: facing_below          !< cosine of the two normals from which on it is seen from behind
       real(wp), intent(inout) :: least              !< [L]
       type(sight_t), intent(inout) :: best
       real(wp) :: away, d(2), t
@@ -195,7 +203,7 @@ contains
          t = real(k, wp)
          d = place_at(master, i, t) - x
          away = abs(cross(d, normal))
-         if (away > least .or. dot_product(normal, normal_at(master, i, t)) > FACING) cycle
+         if (away > least .or. dot_product(normal, normal_at(master, i, t)) > facing_below) cycle
          if (.not. away < least .and. i >= best%piece) cycle
          least = away
          best = sight_t(i, t, dot_product(d, normal), best%n_tried)

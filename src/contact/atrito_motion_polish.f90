@@ -16,6 +16,12 @@ module atrito_motion_polish
    real(wp), parameter :: DEPENDENT = 1.0e-12_wp !< singular value over the largest
    integer(ip), parameter :: MOST_MOTIONS = 500_ip !< of a group: the least squares are dense
 
+   !> What each point must not do along its normal: a row of motions, its rate, and the fastest of its parts.
+   type :: resistance_t
+      real(wp), allocatable :: row(:, :)         !< (points, motions)
+      real(wp), allocatable :: rate(:), most(:)  !< (points) [L]
+   end type resistance_t
+
 contains
 
    !> Motions whose scale is zero stay as they are.
@@ -52,53 +58,50 @@ contains
       integer(ip), intent(in) :: column(:)       !< (k) of each motion, 0: none
       real(wp), intent(in) :: v(:)
       real(wp), allocatable, intent(out) :: conditions(:, :) !< (conditions, motions)
+      type(resistance_t) :: normal
       real(wp) :: rate(rows%m), speed(rows%m), share
-      real(wp), allocatable :: normal(:, :), tangential(:, :)
-      real(wp) :: resisted(line%n), most(line%n)
+      real(wp), allocatable :: tangential(:, :)
       integer(ip) :: j, e
       logical :: wanted(line%n), sticks(line%n)
 
       rate = motion_rates(rows, v, .false.)
       speed = speeds(rows, v)
-      allocate (normal(line%n, maxval(column)), tangential(line%n, maxval(column)), source=0.0_wp)
-      resisted = 0.0_wp
-      most = 0.0_wp
+      allocate (normal%row(line%n, maxval(column)), normal%rate(line%n), normal%most(line%n), source=0.0_wp)
+      allocate (tangential(line%n, maxval(column)), source=0.0_wp)
       sticks = .false.
       do j = 1, line%n
-         call add(line%normal(j), 1.0_wp, j)
+         if (line%normal(j) > 0) call add_part(rows, line%normal(j), 1.0_wp, column, rate, speed, j, normal)
       end do
       do j = 1, line%n
-         if (line%tangential(j) == 0) cycle
-         call add_row(rows, line%tangential(j), 1.0_wp, column, tangential(j, :))
-         sticks(j) = abs(rate(line%tangential(j))) <= SMALL*speed(line%tangential(j))
-         if (sticks(j)) cycle
-         do e = line%average%first(j), line%average%first(j + 1) - 1
-            associate (k => line%average%column(e))
-               share = line%weight(j)*line%law(j)%nu*line%average%entry(e)/line%weight(k)
-               call add(line%tangential(j), sign(share, rate(line%tangential(j))), k)
-            end associate
-         end do
+         associate (i => line%tangential(j))
+            if (i == 0) cycle
+            call add_row(rows, i, 1.0_wp, column, tangential(j, :))
+            sticks(j) = abs(rate(i)) <= SMALL*speed(i)
+            if (sticks(j)) cycle
+            do e = line%average%first(j), line%average%first(j + 1) - 1
+               share = line%weight(j)*line%law(j)%nu*line%average%entry(e)/line%weight(line%average%column(e))
+               call add_part(rows, i, sign(share, rate(i)), column, rate, speed, line%average%column(e), normal)
+            end do
+         end associate
       end do
-      wanted = line%normal > 0 .and. abs(resisted) <= SMALL*most .and. maxval(abs(normal), dim=2) > 0.0_wp
+      wanted = line%normal > 0 .and. abs(normal%rate) <= SMALL*normal%most .and. maxval(abs(normal%row), dim=2) > 0.0_wp
       sticks = sticks .and. maxval(abs(tangential), dim=2) > 0.0_wp
-      conditions = reshape([pack(transpose(normal), spread(wanted, 1, size(normal, 2))), &
-                            pack(transpose(tangential), spread(sticks, 1, size(normal, 2)))], &
-                           [count(wanted) + count(sticks), size(normal, 2)], order=[2, 1])
-
-   contains
-
-      !> A part of a row of motions for the normal direction of point k.
-      subroutine add(i, part, k)
-         integer(ip), intent(in) :: i, k
-         real(wp), intent(in) :: part
-
-         if (i == 0) return
-         call add_row(rows, i, part, column, normal(k, :))
-         resisted(k) = resisted(k) + part*rate(i)
-         most(k) = max(most(k), speed(i))
-      end subroutine add
-
+      conditions = reshape([pack(transpose(normal%row), spread(wanted, 1, size(normal%row, 2))), &
+                            pack(transpose(tangential), spread(sticks, 1, size(tangential, 2)))], &
+                           [count(wanted) + count(sticks), size(tangential, 2)], order=[2, 1])
    end subroutine set_up_conditions
+
+   !> Adds a part of row i to what point k must not do along its normal.
+   subroutine add_part(rows, i, part, column, rate, speed, k, normal)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: i, column(:), k
+      real(wp), intent(in) :: part, rate(:), speed(:)
+      type(resistance_t), intent(inout) :: normal
+
+      call add_row(rows, i, part, column, normal%row(k, :))
+      normal%rate(k) = normal%rate(k) + part*rate(i)
+      normal%most(k) = max(normal%most(k), speed(i))
+   end subroutine add_part
 
    !> The fastest motion of the bodies that each row touches.
    pure function speeds(rows, v) result(speed)

@@ -2,7 +2,7 @@
 !> its neighbours lie in nine cells.
 module atrito_neighbours
    use atrito_kinds, only: ip, lp, wp
-   use atrito_sorting, only: sorted_places
+   use atrito_sorting, only: sorted_places, first_at_least
    implicit none (type, external)
    private
    public :: grid_t, build_grid, count_near, list_near
@@ -80,23 +80,6 @@ contains
          end do
       end do
    end subroutine find_columns
-
-   pure integer(ip) function first_at_least(key, bound) result(low)
-      integer(lp), intent(in) :: key(:)              !< rising
-      integer(lp), intent(in) :: bound
-      integer(ip) :: high, middle
-
-      low = 1
-      high = size(key, kind=ip) + 1
-      do while (low < high)
-         middle = low + (high - low)/2
-         if (key(middle) < bound) then
-            low = middle + 1
-         else
-            high = middle
-         end if
-      end do
-   end function first_at_least
 
    pure logical function is_near(grid, x, i, j)
       type(grid_t), intent(in) :: grid

@@ -225,15 +225,10 @@ contains
    pure subroutine put_in_order(new, search)
       type(waiting_t), intent(in) :: new
       type(search_t), intent(inout) :: search
-      type(waiting_t), allocatable :: longer(:)
       integer(ip) :: i
 
       if (.not. allocated(search%waiting)) allocate (search%waiting(FIRST_LENGTH))
-      if (search%n == size(search%waiting)) then
-         allocate (longer(2*search%n))
-         longer(:search%n) = search%waiting
-         call move_alloc(longer, search%waiting)
-      end if
+      if (search%n == size(search%waiting)) search%waiting = [search%waiting, search%waiting]    ! doubled
       do i = search%n, 1, -1
          if (search%waiting(i)%bound >= new%bound) exit
          search%waiting(i + 1) = search%waiting(i)

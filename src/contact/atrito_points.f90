@@ -8,8 +8,8 @@ module atrito_points
    use atrito_mesh, only: mesh_t, face_nodes, FACES
    use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, &
-                            look_at_end, nearest_end
+   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, look_at_end, &
+                            nearest_end
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
@@ -278,7 +278,7 @@ contains
       do i = 1, points%n
          sight = look_along(points%x(:, i), points%normal(:, i), 2*points%length(i), master)
          ! where two faces meet at an angle, the mean normal may miss the end of the master
-         if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master)
+         if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master, any_side=.true.)
          points%gap(i) = sight%distance
          if (abs(sight%distance) <= round_off) points%gap(i) = 0.0_wp
          if (master%rigid) cycle

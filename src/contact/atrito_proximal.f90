@@ -32,7 +32,7 @@ module atrito_proximal
 contains
 
    !> Solves from the given state. outcome%solved is false where the rounds do not come to an end.
-   subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, kept, rows, is_shared)
+   subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, kept, rows)
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
@@ -41,7 +41,6 @@ contains
       type(status_t), intent(out) :: status
       type(line_factor_t), intent(inout) :: kept
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns; without them there are no least forces
-      logical, allocatable, intent(out), optional :: is_shared(:) !< (m), with rows: the force is not unique
       type(box_bounds_t) :: near
       real(wp) :: c(problem%m), q(problem%m), share, change, last
       integer(ip) :: before(problem%m), i
@@ -70,9 +69,9 @@ contains
       call set_residual(problem, bounds%d, state)
       if (.not. is_ok(status) .or. .not. outcome%solved) return
       outcome%solved = stands
-      if (.not. (present(rows) .and. present(is_shared))) return
-      allocate (is_shared(problem%m))
-      call take_least_forces(problem, bounds, rows, state, is_shared)
+      if (.not. present(rows)) return
+      allocate (outcome%is_shared(problem%m))
+      call take_least_forces(problem, bounds, rows, state, outcome%is_shared)
    end subroutine solve_box_proximal
 
    !> Of the forces that move the bodies alike the least.

@@ -4,23 +4,24 @@ module atrito_solve_history
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    implicit none (type, external)
    private
-   public :: solve_record_t, solve_history_t, record_solve, begin_outer, end_outer, state_letters, OUTER_KEPT
+   public :: iteration_t, solve_history_t, record_solve, begin_outer, end_outer, state_letters, OUTER_KEPT
 
    integer(ip), parameter :: OUTER_KEPT = 8          !< outer iterations whose states are kept
    !> State of a point: open, closed without a tangential unknown, sticking, slipping along T and against it.
    integer(ip), parameter :: IS_OPEN = 1, IS_CLOSED = 2, IS_STUCK = 3, SLIPS_ALONG = 4, SLIPS_AGAINST = 5
    character(len=1), parameter :: LETTERS(5) = ['o', 'c', '=', '+', '-']
 
-   type :: solve_record_t
+   !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
+   type :: iteration_t
       integer(ip) :: outer = 0, inner = 0
       real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
       integer(ip) :: open = 0, stick = 0, slip = 0
-      real(wp) :: residual = 0.0_wp
-   end type solve_record_t
+      real(wp) :: residual = 0.0_wp                  !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
+   end type iteration_t
 
    type :: solve_history_t
       integer(ip) :: n = 0
-      type(solve_record_t), allocatable :: records(:)
+      type(iteration_t), allocatable :: records(:)
       integer(ip) :: outer = 0, inner = 0
       real(wp) :: last_residual = 1.0_wp             !< of the friction bounds, at the end of the last outer iteration
       real(wp), allocatable :: moved(:), stress(:)   !< of the solve before
@@ -54,8 +55,7 @@ contains
       type(box_problem_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
-      type(solve_record_t) :: record
-      type(solve_record_t), allocatable :: longer(:)
+      type(iteration_t) :: record
       real(wp) :: moved(problem%m), stress(problem%m)
       integer(ip) :: n
 
@@ -76,11 +76,7 @@ contains
       call count_states(history, problem, state, record)
       history%moved = moved
       history%stress = stress
-      if (history%n == size(history%records)) then
-         allocate (longer(2*history%n))
-         longer(:history%n) = history%records
-         call move_alloc(longer, history%records)
-      end if
+      if (history%n == size(history%records)) history%records = [history%records, history%records]   ! doubled
       history%n = history%n + 1
       history%records(history%n) = record
    end subroutine record_solve
@@ -100,7 +96,7 @@ contains
       type(solve_history_t), intent(inout) :: history
       type(box_problem_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state
-      type(solve_record_t), intent(inout) :: record
+      type(iteration_t), intent(inout) :: record
       integer(ip) :: now(problem%n_normal), i
 
       now = [(point_state(history, state, i), i=1, problem%n_normal)]

@@ -4,8 +4,7 @@ module atrito_cards
    use atrito_deck, only: deck_t, card_t, option_t, token_t, KEYWORD_UNKNOWN, token_text, is_empty_token, is_quoted
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_real, get_integer, get_name
-   use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, &
-                             KIND_FILE
+   use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
    use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names
    use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
    use atrito_lexer, only: find_equals, trim_place

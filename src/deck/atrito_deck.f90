@@ -206,7 +206,7 @@ contains
       end associate
    end subroutine take_source_line
 
-   !> An empty deck, with room to grow.
+   !> An empty deck, with room to grow: a list that is full doubles, and what its second half holds is written over.
    subroutine allocate_deck(deck)
       type(deck_t), intent(inout) :: deck
 
@@ -247,13 +247,8 @@ contains
    subroutine append_token(deck, token)
       type(deck_t), intent(inout) :: deck
       type(token_t), intent(in) :: token
-      type(token_t), allocatable :: longer(:)
 
-      if (deck%n_tokens == size(deck%tokens)) then
-         allocate (longer(2*deck%n_tokens))
-         longer(:deck%n_tokens) = deck%tokens
-         call move_alloc(longer, deck%tokens)
-      end if
+      if (deck%n_tokens == size(deck%tokens)) deck%tokens = [deck%tokens, deck%tokens]
       deck%n_tokens = deck%n_tokens + 1
       deck%tokens(deck%n_tokens) = token
    end subroutine append_token
@@ -261,13 +256,8 @@ contains
    !> Appends a data line of no items yet; append_token adds them.
    subroutine append_line(deck)
       type(deck_t), intent(inout) :: deck
-      type(data_line_t), allocatable :: longer(:)
 
-      if (deck%n_lines == size(deck%lines)) then
-         allocate (longer(2*deck%n_lines))
-         longer(:deck%n_lines) = deck%lines
-         call move_alloc(longer, deck%lines)
-      end if
+      if (deck%n_lines == size(deck%lines)) deck%lines = [deck%lines, deck%lines]
       deck%n_lines = deck%n_lines + 1
       deck%lines(deck%n_lines) = data_line_t(first_token=deck%n_tokens + 1)
    end subroutine append_line
@@ -275,13 +265,8 @@ contains
    subroutine append_card(deck, card)
       type(deck_t), intent(inout) :: deck
       type(card_t), intent(in) :: card
-      type(card_t), allocatable :: longer(:)
 
-      if (deck%n_cards == size(deck%cards)) then
-         allocate (longer(2*deck%n_cards))
-         longer(:deck%n_cards) = deck%cards
-         call move_alloc(longer, deck%cards)
-      end if
+      if (deck%n_cards == size(deck%cards)) deck%cards = [deck%cards, deck%cards]
       deck%n_cards = deck%n_cards + 1
       deck%cards(deck%n_cards) = card
    end subroutine append_card
@@ -289,13 +274,8 @@ contains
    subroutine append_parameter(deck, parameter)
       type(deck_t), intent(inout) :: deck
       type(parameter_t), intent(in) :: parameter
-      type(parameter_t), allocatable :: longer(:)
 
-      if (deck%n_parameters == size(deck%parameters)) then
-         allocate (longer(2*deck%n_parameters))
-         longer(:deck%n_parameters) = deck%parameters
-         call move_alloc(longer, deck%parameters)
-      end if
+      if (deck%n_parameters == size(deck%parameters)) deck%parameters = [deck%parameters, deck%parameters]
       deck%n_parameters = deck%n_parameters + 1
       deck%parameters(deck%n_parameters) = parameter
    end subroutine append_parameter

@@ -7,8 +7,8 @@
 !>     primary = number | pi | name | function ( sum {, sum} ) | ( sum )
 module atrito_expressions
    use atrito_kinds, only: wp, PI
-   use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, &
-                                ARITHMETIC_OK, ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
+   use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, ARITHMETIC_OK, &
+                                ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
    use atrito_strings, only: string_t, same_name, append_string, lower_case
    implicit none (type, external)
@@ -23,19 +23,15 @@ module atrito_expressions
       logical :: of_value = .false.                  !< an operation has no result for these values; others may be right
    end type expression_fault_t
 
-   !> An expression, and how far it is read.
+   !> An expression with the named values that it can use, and how far it is read.
    type :: parser_t
       character(len=:), allocatable :: text
       integer :: position = 1
       integer :: depth = 0
-      type(expression_fault_t) :: fault
-   end type parser_t
-
-   !> Named values that the expression can use.
-   type :: scope_t
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)
-   end type scope_t
+      type(expression_fault_t) :: fault
+   end type parser_t
 
    integer, parameter :: DEEPEST = 100               !< nested parentheses
    character(len=*), parameter :: BLANKS = ' '//achar(9)
@@ -53,13 +49,12 @@ contains
       real(wp), intent(out) :: value                   !< 0 when there is a fault
       type(expression_fault_t), intent(out) :: fault   !< fault%text not allocated: none
       type(parser_t) :: parser
-      type(scope_t) :: scope
 
       parser%text = text
-      scope%names = names
-      scope%values = values
+      parser%names = names
+      parser%values = values
       call move_to(parser, 1)
-      call take_sum(parser, scope, value)
+      call take_sum(parser, value)
       if (.not. has_failed(parser) .and. next(parser) /= '') then
          call fail(parser, parser%position, parser%position, "'"//next(parser)//"' is not expected here")
       end if
@@ -103,21 +98,20 @@ contains
       end do
    end function is_function
 
-   pure recursive subroutine take_sum(parser, scope, value)
+   pure recursive subroutine take_sum(parser, value)
       type(parser_t), intent(inout) :: parser
-      type(scope_t), intent(in) :: scope
       real(wp), intent(out) :: value
       real(wp) :: left, right
       character(len=:), allocatable :: operator
       integer :: place, outcome
 
-      call take_product(parser, scope, value)
+      call take_product(parser, value)
       do while (.not. has_failed(parser))
          operator = next(parser)
          if (operator /= '+' .and. operator /= '-') return
          place = parser%position
          call move_to(parser, place + 1)
-         call take_product(parser, scope, right)
+         call take_product(parser, right)
          if (has_failed(parser)) return
          left = value
          if (operator == '-') right = -right
@@ -126,21 +120,20 @@ contains
       end do
    end subroutine take_sum
 
-   pure recursive subroutine take_product(parser, scope, value)
+   pure recursive subroutine take_product(parser, value)
       type(parser_t), intent(inout) :: parser
-      type(scope_t), intent(in) :: scope
       real(wp), intent(out) :: value
       real(wp) :: left, right
       character(len=:), allocatable :: operator
       integer :: place, outcome
 
-      call take_factor(parser, scope, value)
+      call take_factor(parser, value)
       do while (.not. has_failed(parser))
          operator = next(parser)
          if (operator /= '*' .and. operator /= '/') return
          place = parser%position
          call move_to(parser, place + 1)
-         call take_factor(parser, scope, right)
+         call take_factor(parser, right)
          if (has_failed(parser)) return
          left = value
          if (operator == '*') then
@@ -152,9 +145,8 @@ contains
       end do
    end subroutine take_product
 
-   pure recursive subroutine take_factor(parser, scope, value)
+   pure recursive subroutine take_factor(parser, value)
       type(parser_t), intent(inout) :: parser
-      type(scope_t), intent(in) :: scope
       real(wp), intent(out) :: value
       character(len=:), allocatable :: sign
 
@@ -164,36 +156,34 @@ contains
       sign = next(parser)
       if (sign == '+' .or. sign == '-') then
          call move_to(parser, parser%position + 1)
-         call take_factor(parser, scope, value)
+         call take_factor(parser, value)
          if (sign == '-') value = -value
       else
-         call take_power(parser, scope, value)
+         call take_power(parser, value)
       end if
       parser%depth = parser%depth - 1
    end subroutine take_factor
 
-   pure recursive subroutine take_power(parser, scope, value)
+   pure recursive subroutine take_power(parser, value)
       type(parser_t), intent(inout) :: parser
-      type(scope_t), intent(in) :: scope
       real(wp), intent(out) :: value
       real(wp) :: base, power
       integer :: place, outcome
 
-      call take_primary(parser, scope, value)
+      call take_primary(parser, value)
       if (has_failed(parser)) return
       if (next(parser) /= '**') return
       place = parser%position
       call move_to(parser, place + 2)
-      call take_factor(parser, scope, power)
+      call take_factor(parser, power)
       if (has_failed(parser)) return
       base = value
       call raise_safely(base, power, value, outcome)
       call judge(parser, place, place + 1, outcome)
    end subroutine take_power
 
-   pure recursive subroutine take_primary(parser, scope, value)
+   pure recursive subroutine take_primary(parser, value)
       type(parser_t), intent(inout) :: parser
-      type(scope_t), intent(in) :: scope
       real(wp), intent(out) :: value
       character(len=:), allocatable :: symbol
 
@@ -203,12 +193,12 @@ contains
          call fail(parser, parser%position, parser%position, 'the expression ends too early')
       else if (symbol == '(') then
          call move_to(parser, parser%position + 1)
-         call take_sum(parser, scope, value)
+         call take_sum(parser, value)
          call take_symbol(parser, ')')
       else if (scan(symbol, DIGITS//'.') == 1) then
          call take_number(parser, value)
       else if (scan(symbol, LETTERS) == 1) then
-         call take_name(parser, scope, value)
+         call take_name(parser, value)
       else
          call fail(parser, parser%position, parser%position + len(symbol) - 1, "'"//symbol//"' is not expected here")
       end if
@@ -241,9 +231,8 @@ contains
    end subroutine take_number
 
    !> A constant, a variable or a function.
-   pure recursive subroutine take_name(parser, scope, value)
+   pure recursive subroutine take_name(parser, value)
       type(parser_t), intent(inout) :: parser
-      type(scope_t), intent(in) :: scope
       real(wp), intent(out) :: value
       character(len=:), allocatable :: name
       integer :: first, last, i
@@ -253,24 +242,23 @@ contains
       last = verify(parser%text(first:)//' ', LETTERS//DIGITS//'_') + first - 2
       name = parser%text(first:last)
       call move_to(parser, last + 1)
-      do i = 1, size(scope%names)
-         if (.not. same_name(scope%names(i)%s, name)) cycle
-         value = scope%values(i)
+      do i = 1, size(parser%names)
+         if (.not. same_name(parser%names(i)%s, name)) cycle
+         value = parser%values(i)
          return
       end do
       if (same_name(name, 'pi')) then
          value = PI
       else if (is_function(name)) then
-         call take_function(parser, scope, lower_case(name), first, value)
+         call take_function(parser, lower_case(name), first, value)
       else
          call fail(parser, first, last, 'unknown name '//name)
          parser%fault%unknown_name = .true.
       end if
    end subroutine take_name
 
-   pure recursive subroutine take_function(parser, scope, name, first, value)
+   pure recursive subroutine take_function(parser, name, first, value)
       type(parser_t), intent(inout) :: parser
-      type(scope_t), intent(in) :: scope
       character(len=*), intent(in) :: name
       integer, intent(in) :: first                     !< place of the name
       real(wp), intent(out) :: value
@@ -281,11 +269,11 @@ contains
       last = first + len(name) - 1
       call take_symbol(parser, '(')
       if (has_failed(parser)) return
-      call take_sum(parser, scope, value)
+      call take_sum(parser, value)
       do while (name == 'min' .or. name == 'max')
          if (has_failed(parser) .or. next(parser) /= ',') exit
          call move_to(parser, parser%position + 1)
-         call take_sum(parser, scope, argument)
+         call take_sum(parser, argument)
          value = merge(min(value, argument), max(value, argument), name == 'min')
       end do
       call take_symbol(parser, ')')

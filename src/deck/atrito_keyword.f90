@@ -1,12 +1,14 @@
 !> What the reader knows of a keyword: one definition drives the reader, its checks, `atrito help` and docs/user/keywords.md.
 !>
 !> The definitions themselves stand in atrito_mesh_keywords, atrito_scene_keywords and atrito_step_keywords, written with the
-!> building procedures of this module; atrito_keyword_table collects them.
+!> building procedures of this module; atrito_keyword_table collects them. Names carry marks there: `NAME+` is atrito's own,
+!> `-NAME` is not built yet, `NAME!` must be given, `[name]` may be left out, `(name)` is of another solver and has no effect,
+!> `name...` may be repeated.
 module atrito_keyword
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: keyword_t, option_spec_t, choice_t, form_t, item_t
+   public :: keyword_t, keyword_list_t, option_spec_t, choice_t, form_t, item_t
    public :: define_keyword, add_option, add_form, add_item, add_word_item, add_example
    public :: LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER
    public :: KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, &
@@ -29,6 +31,7 @@ module atrito_keyword
    integer, parameter :: KIND_ID_OR_NAME = 9     !< such a number, or a set
    integer, parameter :: KIND_TEXT = 10          !< the whole line
 
+   integer, parameter :: MOST_KEYWORDS = 80
    integer, parameter :: ANY_NUMBER = huge(1)    !< no upper limit of lines or items
 
    !> One of the words that an option or item can take.
@@ -38,31 +41,23 @@ module atrito_keyword
       logical :: own = .false.                   !< atrito's own, unknown to Abaqus and CalculiX
    end type choice_t
 
-   type :: option_spec_t
-      character(len=:), allocatable :: name
-      integer :: kind = KIND_FLAG
-      logical :: required = .false.
-      logical :: own = .false.
-      logical :: built = .true.
-      logical :: harmless = .false.              !< of another solver: a note, no effect
-      character(len=:), allocatable :: default   !< '' : none
-      character(len=:), allocatable :: needs     !< option that must be there too; '' : none
-      character(len=:), allocatable :: dimension
-      character(len=:), allocatable :: doc
-      type(choice_t), allocatable :: choices(:)
-   end type option_spec_t
-
    !> One item of a data line.
    type :: item_t
       character(len=:), allocatable :: name
       integer :: kind = KIND_REAL
       logical :: required = .true.
-      logical :: harmless = .false.              !< of another solver: a note, not read
+      logical :: harmless = .false.              !< of another solver: a note, no effect
       character(len=:), allocatable :: default   !< '' : none
       character(len=:), allocatable :: dimension
       character(len=:), allocatable :: doc
       type(choice_t), allocatable :: choices(:)
    end type item_t
+
+   type, extends(item_t) :: option_spec_t
+      logical :: own = .false.
+      logical :: built = .true.
+      character(len=:), allocatable :: needs     !< option that must be there too; '' : none
+   end type option_spec_t
 
    !> One form of data line. It applies when its option is given (or has one of these values, given or by default); lines of a
    !> form with a leading word are told by it, the others by their position.
@@ -93,53 +88,72 @@ module atrito_keyword
       type(string_t), allocatable :: example(:)
    end type keyword_t
 
+   !> Keywords that are being defined; options, forms and items are added to the last one.
+   type :: keyword_list_t
+      integer :: n = 0
+      type(keyword_t) :: list(MOST_KEYWORDS)
+   end type keyword_list_t
+
 contains
 
    !> Begins the definition of a keyword.
-   subroutine define_keyword(keyword, name, level, summary, doc, parent, own, built, harmless)
-      type(keyword_t), intent(out) :: keyword
+   subroutine define_keyword(keywords, name, level, summary, doc, parent)
+      type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: name, summary
       integer, intent(in) :: level
       character(len=*), intent(in), optional :: doc, parent
-      logical, intent(in), optional :: own, built, harmless
 
-      keyword%name = name
-      keyword%level = level
-      keyword%summary = summary
-      keyword%doc = text_or(doc)
-      keyword%parent = text_or(parent)
-      if (present(own)) keyword%own = own
-      if (present(built)) keyword%built = built
-      if (present(harmless)) keyword%harmless = harmless
-      allocate (keyword%options(0), keyword%forms(0), keyword%example(0))
+      keywords%n = keywords%n + 1
+      associate (keyword => keywords%list(keywords%n))
+         keyword%name = without_marks(name)
+         keyword%own = has_mark(name, '+')
+         keyword%harmless = has_mark(name, '(')
+         keyword%level = level
+         keyword%summary = summary
+         keyword%doc = text_or(doc)
+         keyword%parent = text_or(parent)
+         allocate (keyword%options(0), keyword%forms(0), keyword%example(0))
+      end associate
    end subroutine define_keyword
 
-   !> Adds an option. choices: words separated by blanks, `-` before one that is not built, `+` behind one of atrito's own.
-   subroutine add_option(keyword, name, kind, doc, required, default, choices, needs, dimension, own, built, harmless)
-      type(keyword_t), intent(inout) :: keyword
+   !> Adds an option. choices: words separated by blanks, with their marks.
+   subroutine add_option(keywords, name, kind, doc, default, choices, needs, dimension)
+      type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: name, doc
       integer, intent(in) :: kind
-      logical, intent(in), optional :: required, own, built, harmless
       character(len=*), intent(in), optional :: default, choices, needs, dimension
       type(option_spec_t) :: option
 
-      option%name = name
-      option%kind = kind
-      option%doc = doc
-      option%default = text_or(default)
+      call describe(option%item_t, name, kind, doc, default, dimension, choices)
+      option%required = has_mark(name, '!')
+      option%own = has_mark(name, '+')
+      option%built = .not. has_mark(name, '-')
       option%needs = text_or(needs)
-      option%dimension = text_or(dimension)
-      if (present(required)) option%required = required
-      if (present(own)) option%own = own
-      if (present(built)) option%built = built
-      if (present(harmless)) option%harmless = harmless
-      option%choices = choices_of(text_or(choices))
-      keyword%options = [keyword%options, option]
+      associate (keyword => keywords%list(keywords%n))
+         keyword%options = [keyword%options, option]
+      end associate
    end subroutine add_option
 
+   !> What options and items have in common.
+   subroutine describe(item, name, kind, doc, default, dimension, choices)
+      type(item_t), intent(inout) :: item
+      character(len=*), intent(in) :: name, doc
+      integer, intent(in) :: kind
+      character(len=*), intent(in), optional :: default, dimension, choices
+
+      item%name = without_marks(name)
+      item%kind = kind
+      item%harmless = has_mark(name, '(')
+      item%doc = doc
+      item%default = text_or(default)
+      item%dimension = text_or(dimension)
+      item%choices = choices_of(text_or(choices))
+      item%required = .not. (present(default) .or. has_mark(name, '[') .or. has_mark(name, '('))
+   end subroutine describe
+
    !> Begins a form of data line. when: '' always, 'OPTION' with it, '-OPTION' without it, 'OPTION=A|B' with these values.
-   subroutine add_form(keyword, doc, min_lines, max_lines, when, word, built, harmless)
-      type(keyword_t), intent(inout) :: keyword
+   subroutine add_form(keywords, doc, min_lines, max_lines, when, word, built, harmless)
+      type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: doc
       integer, intent(in) :: min_lines, max_lines
       character(len=*), intent(in), optional :: when, word
@@ -158,125 +172,112 @@ contains
          form%min_items = 1
          form%max_items = 1
       end if
-      keyword%forms = [keyword%forms, form]
+      associate (keyword => keywords%list(keywords%n))
+         keyword%forms = [keyword%forms, form]
+      end associate
    end subroutine add_form
 
    subroutine set_condition(form, when)
       type(form_t), intent(inout) :: form
       character(len=*), intent(in) :: when
-      integer :: equals, first, bar
+      integer :: equals
 
-      allocate (form%values(0))
-      form%absent = index(when, '-') == 1
-      first = merge(2, 1, form%absent)
-      equals = index(when, '=')
-      if (equals == 0) then
-         form%option = when(first:)
-         return
-      end if
-      form%option = when(:equals - 1)
-      first = equals + 1
-      do while (first <= len(when))
-         bar = index(when(first:)//'|', '|')
-         call append_string(form%values, when(first:first + bar - 2))
-         first = first + bar
-      end do
+      form%absent = has_mark(when, '-')
+      equals = index(when//'=', '=')
+      form%option = without_marks(when(:equals - 1))
+      call split_text(when(equals + 1:), '|', form%values)
    end subroutine set_condition
 
-   !> Adds an item to the form begun last; with `repeats` it may stand any number of times.
-   subroutine add_item(keyword, name, kind, doc, dimension, default, required, repeats, harmless)
-      type(keyword_t), intent(inout) :: keyword
+   !> Adds an item to the form begun last.
+   subroutine add_item(keywords, name, kind, doc, dimension, default)
+      type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: name, doc
       integer, intent(in) :: kind
       character(len=*), intent(in), optional :: dimension, default
-      logical, intent(in), optional :: required, repeats, harmless
       type(item_t) :: item
 
-      item%name = name
-      item%kind = kind
-      if (present(harmless)) item%harmless = harmless
-      item%doc = doc
-      item%dimension = text_or(dimension)
-      item%default = text_or(default)
-      item%required = .not. present(default)
-      if (present(required)) item%required = required
-      allocate (item%choices(0))
-      call append_item(keyword, item, repeats)
+      call describe(item, name, kind, doc, default, dimension)
+      call append_item(keywords%list(keywords%n), item, has_mark(name, '.'))
    end subroutine add_item
 
    !> Adds an item that is one of a list of words, written as in add_option.
-   subroutine add_word_item(keyword, name, choices, doc, required, repeats)
-      type(keyword_t), intent(inout) :: keyword
+   subroutine add_word_item(keywords, name, choices, doc)
+      type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: name, choices, doc
-      logical, intent(in), optional :: required, repeats
       type(item_t) :: item
 
-      item%name = name
-      item%kind = KIND_WORD
-      item%doc = doc
-      item%dimension = ''
-      item%default = ''
-      if (present(required)) item%required = required
-      item%choices = choices_of(choices)
-      call append_item(keyword, item, repeats)
+      call describe(item, name, KIND_WORD, doc, choices=choices)
+      call append_item(keywords%list(keywords%n), item, has_mark(name, '.'))
    end subroutine add_word_item
 
    subroutine append_item(keyword, item, repeats)
       type(keyword_t), intent(inout) :: keyword
       type(item_t), intent(in) :: item
-      logical, intent(in), optional :: repeats
-      integer :: f
+      logical, intent(in) :: repeats
 
-      f = size(keyword%forms)
-      keyword%forms(f)%items = [keyword%forms(f)%items, item]
-      keyword%forms(f)%max_items = keyword%forms(f)%max_items + 1
-      if (item%required) keyword%forms(f)%min_items = keyword%forms(f)%max_items
-      if (.not. present(repeats)) return
-      if (repeats) keyword%forms(f)%max_items = ANY_NUMBER
+      associate (form => keyword%forms(size(keyword%forms)))
+         form%items = [form%items, item]
+         form%max_items = form%max_items + 1
+         if (item%required) form%min_items = form%max_items
+         if (repeats) form%max_items = ANY_NUMBER
+      end associate
    end subroutine append_item
 
    !> Adds the lines of an example, separated by '|'.
-   subroutine add_example(keyword, lines)
-      type(keyword_t), intent(inout) :: keyword
+   subroutine add_example(keywords, lines)
+      type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: lines
-      integer :: first, bar
 
-      first = 1
-      do while (first <= len(lines))
-         bar = index(lines(first:)//'|', '|')
-         call append_string(keyword%example, lines(first:first + bar - 2))
-         first = first + bar
-      end do
+      call split_text(lines, '|', keywords%list(keywords%n)%example)
    end subroutine add_example
 
-   pure function choices_of(list) result(choices)
+   function choices_of(list) result(choices)
       character(len=*), intent(in) :: list
       type(choice_t), allocatable :: choices(:)
-      integer :: first, blank, i, n
+      type(string_t), allocatable :: words(:)
+      integer :: i
 
-      n = 0
-      if (len(list) > 0) n = 1 + count([(list(i:i) == ' ', i=1, len(list))])
-      allocate (choices(n))
-      first = 1
-      do i = 1, n
-         blank = index(list(first:)//' ', ' ')
-         call read_choice(list(first:first + blank - 2), choices(i))
-         first = first + blank
+      call split_text(list, ' ', words)
+      allocate (choices(size(words)))
+      do i = 1, size(words)
+         choices(i)%name = without_marks(words(i)%s)
+         choices(i)%built = .not. has_mark(words(i)%s, '-')
+         choices(i)%own = has_mark(words(i)%s, '+')
       end do
    end function choices_of
 
-   !> A subroutine: what a function result holds in an array constructor is never given back (gfortran 12).
-   pure subroutine read_choice(word, choice)
-      character(len=*), intent(in) :: word
-      type(choice_t), intent(out) :: choice
-      integer :: first, last
+   !> The pieces of a text between marks; none of an empty text.
+   pure subroutine split_text(text, mark, pieces)
+      character(len=*), intent(in) :: text
+      character(len=1), intent(in) :: mark
+      type(string_t), allocatable, intent(out) :: pieces(:)
+      integer :: first, length
 
-      choice%built = word(1:1) /= '-'
-      choice%own = word(len(word):) == '+'
-      first = merge(1, 2, choice%built)
-      last = len(word) - merge(1, 0, choice%own)
-      choice%name = word(first:last)
-   end subroutine read_choice
+      allocate (pieces(0))
+      first = 1
+      do while (first <= len(text))
+         length = index(text(first:)//mark, mark) - 1
+         call append_string(pieces, text(first:first + length - 1))
+         first = first + length + 1
+      end do
+   end subroutine split_text
+
+   !> A name of the tables begins or ends with this mark.
+   pure logical function has_mark(name, mark)
+      character(len=*), intent(in) :: name
+      character(len=1), intent(in) :: mark
+
+      has_mark = index(name, mark) == 1 .or. index(name, mark, back=.true.) == max(len(name), 1)
+   end function has_mark
+
+   pure function without_marks(name) result(bare)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: bare
+      character(len=*), parameter :: MARKS = '-+!.()[]'
+
+      bare = ''
+      if (verify(name, MARKS) > 0) bare = name(verify(name, MARKS):verify(name, MARKS, back=.true.))
+   end function without_marks
 
    pure function text_or(text) result(given)
       character(len=*), intent(in), optional :: text

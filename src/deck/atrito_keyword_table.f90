@@ -1,6 +1,6 @@
 !> The one table of all keywords that the program knows.
 module atrito_keyword_table
-   use atrito_keyword, only: keyword_t, choice_t, option_spec_t
+   use atrito_keyword, only: keyword_t, keyword_list_t, choice_t, option_spec_t
    use atrito_mesh_keywords, only: define_mesh_keywords
    use atrito_scene_keywords, only: define_scene_keywords
    use atrito_step_keywords, only: define_step_keywords, define_harmless_keywords
@@ -14,21 +14,13 @@ contains
    !> The table, in the order of the manual.
    function keyword_table() result(table)
       type(keyword_t), allocatable :: table(:)
-      type(keyword_t), allocatable :: mesh(:), scene(:), step(:), harmless(:)
-      integer :: a, b, c
+      type(keyword_list_t) :: keywords
 
-      call define_mesh_keywords(mesh)
-      call define_scene_keywords(scene)
-      call define_step_keywords(step)
-      call define_harmless_keywords(harmless)
-      a = size(mesh)
-      b = a + size(scene)
-      c = b + size(step)
-      allocate (table(c + size(harmless)))
-      table(:a) = mesh
-      table(a + 1:b) = scene
-      table(b + 1:c) = step
-      table(c + 1:) = harmless
+      call define_mesh_keywords(keywords)
+      call define_scene_keywords(keywords)
+      call define_step_keywords(keywords)
+      call define_harmless_keywords(keywords)
+      table = keywords%list(:keywords%n)
    end function keyword_table
 
    !> A keyword without its blanks and in capitals: they do not matter (`*ENDSTEP`).

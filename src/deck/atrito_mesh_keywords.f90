@@ -1,8 +1,8 @@
 !> Definitions of the keywords that make meshes, sets and surfaces.
 module atrito_mesh_keywords
-   use atrito_keyword, only: keyword_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, LEVEL_MODEL, &
-                             LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_FILE, &
-                             KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
+   use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
+                             LEVEL_MODEL, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, &
+                             KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
    implicit none (type, external)
    private
    public :: define_mesh_keywords
@@ -11,48 +11,31 @@ module atrito_mesh_keywords
 
 contains
 
-   subroutine define_mesh_keywords(table)
-      type(keyword_t), allocatable, intent(out) :: table(:)
+   subroutine define_mesh_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
-      allocate (table(15))
-      call define_heading(table(1))
-      call define_include(table(2))
-      call define_parameter(table(3))
-      call define_node(table(4))
-      call define_ngen(table(5))
-      call define_nfill(table(6))
-      call define_ncopy(table(7))
-      call define_nset(table(8))
-      call define_element(table(9))
-      call define_elgen(table(10))
-      call define_elcopy(table(11))
-      call define_elset(table(12))
-      call define_block(table(13))
-      call define_surface(table(14))
-      call define_rigid_body(table(15))
+      call define_deck_keywords(k)
+      call define_node_keywords(k)
+      call define_ncopy_and_nset(k)
+      call define_element_keywords(k)
+      call define_block(k)
+      call define_surface_keywords(k)
    end subroutine define_mesh_keywords
 
-   subroutine define_heading(k)
-      type(keyword_t), intent(out) :: k
+   !> The title, other files, parameters.
+   subroutine define_deck_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'HEADING', LEVEL_MODEL, 'title of the deck', &
                           doc='The title stands in the listing and at the top of every table.')
       call add_form(k, 'the title, free text', 0, ANY_NUMBER)
-      call add_item(k, 'text', KIND_TEXT, 'a line of the title', required=.false.)
+      call add_item(k, '[text]', KIND_TEXT, 'a line of the title')
       call add_example(k, '*HEADING|Plate on its support, units kN and m')
-   end subroutine define_heading
-
-   subroutine define_include(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'INCLUDE', LEVEL_BOTH, 'reads another file in this place', &
                           doc='The file may begin with data lines of the keyword before. Files may include others, 20 deep.')
-      call add_option(k, 'INPUT', KIND_FILE, 'the file, relative to the one that includes it', required=.true.)
+      call add_option(k, 'INPUT!', KIND_FILE, 'the file, relative to the one that includes it')
       call add_example(k, '*INCLUDE, INPUT=mesh/plate.inp')
-   end subroutine define_include
-
-   subroutine define_parameter(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'PARAMETER', LEVEL_BOTH, 'named numbers, set from the command line by --set', &
                           doc='Stands before the first use. Expressions know + - * / ** ( ) sqrt abs exp log sin cos tan atan '// &
@@ -61,10 +44,11 @@ contains
       call add_form(k, 'one parameter a line', 1, ANY_NUMBER)
       call add_item(k, 'name = expression', KIND_TEXT, 'letters, digits and underscores, a letter first')
       call add_example(k, '*PARAMETER|q = 1000|eps = 4e-4*q|*DSLOAD|plate-TOP, P, <q>')
-   end subroutine define_parameter
+   end subroutine define_deck_keywords
 
-   subroutine define_node(k)
-      type(keyword_t), intent(out) :: k
+   !> Nodes one by one and in rows.
+   subroutine define_node_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'NODE', LEVEL_MODEL, 'nodes by number and coordinates', &
                           doc='A number given twice is an error; a node in no element has no unknowns.')
@@ -74,12 +58,8 @@ contains
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'z', KIND_REAL, 'coordinate, must be 0', dimension='L', default='0')
-      call add_item(k, 'further', KIND_REAL, 'of other programs', required=.false., repeats=.true., harmless=.true.)
+      call add_item(k, '(further)...', KIND_REAL, 'of other programs')
       call add_example(k, '*NODE, NSET=corners|1, 0., 0.|2, 1.5, 0.')
-   end subroutine define_node
-
-   subroutine define_ngen(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'NGEN', LEVEL_MODEL, 'nodes evenly spaced between two nodes', &
                           doc='The two nodes must be defined before; the new nodes lie on the straight line between them.')
@@ -90,35 +70,31 @@ contains
       call add_item(k, 'last', KIND_ID, 'number of the last node')
       call add_item(k, 'increment', KIND_INTEGER, 'of the numbers between them', default='1')
       call add_example(k, '*NGEN, NSET=bottom|1, 16, 1')
-   end subroutine define_ngen
-
-   subroutine define_nfill(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'NFILL', LEVEL_MODEL, 'nodes between two node sets', &
                           doc='The k-th node of the first set is joined to the k-th of the second by evenly spaced nodes.')
       call add_option(k, 'NSET', KIND_NAME, 'puts the nodes of both sets and the new ones into a node set')
-      call add_option(k, 'BIAS', KIND_REAL, 'ratio of neighbouring distances', built=.false.)
+      call add_option(k, '-BIAS', KIND_REAL, 'ratio of neighbouring distances')
       call add_form(k, 'one area a line', 1, ANY_NUMBER)
       call add_item(k, 'first set', KIND_NAME, 'node set on one side')
       call add_item(k, 'second set', KIND_NAME, 'node set on the other side')
       call add_item(k, 'intervals', KIND_INTEGER, 'number of intervals between the two')
       call add_item(k, 'increment', KIND_INTEGER, 'of the node numbers from interval to interval', default='1')
       call add_example(k, '*NFILL, NSET=plate|bottom, top, 5, 100')
-   end subroutine define_nfill
+   end subroutine define_node_keywords
 
-   subroutine define_ncopy(k)
-      type(keyword_t), intent(out) :: k
+   subroutine define_ncopy_and_nset(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'NCOPY', LEVEL_MODEL, 'copies of nodes, moved', &
                           doc='The set must be defined above. The nodes are moved first, then rotated about the axis.')
-      call add_option(k, 'CHANGE NUMBER', KIND_INTEGER, 'added to the numbers of the nodes', required=.true.)
-      call add_option(k, 'OLD SET', KIND_NAME, 'the nodes that are copied', required=.true.)
-      call add_option(k, 'SHIFT', KIND_FLAG, 'a translation and a rotation', required=.true.)
+      call add_option(k, 'CHANGE NUMBER!', KIND_INTEGER, 'added to the numbers of the nodes')
+      call add_option(k, 'OLD SET!', KIND_NAME, 'the nodes that are copied')
+      call add_option(k, 'SHIFT!', KIND_FLAG, 'a translation and a rotation')
       call add_option(k, 'MULTIPLE', KIND_INTEGER, 'how often the rotation is done', default='1')
       call add_option(k, 'NEW SET', KIND_NAME, 'puts the copies into a node set')
-      call add_option(k, 'REFLECT', KIND_WORD, 'mirrors the nodes', built=.false.)
-      call add_option(k, 'POLE', KIND_FLAG, 'projects the nodes from a pole', built=.false.)
+      call add_option(k, '-REFLECT', KIND_WORD, 'mirrors the nodes')
+      call add_option(k, '-POLE', KIND_FLAG, 'projects the nodes from a pole')
       call add_form(k, 'the translation', 1, 1)
       call add_item(k, 'dx', KIND_REAL, 'along x', dimension='L')
       call add_item(k, 'dy', KIND_REAL, 'along y', dimension='L')
@@ -132,62 +108,21 @@ contains
       call add_item(k, 'zb', KIND_REAL, 'second point of the axis', dimension='L')
       call add_item(k, 'angle', KIND_REAL, 'round the axis from the first to the second point, in degrees', dimension='-')
       call add_example(k, '*NCOPY, CHANGE NUMBER=1000, OLD SET=stone, SHIFT, NEW SET=next|0., 0., 0.|0., 0., 0., 0., 0., 1., 9.')
-   end subroutine define_ncopy
-
-   subroutine define_elcopy(k)
-      type(keyword_t), intent(out) :: k
-
-      call define_keyword(k, 'ELCOPY', LEVEL_MODEL, 'copies of elements on other nodes', &
-                          doc='The set must be defined above, the nodes anywhere. The new elements have the types of the old ones.')
-      call add_option(k, 'ELEMENT SHIFT', KIND_INTEGER, 'added to the numbers of the elements', required=.true.)
-      call add_option(k, 'OLD SET', KIND_NAME, 'the elements that are copied', required=.true.)
-      call add_option(k, 'SHIFT NODES', KIND_INTEGER, 'added to the numbers of their nodes', required=.true.)
-      call add_option(k, 'NEW SET', KIND_NAME, 'puts the copies into an element set')
-      call add_option(k, 'REFLECT', KIND_FLAG, 'the nodes are mirrored', built=.false.)
-      call add_example(k, '*ELCOPY, ELEMENT SHIFT=100, OLD SET=stone, SHIFT NODES=1000, NEW SET=next')
-   end subroutine define_elcopy
-
-   subroutine define_nset(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'NSET', LEVEL_MODEL, 'names a set of nodes', doc='A set named again grows.')
-      call add_option(k, 'NSET', KIND_NAME, 'name of the set', required=.true.)
+      call add_option(k, 'NSET!', KIND_NAME, 'name of the set')
       call add_set_forms(k, 'node')
       call add_example(k, '*NSET, NSET=base|1, 2, 3, corners|*NSET, NSET=base, GENERATE|10, 20, 2')
-   end subroutine define_nset
+   end subroutine define_ncopy_and_nset
 
-   subroutine define_elset(k)
-      type(keyword_t), intent(out) :: k
-
-      call define_keyword(k, 'ELSET', LEVEL_MODEL, 'names a set of elements', doc='A set named again grows.')
-      call add_option(k, 'ELSET', KIND_NAME, 'name of the set', required=.true.)
-      call add_set_forms(k, 'element')
-      call add_example(k, '*ELSET, ELSET=plate, GENERATE|1, 75')
-   end subroutine define_elset
-
-   subroutine add_set_forms(k, member)
-      type(keyword_t), intent(inout) :: k
-      character(len=*), intent(in) :: member
-
-      call add_option(k, 'GENERATE', KIND_FLAG, 'the data lines are ranges of numbers')
-      call add_option(k, 'INTERNAL', KIND_FLAG, 'mark of a preprocessor', harmless=.true.)
-      call add_option(k, 'UNSORTED', KIND_FLAG, 'sets keep the order of the deck', harmless=.true.)
-      call add_form(k, 'members', 1, ANY_NUMBER, when='-GENERATE')
-      call add_item(k, member, KIND_ID_OR_NAME, 'number of the '//member//', or a set defined earlier', repeats=.true.)
-      call add_form(k, 'ranges, one a line', 1, ANY_NUMBER, when='GENERATE')
-      call add_item(k, 'first', KIND_ID, 'number of the first '//member)
-      call add_item(k, 'last', KIND_ID, 'number of the last '//member)
-      call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next', default='1')
-   end subroutine add_set_forms
-
-   subroutine define_element(k)
-      type(keyword_t), intent(out) :: k
+   subroutine define_element_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'ELEMENT', LEVEL_MODEL, 'elements by number and nodes', &
                           doc='Corners counter-clockwise, then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre. CPE is plane '// &
                           'strain, CPS plane stress; 4 nodes are bilinear, 9 biquadratic. Faces: S1 = nodes 1-2, S2 = 2-3, '// &
                           'S3 = 3-4, S4 = 4-1.')
-      call add_option(k, 'TYPE', KIND_WORD, 'type of the elements', required=.true., choices=ELEMENT_TYPES)
+      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=ELEMENT_TYPES)
       call add_option(k, 'ELSET', KIND_NAME, 'puts these elements into an element set')
       call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE4|CPS4')
       call add_item(k, 'id', KIND_ID, 'number of the element, positive')
@@ -196,20 +131,6 @@ contains
       call add_item(k, 'id', KIND_ID, 'number of the element, positive')
       call add_element_nodes(k, '123456789')
       call add_example(k, '*ELEMENT, TYPE=CPE4, ELSET=plate|1, 1, 2, 102, 101')
-   end subroutine define_element
-
-   subroutine add_element_nodes(k, numbers)
-      type(keyword_t), intent(inout) :: k
-      character(len=*), intent(in) :: numbers
-      integer :: i
-
-      do i = 1, len(numbers)
-         call add_item(k, 'node '//numbers(i:i), KIND_ID, merge('corner  ', 'mid-side', i <= 4))
-      end do
-   end subroutine add_element_nodes
-
-   subroutine define_elgen(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'ELGEN', LEVEL_MODEL, 'repeats an element in a row, and the row', &
                           doc='The new elements have the type of the master element.')
@@ -223,21 +144,35 @@ contains
       call add_item(k, 'node step of rows', KIND_INTEGER, 'of the node numbers from row to row', default='1')
       call add_item(k, 'element step of rows', KIND_INTEGER, 'of the element numbers from row to row', default='1')
       call add_example(k, '*ELGEN, ELSET=plate|1, 15, 1, 1, 5, 100, 15')
-   end subroutine define_elgen
+
+      call define_keyword(k, 'ELCOPY', LEVEL_MODEL, 'copies of elements on other nodes', &
+                          doc='The set must be defined above, the nodes anywhere. The new elements have the types of the old ones.')
+      call add_option(k, 'ELEMENT SHIFT!', KIND_INTEGER, 'added to the numbers of the elements')
+      call add_option(k, 'OLD SET!', KIND_NAME, 'the elements that are copied')
+      call add_option(k, 'SHIFT NODES!', KIND_INTEGER, 'added to the numbers of their nodes')
+      call add_option(k, 'NEW SET', KIND_NAME, 'puts the copies into an element set')
+      call add_option(k, '-REFLECT', KIND_FLAG, 'the nodes are mirrored')
+      call add_example(k, '*ELCOPY, ELEMENT SHIFT=100, OLD SET=stone, SHIFT NODES=1000, NEW SET=next')
+
+      call define_keyword(k, 'ELSET', LEVEL_MODEL, 'names a set of elements', doc='A set named again grows.')
+      call add_option(k, 'ELSET!', KIND_NAME, 'name of the set')
+      call add_set_forms(k, 'element')
+      call add_example(k, '*ELSET, ELSET=plate, GENERATE|1, 75')
+   end subroutine define_element_keywords
 
    subroutine define_block(k)
-      type(keyword_t), intent(out) :: k
+      type(keyword_list_t), intent(inout) :: k
 
-      call define_keyword(k, 'BLOCK', LEVEL_MODEL, 'a meshed quadrilateral with its sets and surfaces', own=.true., &
+      call define_keyword(k, 'BLOCK+', LEVEL_MODEL, 'a meshed quadrilateral with its sets and surfaces', &
                           doc='Numbers follow the greatest so far, row by row from BOTTOM, the side of the first two corners. '// &
                           'Makes the node set <elset>, and the node sets and surfaces <elset>-BOTTOM, -RIGHT, -TOP and '// &
                           '-LEFT. COPY makes columns and rows of equal blocks, each a body of its own: that in column 3 of '// &
                           'row 2 is <elset>-3-2, with its own sets and sides; <elset> holds all of them, and <elset>-BOTTOM '// &
                           'those of the first row, -TOP of the last row, -LEFT of the first column, -RIGHT of the last.')
-      call add_option(k, 'TYPE', KIND_WORD, 'type of the elements', required=.true., choices=ELEMENT_TYPES)
-      call add_option(k, 'ELSET', KIND_NAME, 'name of the block', required=.true.)
-      call add_option(k, 'NX', KIND_INTEGER, 'elements along BOTTOM', required=.true.)
-      call add_option(k, 'NY', KIND_INTEGER, 'elements along LEFT', required=.true.)
+      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=ELEMENT_TYPES)
+      call add_option(k, 'ELSET!', KIND_NAME, 'name of the block')
+      call add_option(k, 'NX!', KIND_INTEGER, 'elements along BOTTOM')
+      call add_option(k, 'NY!', KIND_INTEGER, 'elements along LEFT')
       call add_option(k, 'MERGE', KIND_NAME, 'block, of as many nodes an element, with which it shares the '// &
                       'nodes that coincide within 1e-6 of an edge')
       call add_form(k, 'the four corners, counter-clockwise', 4, 4)
@@ -247,9 +182,9 @@ contains
       call add_item(k, 'rx', KIND_REAL, 'last over first element length along BOTTOM', dimension='-')
       call add_item(k, 'ry', KIND_REAL, 'last over first element length along LEFT', dimension='-')
       call add_form(k, 'inner break points along BOTTOM', 0, 1, word='X')
-      call add_item(k, 'x1', KIND_REAL, 'rising, between 0 and 1; NX - 1 of them', dimension='-', repeats=.true.)
+      call add_item(k, 'x1...', KIND_REAL, 'rising, between 0 and 1; NX - 1 of them', dimension='-')
       call add_form(k, 'inner break points along LEFT', 0, 1, word='Y')
-      call add_item(k, 'y1', KIND_REAL, 'rising, between 0 and 1; NY - 1 of them', dimension='-', repeats=.true.)
+      call add_item(k, 'y1...', KIND_REAL, 'rising, between 0 and 1; NY - 1 of them', dimension='-')
       call add_form(k, 'columns and rows of equal blocks', 0, 1, word='COPY')
       call add_item(k, 'columns', KIND_INTEGER, 'number of them, the block itself counted')
       call add_item(k, 'rows', KIND_INTEGER, 'number of them, the block itself counted')
@@ -261,20 +196,20 @@ contains
                        '*BLOCK, TYPE=CPE4, ELSET=brick, NX=8, NY=4|0., 1.|2., 1.|2., 2.|0., 2.|COPY, 10, 5, 2., 2.')
    end subroutine define_block
 
-   subroutine define_surface(k)
-      type(keyword_t), intent(out) :: k
+   subroutine define_surface_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'SURFACE', LEVEL_MODEL, 'names a surface: faces of elements, or a drawn line', &
                           doc='Over a set, face Sn of each of its elements; without a face, all outer faces. A face inside the '// &
                           'mesh is an error. The outward normal of a drawn line is its direction of travel turned by +90 '// &
                           'degrees: a floor drawn from left to right faces up. An arc runs the shorter way round its centre, '// &
                           'which is as far from both ends within 1e-4 and is moved to be so exactly.')
-      call add_option(k, 'NAME', KIND_NAME, 'name of the surface', required=.true.)
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the surface')
       call add_option(k, 'TYPE', KIND_WORD, 'kind of surface', default='ELEMENT', choices='ELEMENT SEGMENTS')
-      call add_option(k, 'INTERNAL', KIND_FLAG, 'mark of a preprocessor', harmless=.true.)
+      call add_option(k, '(INTERNAL)', KIND_FLAG, 'mark of a preprocessor')
       call add_form(k, 'faces', 1, ANY_NUMBER, when='TYPE=ELEMENT')
       call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
-      call add_word_item(k, 'face', 'S1 S2 S3 S4', 'face of each element; all outer faces when left out', required=.false.)
+      call add_word_item(k, '[face]', 'S1 S2 S3 S4', 'face of each element; all outer faces when left out')
       call add_form(k, 'where the line begins', 1, 1, when='TYPE=SEGMENTS', word='START')
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
@@ -287,15 +222,36 @@ contains
       call add_item(k, 'xc', KIND_REAL, 'coordinate of its centre', dimension='L')
       call add_item(k, 'yc', KIND_REAL, 'coordinate of its centre', dimension='L')
       call add_example(k, '*SURFACE, NAME=sole|plate, S1|*SURFACE, NAME=floor, TYPE=SEGMENTS|START, -1., 0.|LINE, 2., 0.')
-   end subroutine define_surface
-
-   subroutine define_rigid_body(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'RIGID BODY', LEVEL_MODEL, 'makes a drawn surface a fixed rigid body')
-      call add_option(k, 'ANALYTICAL SURFACE', KIND_NAME, 'a surface of TYPE=SEGMENTS', required=.true.)
-      call add_option(k, 'REF NODE', KIND_NAME, 'the body is fixed', harmless=.true.)
+      call add_option(k, 'ANALYTICAL SURFACE!', KIND_NAME, 'a surface of TYPE=SEGMENTS')
+      call add_option(k, '(REF NODE)', KIND_NAME, 'the body is fixed')
       call add_example(k, '*RIGID BODY, ANALYTICAL SURFACE=floor')
-   end subroutine define_rigid_body
+   end subroutine define_surface_keywords
+
+   subroutine add_set_forms(k, member)
+      type(keyword_list_t), intent(inout) :: k
+      character(len=*), intent(in) :: member
+
+      call add_option(k, 'GENERATE', KIND_FLAG, 'the data lines are ranges of numbers')
+      call add_option(k, '(INTERNAL)', KIND_FLAG, 'mark of a preprocessor')
+      call add_option(k, '(UNSORTED)', KIND_FLAG, 'sets keep the order of the deck')
+      call add_form(k, 'members', 1, ANY_NUMBER, when='-GENERATE')
+      call add_item(k, member//'...', KIND_ID_OR_NAME, 'number of the '//member//', or a set defined earlier')
+      call add_form(k, 'ranges, one a line', 1, ANY_NUMBER, when='GENERATE')
+      call add_item(k, 'first', KIND_ID, 'number of the first '//member)
+      call add_item(k, 'last', KIND_ID, 'number of the last '//member)
+      call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next', default='1')
+   end subroutine add_set_forms
+
+   subroutine add_element_nodes(k, numbers)
+      type(keyword_list_t), intent(inout) :: k
+      character(len=*), intent(in) :: numbers
+      integer :: i
+
+      do i = 1, len(numbers)
+         call add_item(k, 'node '//numbers(i:i), KIND_ID, merge('corner  ', 'mid-side', i <= 4))
+      end do
+   end subroutine add_element_nodes
 
 end module atrito_mesh_keywords

@@ -3,8 +3,7 @@ module atrito_parameters
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, reading_order, token_text
    use atrito_diagnostics, only: report_error
-   use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name, &
-                                 reserved_names
+   use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name, reserved_names
    use atrito_items, only: index_of_parameter, parameter_names, report_later, LONGEST_NAME
    use atrito_lexer, only: find_equals, trim_place
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE

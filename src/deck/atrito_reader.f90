@@ -4,8 +4,8 @@ module atrito_reader
    use atrito_card_data, only: check_data
    use atrito_card_order, only: order_t, check_order, check_end
    use atrito_cards, only: make_card, check_options
-   use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, append_source, &
-                          append_token, append_line, append_card, reading_order
+   use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, append_source, append_token, append_line, &
+                          append_card, reading_order
    use atrito_deck_memory, only: fits_memory
    use atrito_diagnostics, only: report_error, report_note, report_deck_error
    use atrito_files, only: read_file, true_path

@@ -1,6 +1,6 @@
 !> Definitions of the keywords of materials, sections, contact and supports.
 module atrito_scene_keywords
-   use atrito_keyword, only: keyword_t, define_keyword, add_option, add_form, add_item, add_example, LEVEL_MODEL, LEVEL_BOTH, &
+   use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_example, LEVEL_MODEL, LEVEL_BOTH, &
                              ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
    implicit none (type, external)
    private
@@ -8,36 +8,21 @@ module atrito_scene_keywords
 
 contains
 
-   subroutine define_scene_keywords(table)
-      type(keyword_t), allocatable, intent(out) :: table(:)
+   subroutine define_scene_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
-      allocate (table(13))
-      call define_material(table(1))
-      call define_elastic(table(2))
-      call define_density(table(3))
-      call define_solid_section(table(4))
-      call define_surface_interaction(table(5))
-      call define_surface_behavior(table(6))
-      call define_friction(table(7))
-      call define_contact_pair(table(8))
-      call define_contact(table(9))
-      call define_contact_inclusions(table(10))
-      call define_contact_exclusions(table(11))
-      call define_contact_property_assignment(table(12))
-      call define_boundary(table(13))
+      call define_material_keywords(k)
+      call define_interaction_keywords(k)
+      call define_contact_keywords(k)
+      call define_boundary(k)
    end subroutine define_scene_keywords
 
-   subroutine define_material(k)
-      type(keyword_t), intent(out) :: k
+   subroutine define_material_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
-      call define_keyword(k, 'MATERIAL', LEVEL_MODEL, 'begins a material', &
-                          doc='*ELASTIC and *DENSITY follow.')
-      call add_option(k, 'NAME', KIND_NAME, 'name of the material', required=.true.)
+      call define_keyword(k, 'MATERIAL', LEVEL_MODEL, 'begins a material', doc='*ELASTIC and *DENSITY follow.')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the material')
       call add_example(k, '*MATERIAL, NAME=concrete|*ELASTIC|25e6, 0.2')
-   end subroutine define_material
-
-   subroutine define_elastic(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'ELASTIC', LEVEL_MODEL, 'isotropic linear elasticity', parent='MATERIAL')
       call add_option(k, 'TYPE', KIND_WORD, 'symmetry of the material', default='ISOTROPIC', choices='ISOTROPIC ISO')
@@ -45,45 +30,32 @@ contains
       call add_item(k, 'E', KIND_REAL, "Young's modulus, > 0", dimension='F/L^2')
       call add_item(k, 'mu', KIND_REAL, "Poisson's ratio: plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5", dimension='-')
       call add_example(k, '*ELASTIC|1000., 0.3')
-   end subroutine define_elastic
-
-   subroutine define_density(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'DENSITY', LEVEL_MODEL, 'mass per volume, for the load GRAV', parent='MATERIAL')
       call add_form(k, 'the constant', 1, 1)
       call add_item(k, 'density', KIND_REAL, 'mass per volume, >= 0', dimension='F T^2/L^4')
       call add_example(k, '*DENSITY|2.5')
-   end subroutine define_density
-
-   subroutine define_solid_section(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'SOLID SECTION', LEVEL_MODEL, 'gives elements a material and a thickness', &
                           doc='Every element has exactly one section. BBAR gives CPE4 elements one dilatation, the mean of '// &
                           'each: they do not lock near mu = 0.5. Other elements do not need it; they are left as they are.')
-      call add_option(k, 'ELSET', KIND_NAME, 'the elements', required=.true.)
-      call add_option(k, 'MATERIAL', KIND_NAME, 'their material', required=.true.)
-      call add_option(k, 'FORMULATION', KIND_WORD, 'how the stiffness is integrated', own=.true., default='STANDARD', &
-                      choices='STANDARD BBAR')
+      call add_option(k, 'ELSET!', KIND_NAME, 'the elements')
+      call add_option(k, 'MATERIAL!', KIND_NAME, 'their material')
+      call add_option(k, 'FORMULATION+', KIND_WORD, 'how the stiffness is integrated', default='STANDARD', choices='STANDARD BBAR')
       call add_form(k, 'the thickness', 0, 1)
       call add_item(k, 'thickness', KIND_REAL, '> 0', dimension='L', default='1')
       call add_example(k, '*SOLID SECTION, ELSET=plate, MATERIAL=concrete|0.2')
-   end subroutine define_solid_section
+   end subroutine define_material_keywords
 
-   subroutine define_surface_interaction(k)
-      type(keyword_t), intent(out) :: k
+   subroutine define_interaction_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'SURFACE INTERACTION', LEVEL_MODEL, 'begins a law of contact', &
                           doc='*SURFACE BEHAVIOR and *FRICTION follow; without them contact is hard and without friction.')
-      call add_option(k, 'NAME', KIND_NAME, 'name of the law', required=.true.)
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the law')
       call add_form(k, 'a thickness, written by preprocessors', 0, 1, harmless=.true.)
-      call add_item(k, 'thickness', KIND_REAL, 'has no effect', dimension='L', required=.false.)
+      call add_item(k, '[thickness]', KIND_REAL, 'has no effect', dimension='L')
       call add_example(k, '*SURFACE INTERACTION, NAME=rough|*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD|*FRICTION|0.3')
-   end subroutine define_surface_interaction
-
-   subroutine define_surface_behavior(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'SURFACE BEHAVIOR', LEVEL_MODEL, 'pressure against penetration', parent='SURFACE INTERACTION', &
                           doc='HARD: no penetration, delta = 0. LINEAR: pressure = slope times penetration. PENALTY: '// &
@@ -91,53 +63,45 @@ contains
       call add_option(k, 'PRESSURE-OVERCLOSURE', KIND_WORD, 'the law', default='HARD', choices='HARD LINEAR PENALTY+')
       call add_form(k, 'of LINEAR', 1, 1, when='PRESSURE-OVERCLOSURE=LINEAR')
       call add_item(k, 'slope', KIND_REAL, 'pressure over penetration, 1/delta, > 0', dimension='F/L^3')
-      call add_item(k, 'further', KIND_REAL, 'of other programs', required=.false., repeats=.true., harmless=.true.)
+      call add_item(k, '(further)...', KIND_REAL, 'of other programs')
       call add_form(k, 'of PENALTY', 1, 1, when='PRESSURE-OVERCLOSURE=PENALTY')
       call add_item(k, 'delta', KIND_REAL, 'penetration over pressure, >= 0', dimension='L^3/F')
       call add_example(k, '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=PENALTY|1e-6')
-   end subroutine define_surface_behavior
-
-   subroutine define_friction(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'FRICTION', LEVEL_MODEL, "Coulomb's law, local or the nonlocal one of the paper", &
                           parent='SURFACE INTERACTION', &
                           doc='Local: shear = min(stick slope |u_T|, nu p); without a stick slope exact stick. NONLOCAL: '// &
                           'shear = nu S_rho(p) phi''(|u_T|) with the average S_rho of the pressure and the smoothed phi of '// &
                           'the paper. nu = 0 is no friction, eps = 0 exact stick, rho = 0 local.')
-      call add_option(k, 'NONLOCAL', KIND_FLAG, 'the law of the paper', own=.true.)
-      call add_option(k, 'KERNEL', KIND_WORD, 'average normalised on the quadrature points, or on the whole line', own=.true., &
+      call add_option(k, 'NONLOCAL+', KIND_FLAG, 'the law of the paper')
+      call add_option(k, 'KERNEL+', KIND_WORD, 'average normalised on the quadrature points, or on the whole line', &
                       default='POINTS', choices='POINTS LINE', needs='NONLOCAL')
       call add_form(k, 'local', 1, 1, when='-NONLOCAL')
       call add_item(k, 'nu', KIND_REAL, 'coefficient of friction, >= 0', dimension='-')
-      call add_item(k, 'stick slope', KIND_REAL, 'shear over slip while sticking, > 0; exact stick when left out', &
-                    dimension='F/L^3', required=.false.)
+      call add_item(k, '[stick slope]', KIND_REAL, 'shear over slip while sticking, > 0; exact stick when left out', &
+                    dimension='F/L^3')
       call add_form(k, 'nonlocal', 1, 1, when='NONLOCAL')
       call add_item(k, 'nu', KIND_REAL, 'coefficient of friction, >= 0', dimension='-')
       call add_item(k, 'eps', KIND_REAL, 'slip up to which phi is smoothed, >= 0', dimension='L')
       call add_item(k, 'rho', KIND_REAL, 'radius of the average, >= 0', dimension='L')
       call add_example(k, '*FRICTION, NONLOCAL|0.3, 4e-4, 0.1')
-   end subroutine define_friction
+   end subroutine define_interaction_keywords
 
-   subroutine define_contact_pair(k)
-      type(keyword_t), intent(out) :: k
+   subroutine define_contact_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'CONTACT PAIR', LEVEL_MODEL, 'two surfaces that may touch', &
                           doc='The contact points lie on the slave. NODAL: on its nodes, trapezoidal rule. GAUSS: on segments '// &
                           'cut at the nodes of both sides. MORTAR: the same segments, pressure on the nodes of the slave.')
-      call add_option(k, 'INTERACTION', KIND_NAME, 'the law of contact', required=.true.)
-      call add_option(k, 'QUADRATURE', KIND_WORD, 'where the contact points lie; NODAL when the sides match or the master '// &
-                      'is rigid', own=.true., choices='NODAL -GAUSS -MORTAR')
-      call add_option(k, 'TYPE', KIND_WORD, 'discretisation of other programs', harmless=.true.)
-      call add_option(k, 'SMALL SLIDING', KIND_FLAG, 'sliding is always small', harmless=.true.)
+      call add_option(k, 'INTERACTION!', KIND_NAME, 'the law of contact')
+      call add_option(k, 'QUADRATURE+', KIND_WORD, 'where the contact points lie; NODAL when the sides match or the master '// &
+                      'is rigid', choices='NODAL -GAUSS -MORTAR')
+      call add_option(k, '(TYPE)', KIND_WORD, 'discretisation of other programs')
+      call add_option(k, '(SMALL SLIDING)', KIND_FLAG, 'sliding is always small')
       call add_form(k, 'one pair a line', 1, ANY_NUMBER)
       call add_item(k, 'slave', KIND_NAME, 'surface of elements, one connected chain')
       call add_item(k, 'master', KIND_NAME, 'surface of elements, or of a rigid body')
       call add_example(k, '*CONTACT PAIR, INTERACTION=rough|plate-BOTTOM, support-TOP')
-   end subroutine define_contact_pair
-
-   subroutine define_contact(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'CONTACT', LEVEL_MODEL, 'begins contact that is found by itself', &
                           doc='*CONTACT INCLUSIONS, *CONTACT EXCLUSIONS and *CONTACT PROPERTY ASSIGNMENT follow. Faces of '// &
@@ -145,43 +109,21 @@ contains
                           'finer one, else the first in the deck; a rigid surface is the master. A slave ends where its '// &
                           'outline has a corner and where another body or law begins; S_rho is not cut there. A '// &
                           '*CONTACT PAIR goes before what is found.')
-      call add_option(k, 'DISTANCE', KIND_REAL, 'faces farther apart than this take no part; half a face when left out', &
-                      own=.true., dimension='L')
-      call add_option(k, 'QUADRATURE', KIND_WORD, 'as of *CONTACT PAIR', own=.true., choices='NODAL -GAUSS -MORTAR')
+      call add_option(k, 'DISTANCE+', KIND_REAL, 'faces farther apart than this take no part; half a face when left out', &
+                      dimension='L')
+      call add_option(k, 'QUADRATURE+', KIND_WORD, 'as of *CONTACT PAIR', choices='NODAL -GAUSS -MORTAR')
       call add_example(k, '*CONTACT|*CONTACT INCLUSIONS, ALL EXTERIOR|*CONTACT PROPERTY ASSIGNMENT|, , rough')
-   end subroutine define_contact
-
-   subroutine define_contact_inclusions(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'CONTACT INCLUSIONS', LEVEL_MODEL, 'what may touch', parent='CONTACT', &
                           doc='ALL EXTERIOR: all bodies each other. Rigid surfaces take part where a line names them.')
       call add_option(k, 'ALL EXTERIOR', KIND_FLAG, 'the outlines of all bodies')
       call add_surface_pair(k, '-ALL EXTERIOR')
       call add_example(k, '*CONTACT INCLUSIONS, ALL EXTERIOR|*CONTACT INCLUSIONS|, floor')
-   end subroutine define_contact_inclusions
-
-   subroutine define_contact_exclusions(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'CONTACT EXCLUSIONS', LEVEL_MODEL, 'what does not touch', parent='CONTACT', &
                           doc='Goes before the inclusions.')
       call add_surface_pair(k, '')
       call add_example(k, '*CONTACT EXCLUSIONS|brick-1-1-TOP, brick-1-2-BOTTOM')
-   end subroutine define_contact_exclusions
-
-   !> A line of two surfaces; with a condition on an option.
-   subroutine add_surface_pair(k, when)
-      type(keyword_t), intent(inout) :: k
-      character(len=*), intent(in) :: when
-
-      call add_form(k, 'one pair of surfaces a line', 1, ANY_NUMBER, when=when)
-      call add_item(k, 'surface', KIND_NAME, 'of elements, or of a rigid body', default='the outlines of all bodies')
-      call add_item(k, 'other surface', KIND_NAME, 'of elements, or of a rigid body', default='the first, bodies of it each other')
-   end subroutine add_surface_pair
-
-   subroutine define_contact_property_assignment(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'CONTACT PROPERTY ASSIGNMENT', LEVEL_MODEL, 'laws of the contact that is found', parent='CONTACT', &
                           doc='Of several lines that a place belongs to the last one counts. Without one contact is hard and '// &
@@ -189,16 +131,16 @@ contains
       call add_surface_pair(k, '')
       call add_item(k, 'interaction', KIND_NAME, 'the law of contact')
       call add_example(k, '*CONTACT PROPERTY ASSIGNMENT|, , rough|brick-1-1-LEFT, , smooth')
-   end subroutine define_contact_property_assignment
+   end subroutine define_contact_keywords
 
    subroutine define_boundary(k)
-      type(keyword_t), intent(out) :: k
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'BOUNDARY', LEVEL_BOTH, 'prescribed displacements', &
                           doc='Before *STEP zero values only, which hold in every step. Dof 1 is x and 2 is y; a dof 3 to 6 of '// &
                           'value 0 is a note. Two different values for one dof in a step are an error. FUNCTION: in the step, '// &
                           'evaluated at each node.')
-      call add_option(k, 'FUNCTION', KIND_FLAG, 'the value is an expression in x and y', own=.true.)
+      call add_option(k, 'FUNCTION+', KIND_FLAG, 'the value is an expression in x and y')
       call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='-FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
@@ -209,10 +151,19 @@ contains
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')
       call add_item(k, 'last dof', KIND_INTEGER, '1 or 2', default='first dof')
-      call add_item(k, 'value', KIND_TEXT, 'expression in x, y and earlier parameters, as in *PARAMETER', dimension='L', &
-                    repeats=.true.)
+      call add_item(k, 'value...', KIND_TEXT, 'expression in x, y and earlier parameters, as in *PARAMETER', dimension='L')
       call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2|*BOUNDARY, FUNCTION|pillar-TOP, 2, 2, '// &
                        '-(0.10 - 0.001*x)')
    end subroutine define_boundary
+
+   !> A line of two surfaces; with a condition on an option.
+   subroutine add_surface_pair(k, when)
+      type(keyword_list_t), intent(inout) :: k
+      character(len=*), intent(in) :: when
+
+      call add_form(k, 'one pair of surfaces a line', 1, ANY_NUMBER, when=when)
+      call add_item(k, 'surface', KIND_NAME, 'of elements, or of a rigid body', default='the outlines of all bodies')
+      call add_item(k, 'other surface', KIND_NAME, 'of elements, or of a rigid body', default='the first, bodies of it each other')
+   end subroutine add_surface_pair
 
 end module atrito_scene_keywords

@@ -1,8 +1,8 @@
 !> Definitions of the keywords of a step: loads, controls, tables; and of those of other programs that have no effect here.
 module atrito_step_keywords
-   use atrito_keyword, only: keyword_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, LEVEL_STEP, &
-                             LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_INTEGER, &
-                             KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
+   use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
+                             LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, &
+                             KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
    implicit none (type, external)
    private
    public :: define_step_keywords, define_harmless_keywords
@@ -16,67 +16,52 @@ module atrito_step_keywords
 
 contains
 
-   subroutine define_step_keywords(table)
-      type(keyword_t), allocatable, intent(out) :: table(:)
+   subroutine define_step_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
-      allocate (table(15))
-      call define_step(table(1))
-      call define_static(table(2))
-      call define_cload(table(3))
-      call define_dload(table(4))
-      call define_dsload(table(5))
-      call define_controls(table(6))
-      call define_node_print(table(7))
-      call define_el_print(table(8))
-      call define_contact_print(table(9))
-      call define_body_print(table(10))
-      call define_joint_print(table(11))
-      call define_node_file(table(12))
-      call define_el_file(table(13))
-      call define_contact_file(table(14))
-      call define_end_step(table(15))
+      call define_step(k)
+      call define_loads(k)
+      call define_controls(k)
+      call define_print_keywords(k)
+      call define_file_keywords(k)
+      call define_end_step(k)
    end subroutine define_step_keywords
 
-   subroutine define_harmless_keywords(table)
-      type(keyword_t), allocatable, intent(out) :: table(:)
+   subroutine define_harmless_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
       integer :: i
 
-      allocate (table(size(HARMLESS)))
       do i = 1, size(HARMLESS)
-         call define_keyword(table(i), trim(HARMLESS(i)), LEVEL_BOTH, 'of other programs, has no effect', harmless=.true.)
+         call define_keyword(k, '('//trim(HARMLESS(i))//')', LEVEL_BOTH, 'of other programs, has no effect')
       end do
    end subroutine define_harmless_keywords
 
    subroutine define_step(k)
-      type(keyword_t), intent(out) :: k
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'STEP', LEVEL_STEP, 'begins the step', &
                           doc='A deck has one step; histories of several are not built yet. Displacements are small.')
       call add_option(k, 'NLGEOM', KIND_OPTIONAL_WORD, 'large displacements', default='NO', choices='-YES NO')
-      call add_option(k, 'NAME', KIND_NAME, 'the step has no name here', harmless=.true.)
-      call add_option(k, 'INC', KIND_INTEGER, 'the load is applied at once', harmless=.true.)
-      call add_option(k, 'PERTURBATION', KIND_FLAG, 'of other programs', harmless=.true.)
-      call add_option(k, 'AMPLITUDE', KIND_WORD, 'the load is applied at once', harmless=.true.)
-      call add_option(k, 'UNSYMM', KIND_WORD, 'of other programs', harmless=.true.)
-      call add_option(k, 'EXTRAPOLATION', KIND_WORD, 'of other programs', harmless=.true.)
+      call add_option(k, '(NAME)', KIND_NAME, 'the step has no name here')
+      call add_option(k, '(INC)', KIND_INTEGER, 'the load is applied at once')
+      call add_option(k, '(PERTURBATION)', KIND_FLAG, 'of other programs')
+      call add_option(k, '(AMPLITUDE)', KIND_WORD, 'the load is applied at once')
+      call add_option(k, '(UNSYMM)', KIND_WORD, 'of other programs')
+      call add_option(k, '(EXTRAPOLATION)', KIND_WORD, 'of other programs')
       call add_form(k, 'a title of the step', 0, ANY_NUMBER, harmless=.true.)
-      call add_item(k, 'text', KIND_TEXT, 'has no effect', required=.false.)
+      call add_item(k, '[text]', KIND_TEXT, 'has no effect')
       call add_example(k, '*STEP|*STATIC|*DSLOAD|plate-TOP, P, 10.|*NODE PRINT|U|*END STEP')
-   end subroutine define_step
-
-   subroutine define_static(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'STATIC', LEVEL_STEP, 'the step is static')
-      call add_option(k, 'SOLVER', KIND_WORD, 'atrito takes it from --solver', harmless=.true.)
-      call add_option(k, 'DIRECT', KIND_FLAG, 'of other programs', harmless=.true.)
+      call add_option(k, '(SOLVER)', KIND_WORD, 'atrito takes it from --solver')
+      call add_option(k, '(DIRECT)', KIND_FLAG, 'of other programs')
       call add_form(k, 'time and increments', 0, 1, harmless=.true.)
-      call add_item(k, 'time', KIND_REAL, 'has no effect: the load is applied at once', required=.false., repeats=.true.)
+      call add_item(k, '[time]...', KIND_REAL, 'has no effect: the load is applied at once')
       call add_example(k, '*STATIC')
-   end subroutine define_static
+   end subroutine define_step
 
-   subroutine define_cload(k)
-      type(keyword_t), intent(out) :: k
+   subroutine define_loads(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'CLOAD', LEVEL_STEP, 'forces at nodes', &
                           doc='For the whole thickness. Lines on one dof add up; at a set every node takes the force.')
@@ -86,10 +71,6 @@ contains
       call add_item(k, 'dof', KIND_INTEGER, '1 (x) or 2 (y)')
       call add_item(k, 'force', KIND_REAL, 'along the axis', dimension='F')
       call add_example(k, '*CLOAD|7, 2, -10.')
-   end subroutine define_cload
-
-   subroutine define_dload(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'DLOAD', LEVEL_STEP, 'pressure on faces, force per volume, weight', &
                           doc='P1 to P4: pressure on that face, positive pushes on the element. BX, BY: force per volume. '// &
@@ -99,14 +80,10 @@ contains
       call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
       call add_word_item(k, 'label', 'P1 P2 P3 P4 BX BY GRAV', 'kind of load')
       call add_item(k, 'magnitude', KIND_REAL, 'P [F/L^2], B [F/L^3], GRAV [L/T^2]')
-      call add_item(k, 'gx', KIND_REAL, 'direction of GRAV', dimension='-', required=.false.)
-      call add_item(k, 'gy', KIND_REAL, 'direction of GRAV', dimension='-', required=.false.)
-      call add_item(k, 'gz', KIND_REAL, 'direction of GRAV, must be 0', dimension='-', required=.false.)
+      call add_item(k, '[gx]', KIND_REAL, 'direction of GRAV', dimension='-')
+      call add_item(k, '[gy]', KIND_REAL, 'direction of GRAV', dimension='-')
+      call add_item(k, '[gz]', KIND_REAL, 'direction of GRAV, must be 0', dimension='-')
       call add_example(k, '*DLOAD|plate, P3, 10.|plate, GRAV, 9.81, 0., -1.')
-   end subroutine define_dload
-
-   subroutine define_dsload(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'DSLOAD', LEVEL_STEP, 'pressure on surfaces')
       call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
@@ -115,138 +92,113 @@ contains
       call add_word_item(k, 'label', 'P', 'kind of load')
       call add_item(k, 'magnitude', KIND_REAL, 'pressure, positive pushes on the body', dimension='F/L^2')
       call add_example(k, '*DSLOAD|plate-TOP, P, 10.')
-   end subroutine define_dsload
+   end subroutine define_loads
 
    subroutine define_controls(k)
-      type(keyword_t), intent(out) :: k
+      type(keyword_list_t), intent(inout) :: k
 
-      call define_keyword(k, 'CONTROLS', LEVEL_STEP, 'how the contact iteration goes', own=.true., &
+      call define_keyword(k, 'CONTROLS+', LEVEL_STEP, 'how the contact iteration goes', &
                           doc='PICARD is the iteration of the paper; ANDERSON accelerates it; NEWTON solves for all unknowns '// &
                           'at once.')
-      call add_option(k, 'METHOD', KIND_WORD, 'outer iteration', own=.true., default='ANDERSON', &
-                      choices='ANDERSON PICARD NEWTON')
-      call add_option(k, 'TOLERANCE', KIND_REAL, 'largest relative change at convergence, > 0', own=.true., dimension='-')
-      call add_option(k, 'MAXIT', KIND_INTEGER, 'most outer iterations, > 0', own=.true.)
-      call add_option(k, 'RELAXATION', KIND_REAL, 'part of each change that PICARD takes, 0 < r <= 1', own=.true., dimension='-')
-      call add_option(k, 'PARAMETERS', KIND_NAME, 'of other programs, with its data lines', harmless=.true.)
-      call add_option(k, 'RESET', KIND_FLAG, 'of other programs', harmless=.true.)
+      call add_option(k, 'METHOD+', KIND_WORD, 'outer iteration', default='ANDERSON', choices='ANDERSON PICARD NEWTON')
+      call add_option(k, 'TOLERANCE+', KIND_REAL, 'largest relative change at convergence, > 0', dimension='-')
+      call add_option(k, 'MAXIT+', KIND_INTEGER, 'most outer iterations, > 0')
+      call add_option(k, 'RELAXATION+', KIND_REAL, 'part of each change that PICARD takes, 0 < r <= 1', dimension='-')
+      call add_option(k, '(PARAMETERS)', KIND_NAME, 'of other programs, with its data lines')
+      call add_option(k, '(RESET)', KIND_FLAG, 'of other programs')
       call add_form(k, 'of PARAMETERS=', 0, ANY_NUMBER, when='PARAMETERS', harmless=.true.)
-      call add_item(k, 'value', KIND_REAL, 'has no effect', required=.false., repeats=.true.)
+      call add_item(k, '[value]...', KIND_REAL, 'has no effect')
       call add_example(k, '*CONTROLS, METHOD=PICARD, TOLERANCE=1e-12, MAXIT=200')
    end subroutine define_controls
 
-   subroutine define_node_print(k)
-      type(keyword_t), intent(out) :: k
+   !> Requests of tables.
+   subroutine define_print_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'NODE PRINT', LEVEL_STEP, 'writes nodes.tab (U) and reactions.tab (RF)')
       call add_option(k, 'NSET', KIND_NAME, 'these nodes only')
       call add_print_options(k)
       call add_form(k, 'the tables', 1, ANY_NUMBER)
-      call add_word_item(k, 'variable', 'U RF', 'displacements, reactions', repeats=.true.)
+      call add_word_item(k, 'variable...', 'U RF', 'displacements, reactions')
       call add_example(k, '*NODE PRINT, NSET=base|U, RF')
-   end subroutine define_node_print
-
-   subroutine define_el_print(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'EL PRINT', LEVEL_STEP, 'writes stress.tab (S)')
       call add_option(k, 'ELSET', KIND_NAME, 'these elements only')
       call add_print_options(k)
       call add_form(k, 'the tables', 1, ANY_NUMBER)
-      call add_word_item(k, 'variable', 'S', 'stresses at the integration points', repeats=.true.)
+      call add_word_item(k, 'variable...', 'S', 'stresses at the integration points')
       call add_example(k, '*EL PRINT, ELSET=plate|S')
-   end subroutine define_el_print
-
-   subroutine define_contact_print(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'CONTACT PRINT', LEVEL_STEP, 'writes contact.tab', &
                           doc='contact.tab is written whenever there is a pair, with or without this request.')
       call add_print_options(k)
       call add_form(k, 'variables', 0, ANY_NUMBER)
-      call add_item(k, 'variable', KIND_NAME, 'of other programs; the table always has all columns', required=.false., &
-                    repeats=.true.)
+      call add_item(k, '[variable]...', KIND_NAME, 'of other programs; the table always has all columns')
       call add_example(k, '*CONTACT PRINT')
-   end subroutine define_contact_print
 
-   subroutine define_body_print(k)
-      type(keyword_t), intent(out) :: k
-
-      call define_keyword(k, 'BODY PRINT', LEVEL_STEP, 'writes bodies.tab', own=.true., &
+      call define_keyword(k, 'BODY PRINT+', LEVEL_STEP, 'writes bodies.tab', &
                           doc='A row a body: its best rigid motion, and the resultants of loads, supports and contact. '// &
                           'There are no options and no data lines.')
       call add_example(k, '*BODY PRINT')
-   end subroutine define_body_print
 
-   subroutine define_joint_print(k)
-      type(keyword_t), intent(out) :: k
-
-      call define_keyword(k, 'JOINT PRINT', LEVEL_STEP, 'writes joints.tab', own=.true., &
+      call define_keyword(k, 'JOINT PRINT+', LEVEL_STEP, 'writes joints.tab', &
                           doc='A row for each two bodies that a contact pair brings together: the resultant, its moment '// &
                           'and its place, opening and sliding. With --plot also a picture of the joints and the line of '// &
                           'thrust. There are no options and no data lines.')
       call add_example(k, '*JOINT PRINT')
-   end subroutine define_joint_print
+   end subroutine define_print_keywords
 
-   subroutine add_print_options(k)
-      type(keyword_t), intent(inout) :: k
-
-      call add_option(k, 'FREQUENCY', KIND_INTEGER, 'there is one step', harmless=.true.)
-      call add_option(k, 'TOTALS', KIND_WORD, 'the listing has the resultants', harmless=.true.)
-      call add_option(k, 'GLOBAL', KIND_WORD, 'axes are global', harmless=.true.)
-      call add_option(k, 'TIME POINTS', KIND_NAME, 'there is one step', harmless=.true.)
-   end subroutine add_print_options
-
-   subroutine define_node_file(k)
-      type(keyword_t), intent(out) :: k
+   !> Requests of fields.
+   subroutine define_file_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'NODE FILE', LEVEL_STEP, 'writes displacements (U) and reactions (RF) into the field file', &
                           doc=FIELD_FILE//' Nodes outside NSET are nan there.')
       call add_option(k, 'NSET', KIND_NAME, 'these nodes only')
       call add_file_options(k)
       call add_form(k, 'the fields', 1, ANY_NUMBER)
-      call add_word_item(k, 'variable', 'U RF', 'displacements, reactions', repeats=.true.)
+      call add_word_item(k, 'variable...', 'U RF', 'displacements, reactions')
       call add_example(k, '*NODE FILE|U, RF')
-   end subroutine define_node_file
 
-   subroutine define_el_file(k)
-      type(keyword_t), intent(out) :: k
-
-      call define_keyword(k, 'EL FILE', LEVEL_STEP, 'writes stresses (S) into the field file', &
-                          doc=FIELD_FILE//' Nodes that are on no element of ELSET are nan there.')
+      call define_keyword(k, 'EL FILE', LEVEL_STEP, 'writes stresses (S) into the field file', doc=FIELD_FILE// &
+                          ' Nodes that are on no element of ELSET are nan there.')
       call add_option(k, 'ELSET', KIND_NAME, 'these elements only')
       call add_file_options(k)
       call add_form(k, 'the fields', 1, ANY_NUMBER)
-      call add_word_item(k, 'variable', 'S', 'stresses, at the integration points and recovered at the nodes', repeats=.true.)
+      call add_word_item(k, 'variable...', 'S', 'stresses, at the integration points and recovered at the nodes')
       call add_example(k, '*EL FILE, ELSET=plate|S')
-   end subroutine define_el_file
-
-   subroutine define_contact_file(k)
-      type(keyword_t), intent(out) :: k
 
       call define_keyword(k, 'CONTACT FILE', LEVEL_STEP, 'writes the fields of the contact points into the field file', &
                           doc=FIELD_FILE//' All columns of contact.tab, and the traction upon the slave.')
       call add_file_options(k)
       call add_form(k, 'variables', 0, ANY_NUMBER)
-      call add_item(k, 'variable', KIND_NAME, 'of other programs; the file always has all fields', required=.false., &
-                    repeats=.true.)
+      call add_item(k, '[variable]...', KIND_NAME, 'of other programs; the file always has all fields')
       call add_example(k, '*CONTACT FILE')
-   end subroutine define_contact_file
-
-   subroutine add_file_options(k)
-      type(keyword_t), intent(inout) :: k
-
-      call add_option(k, 'FREQUENCY', KIND_INTEGER, 'there is one step', harmless=.true.)
-      call add_option(k, 'GLOBAL', KIND_WORD, 'axes are global', harmless=.true.)
-      call add_option(k, 'TIME POINTS', KIND_NAME, 'there is one step', harmless=.true.)
-      call add_option(k, 'OUTPUT', KIND_WORD, 'the file is of the plane', harmless=.true.)
-   end subroutine add_file_options
+   end subroutine define_file_keywords
 
    subroutine define_end_step(k)
-      type(keyword_t), intent(out) :: k
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'END STEP', LEVEL_STEP, 'ends the step', doc='Nothing may follow the last one.')
       call add_example(k, '*END STEP')
    end subroutine define_end_step
+
+   subroutine add_print_options(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call add_option(k, '(FREQUENCY)', KIND_INTEGER, 'there is one step')
+      call add_option(k, '(TOTALS)', KIND_WORD, 'the listing has the resultants')
+      call add_option(k, '(GLOBAL)', KIND_WORD, 'axes are global')
+      call add_option(k, '(TIME POINTS)', KIND_NAME, 'there is one step')
+   end subroutine add_print_options
+
+   subroutine add_file_options(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call add_option(k, '(FREQUENCY)', KIND_INTEGER, 'there is one step')
+      call add_option(k, '(GLOBAL)', KIND_WORD, 'axes are global')
+      call add_option(k, '(TIME POINTS)', KIND_NAME, 'there is one step')
+      call add_option(k, '(OUTPUT)', KIND_WORD, 'the file is of the plane')
+   end subroutine add_file_options
 
 end module atrito_step_keywords

@@ -8,7 +8,7 @@
 module atrito_assembly
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, Q2_NODES
-   use atrito_bodies, only: body_t, bodies_t, element_equations
+   use atrito_bodies, only: bodies_t, element_equations
    use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
    use atrito_multifrontal, only: element_store_t, pack_matrix
@@ -160,22 +160,10 @@ contains
       allocate (store%equations(store%start(store%n + 1)))
       !$omp parallel do schedule(dynamic, RUN_LENGTH) if (is_shared(store%n))
       do i = 1, store%n
-         call fetch_equations(fem, elements(i), store%equations(store%start(i) + 1:store%start(i + 1)))
+         store%equations(store%start(i) + 1:store%start(i + 1)) = element_equations(fem%mesh, fem%bodies, elements(i))
       end do
       !$omp end parallel do
    end subroutine collect_equations
-
-   pure subroutine fetch_equations(fem, element, equations)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: element
-      integer(ip), intent(out) :: equations(:)
-      integer(ip) :: k
-
-      do k = 1, fem%mesh%shape(element)
-         equations(2*k - 1) = fem%bodies%equation(1, fem%mesh%nodes(k, element))
-         equations(2*k) = fem%bodies%equation(2, fem%mesh%nodes(k, element))
-      end do
-   end subroutine fetch_equations
 
    !> Compares every element with the last different one before it, runs side by side. A run has to guess what came before it (the
    !> first element of all, which is right in a regular mesh), and is compared again when it turns out to be another.

@@ -6,6 +6,7 @@
 module atrito_internal_forces
    use, intrinsic :: iso_c_binding, only: c_bool
    use atrito_assembly, only: fem_t, stiffness_cache_t, cached_stiffness
+   use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
    use atrito_range, only: work_of, unit_of
@@ -16,6 +17,7 @@ module atrito_internal_forces
 
    !> What a part of the elements gives to nodes of earlier parts.
    type :: late_forces_t
+      integer(ip) :: part = 0                        !< of the elements, from which they come
       integer(ip) :: n = 0
       integer(ip), allocatable :: node(:)
       real(wp), allocatable :: force(:, :)           !< (2, n) [F]
@@ -43,7 +45,8 @@ contains
       unit = unit_of(u)
       !$omp parallel do schedule(static, 1) if (n_parts > 1)
       do part = 1, n_parts
-         call add_part(fem, part, n_parts, owner, u, unit, force, work, late(part))
+         late(part)%part = part
+         call add_part(fem, n_parts, owner, u, unit, force, work, late(part))
       end do
       !$omp end parallel do
       do part = 2, n_parts
@@ -105,9 +108,9 @@ contains
       first_run = 1 + ((part - 1)*run_count(n_elements))/n_parts
    end function first_run
 
-   pure subroutine add_part(fem, part, n_parts, owner, u, unit, force, work, late)
+   pure subroutine add_part(fem, n_parts, owner, u, unit, force, work, late)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: part, n_parts, owner(:)
+      integer(ip), intent(in) :: n_parts, owner(:)
       real(wp), intent(in) :: u(:, :), unit
       real(wp), intent(inout) :: force(:, :)
       real(wp), intent(inout) :: work(:)             !< of each run, over the unit [F]
@@ -117,7 +120,7 @@ contains
       integer(ip) :: run, first, last, e, n
 
       ue = 0.0_wp
-      do run = first_run(part, n_parts, fem%mesh%n_elements), first_run(part + 1, n_parts, fem%mesh%n_elements) - 1
+      do run = first_run(late%part, n_parts, fem%mesh%n_elements), first_run(late%part + 1, n_parts, fem%mesh%n_elements) - 1
          call find_run(run, fem%mesh%n_elements, first, last)
          cache%shape = 0                             ! each run has a first stiffness of its own
          work(run) = 0.0_wp
@@ -128,7 +131,7 @@ contains
             call cached_stiffness(fem, e, cache)
             call multiply_stiffness(n, cache%k, ue, fe)
             work(run) = work(run) + work_over(n, fe, ue, 1/unit)
-            call hand_out(fem%mesh, e, fe, part, owner, force, late)
+            call hand_out(fem%mesh, e, fe, owner, force, late)
          end do
       end do
    end subroutine add_part
@@ -176,18 +179,18 @@ contains
       end do
    end function work_over
 
-   pure subroutine hand_out(mesh, e, fe, part, owner, force, late)
+   pure subroutine hand_out(mesh, e, fe, owner, force, late)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: fe(2*Q2_NODES)
-      integer(ip), intent(in) :: part, owner(:)
+      integer(ip), intent(in) :: owner(:)
       real(wp), intent(inout) :: force(:, :)
       type(late_forces_t), intent(inout) :: late
       integer(ip) :: k, node
 
       do k = 1, mesh%shape(e)
          node = mesh%nodes(k, e)
-         if (owner(node) == part) then
+         if (owner(node) == late%part) then
             force(1, node) = force(1, node) + fe(2*k - 1)
             force(2, node) = force(2, node) + fe(2*k)
          else
@@ -200,16 +203,11 @@ contains
       integer(ip), intent(in) :: node
       real(wp), intent(in) :: f(2)
       type(late_forces_t), intent(inout) :: late
-      integer(ip), allocatable :: nodes(:)
-      real(wp), allocatable :: forces(:, :)
 
       if (.not. allocated(late%node)) allocate (late%node(1024), late%force(2, 1024))
       if (late%n == size(late%node)) then
-         allocate (nodes(2*late%n), forces(2, 2*late%n))
-         nodes(:late%n) = late%node
-         forces(:, :late%n) = late%force
-         call move_alloc(nodes, late%node)
-         call move_alloc(forces, late%force)
+         call resize(late%node, late%n, 2*late%n)
+         call resize(late%force, late%n, 2*late%n)
       end if
       late%n = late%n + 1
       late%node(late%n) = node

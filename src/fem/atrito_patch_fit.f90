@@ -5,6 +5,7 @@
 !> matter either. The stresses are fitted as differences from the
 !> first sample: a constant field is reproduced to the last bit of the samples.
 module atrito_patch_fit
+   use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -56,22 +57,13 @@ contains
 
       if (.not. allocated(fit%x)) allocate (fit%x(2, 64), fit%s(COMPONENTS, 64))
       if (fit%n == size(fit%x, 2)) then
-         call grow(fit%x)
-         call grow(fit%s)
+         call resize(fit%x, fit%n, 2*fit%n)
+         call resize(fit%s, fit%n, 2*fit%n)
       end if
       fit%n = fit%n + 1
       fit%x(:, fit%n) = x
       fit%s(:, fit%n) = s
    end subroutine add_sample
-
-   pure subroutine grow(list)
-      real(wp), allocatable, intent(inout) :: list(:, :)
-      real(wp), allocatable :: longer(:, :)
-
-      allocate (longer(size(list, 1), 2*size(list, 2)))
-      longer(:, :size(list, 2)) = list
-      call move_alloc(longer, list)
-   end subroutine grow
 
    !> Whether the samples lie where those of the patch laid last were.
    pure logical function is_laid(degree, slack, fit)

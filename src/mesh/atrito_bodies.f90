@@ -10,6 +10,7 @@ module atrito_bodies
    implicit none (type, external)
    private
    public :: body_t, bodies_t, find_bodies, number_equations, order_by_dissection, find_rigid_modes, element_equations, mode_at
+   public :: reduce_columns
 
    type :: body_t
       character(len=:), allocatable :: name
@@ -317,33 +318,36 @@ contains
          end do
       end do
       call null_space(rows, HELD_TOLERANCE, body%modes, info)
-      call simplify_modes(body%modes)
+      ! the simplest basis, so that a motion can be named
+      call reduce_columns(body%modes, HELD_TOLERANCE)
+      where (abs(body%modes) < MODE_ROUND_OFF) body%modes = 0.0_wp
+      do j = 1, size(body%modes, 2, kind=ip)
+         body%modes(:, j) = body%modes(:, j)/maxval(abs(body%modes(:, j)))
+      end do
    end subroutine find_rigid_modes
 
-   !> The same space in its simplest basis (reduced by columns, round-off cleared), so that a motion can be named.
-   pure subroutine simplify_modes(modes)
-      real(wp), intent(inout) :: modes(:, :)        !< (3, n)
-      real(wp) :: column(3)
+   !> Reduces the columns of a basis: its space is the same, and each vector has an entry of 1 where the others have 0, the first
+   !> such entries as far up as may be.
+   pure subroutine reduce_columns(basis, round_off)
+      real(wp), intent(inout) :: basis(:, :)        !< (entries, vectors)
+      real(wp), intent(in) :: round_off             !< smaller entries are none
+      real(wp) :: column(size(basis, 1))
       integer(ip) :: row, j, k, pivot
 
       k = 0
-      do row = 1, 3
-         if (k == size(modes, 2)) exit
-         pivot = k + maxloc(abs(modes(row, k + 1:)), dim=1, kind=ip)
-         if (abs(modes(row, pivot)) < HELD_TOLERANCE) cycle
+      do row = 1, size(basis, 1, kind=ip)
+         if (k == size(basis, 2)) exit
+         pivot = k + maxloc(abs(basis(row, k + 1:)), dim=1, kind=ip)
+         if (abs(basis(row, pivot)) < round_off) cycle
          k = k + 1
-         column = modes(:, pivot)/modes(row, pivot)
-         modes(:, pivot) = modes(:, k)
-         modes(:, k) = column
-         do j = 1, size(modes, 2, kind=ip)
-            if (j /= k) modes(:, j) = modes(:, j) - column*modes(row, j)
+         column = basis(:, pivot)/basis(row, pivot)
+         basis(:, pivot) = basis(:, k)
+         basis(:, k) = column
+         do j = 1, size(basis, 2, kind=ip)
+            if (j /= k) basis(:, j) = basis(:, j) - column*basis(row, j)
          end do
       end do
-      where (abs(modes) < MODE_ROUND_OFF) modes = 0.0_wp
-      do j = 1, size(modes, 2, kind=ip)
-         modes(:, j) = modes(:, j)/maxval(abs(modes(:, j)))
-      end do
-   end subroutine simplify_modes
+   end subroutine reduce_columns
 
    !> Displacement of a rigid mode at a place, along a dof; dimensionless.
    pure real(wp) function mode_at(body, mode, x, dof) result(u)

@@ -1,5 +1,6 @@
 !> Faces of elements: which lie on the outline, and chains of them.
 module atrito_faces
+   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
@@ -66,17 +67,9 @@ contains
    pure subroutine add_face(list, element, face)
       type(face_list_t), intent(inout) :: list
       integer(ip), intent(in) :: element, face
-      integer(ip), allocatable :: longer(:)
 
-      if (.not. allocated(list%element)) allocate (list%element(16), list%face(16), source=0_ip)
-      if (list%n == size(list%element)) then
-         allocate (longer(2*list%n), source=0_ip)
-         longer(:list%n) = list%element
-         call move_alloc(longer, list%element)
-         allocate (longer(2*list%n), source=0_ip)
-         longer(:list%n) = list%face
-         call move_alloc(longer, list%face)
-      end if
+      call make_room(list%element, list%n, list%n + 1)
+      call make_room(list%face, list%n, list%n + 1)
       list%n = list%n + 1
       list%element(list%n) = element
       list%face(list%n) = face

@@ -1,5 +1,6 @@
 !> The mesh: nodes, quadrilateral elements and their topology.
 module atrito_mesh
+   use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
    use atrito_threads, only: is_shared
@@ -150,36 +151,20 @@ contains
    pure subroutine resize_nodes(mesh, length)
       type(mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: length
-      real(wp), allocatable :: x(:, :)
 
       call resize(mesh%node_id, mesh%n_nodes, length)
-      allocate (x(2, length))
-      x(:, :mesh%n_nodes) = mesh%x(:, :mesh%n_nodes)
-      call move_alloc(x, mesh%x)
+      call resize(mesh%x, mesh%n_nodes, length)
    end subroutine resize_nodes
 
    pure subroutine resize_elements(mesh, length)
       type(mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: length
-      integer(ip), allocatable :: nodes(:, :)
 
       call resize(mesh%element_id, mesh%n_elements, length)
       call resize(mesh%shape, mesh%n_elements, length)
       call resize(mesh%state, mesh%n_elements, length)
-      allocate (nodes(Q2_NODES, length))
-      nodes(:, :mesh%n_elements) = mesh%nodes(:, :mesh%n_elements)
-      call move_alloc(nodes, mesh%nodes)
+      call resize(mesh%nodes, mesh%n_elements, length)
    end subroutine resize_elements
-
-   pure subroutine resize(list, used, length)
-      integer(ip), allocatable, intent(inout) :: list(:)
-      integer(ip), intent(in) :: used, length
-      integer(ip), allocatable :: longer(:)
-
-      allocate (longer(length))
-      longer(:used) = list(:used)
-      call move_alloc(longer, list)
-   end subroutine resize
 
    !> Place of a node by the user's number; 0 when there is none.
    pure integer(ip) function find_node(mesh, id)

@@ -2,12 +2,11 @@
 module atrito_build_contact
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, keep_token, count_cards
+   use atrito_draft, only: draft_t, keep_token, define_name, count_cards
    use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, &
-                           KERNEL_LINE
-   use atrito_name_list, only: add_name, find_name
+   use atrito_model, only: interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
+   use atrito_name_list, only: find_name
    use atrito_references, only: report_unknown
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -17,33 +16,33 @@ module atrito_build_contact
 contains
 
    !> All interactions and pairs of a model.
-   subroutine build_contact(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine build_contact(draft)
       type(draft_t), intent(inout) :: draft
       logical :: given(2)                              ! *SURFACE BEHAVIOR, *FRICTION of the current interaction
       integer(ip) :: i, current, n_pairs
 
-      allocate (model%interactions(count_cards(deck, 'SURFACE INTERACTION')), model%pairs(count_pair_lines(deck)))
+      allocate (draft%model%interactions(count_cards(draft%deck, 'SURFACE INTERACTION')), &
+                draft%model%pairs(count_pair_lines(draft%deck)))
       current = 0
       given = .false.
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('SURFACE INTERACTION')
-            call read_interaction_card(deck, deck%cards(i), model, draft, current)
+            call read_interaction_card(draft%deck%cards(i), draft, current)
             given = .false.
          case ('SURFACE BEHAVIOR')
-            if (current > 0) call read_behavior_card(deck, deck%cards(i), model%interactions(current), given(1))
+            if (current > 0) call read_behavior_card(draft%deck, draft%deck%cards(i), draft%model%interactions(current), given(1))
          case ('FRICTION')
-            if (current > 0) call read_friction_card(deck, deck%cards(i), model%interactions(current), given(2))
+            if (current > 0) call read_friction_card(draft%deck, draft%deck%cards(i), draft%model%interactions(current), given(2))
          end select
       end do
-      model%interactions = model%interactions(:draft%interaction_names%n)
+      draft%model%interactions = draft%model%interactions(:draft%interaction_names%n)
       n_pairs = 0
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(deck, deck%cards(i), model, draft, n_pairs)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(draft%deck%cards(i), draft, &
+                                                                                      n_pairs)
       end do
-      model%pairs = model%pairs(:n_pairs)
+      draft%model%pairs = draft%model%pairs(:n_pairs)
    end subroutine build_contact
 
    !> Each line makes a pair at most.
@@ -57,31 +56,14 @@ contains
       end do
    end function count_pair_lines
 
-   subroutine read_interaction_card(deck, card, model, draft, current)
-      type(deck_t), intent(in) :: deck
+   subroutine read_interaction_card(card, draft, current)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(out) :: current              !< the interaction that has begun; 0: none
-      type(interaction_t) :: interaction
-      type(token_t) :: place
-      logical :: found
+      character(len=:), allocatable :: name
 
-      current = 0
-      call option_text(deck, card, 'NAME', interaction%name, found, place)
-      if (.not. found) return
-      current = find_name(draft%interaction_names, interaction%name)
-      if (current > 0) then
-         call report_error(deck, place, 'E-TWICE', 'surface interaction '//interaction%name//' is defined twice, first in '// &
-                           place_text(deck, draft%interactions(current), place), &
-                           expected='a name that no other surface interaction has', keyword='SURFACE INTERACTION')
-         current = 0
-         return
-      end if
-      call add_name(draft%interaction_names, interaction%name)
-      current = draft%interaction_names%n
-      model%interactions(current) = interaction
-      call keep_token(draft%interactions, current, place)
+      call define_name(draft%deck, card, 'surface interaction', draft%interaction_names, draft%interactions, name, current)
+      if (current > 0) draft%model%interactions(current) = interaction_t(name=name)
    end subroutine read_interaction_card
 
    !> A keyword that an interaction has at most once.
@@ -172,10 +154,8 @@ contains
    end subroutine read_friction_card
 
    !> *CONTACT PAIR: slave, master.
-   subroutine read_pair_card(deck, card, model, draft, n_pairs)
-      type(deck_t), intent(in) :: deck
+   subroutine read_pair_card(card, draft, n_pairs)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(inout) :: n_pairs            !< that there are
       type(pair_t) :: pair
@@ -184,35 +164,34 @@ contains
       integer(ip) :: i
       logical :: found
 
-      call option_text(deck, card, 'INTERACTION', name, found, place)
+      call option_text(draft%deck, card, 'INTERACTION', name, found, place)
       pair%interaction = find_name(draft%interaction_names, name)
-      if (found .and. pair%interaction == 0) call report_unknown(deck, draft, place, 'surface interaction', 'E-INTERACTION', &
+      if (found .and. pair%interaction == 0) call report_unknown(draft, place, 'surface interaction', 'E-INTERACTION', &
                                                                  draft%interaction_names, 'CONTACT PAIR')
-      pair%quadrature_given = has_option(deck, card, 'QUADRATURE')
+      pair%quadrature_given = has_option(draft%deck, card, 'QUADRATURE')
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (.not. deck%lines(i)%ok) cycle
-         call find_surface(deck, deck%lines(i), 1_ip, draft, pair%slave)
-         call find_surface(deck, deck%lines(i), 2_ip, draft, pair%master)
+         if (.not. draft%deck%lines(i)%ok) cycle
+         call find_surface(draft%deck%lines(i), 1_ip, draft, pair%slave)
+         call find_surface(draft%deck%lines(i), 2_ip, draft, pair%master)
          draft%pairs_unsure = draft%pairs_unsure .or. pair%interaction == 0
          if (min(pair%interaction, pair%slave, pair%master) == 0) cycle
          n_pairs = n_pairs + 1
-         model%pairs(n_pairs) = pair
-         call keep_token(draft%slaves, n_pairs, line_item(deck, deck%lines(i), 1_ip))
-         call keep_token(draft%masters, n_pairs, line_item(deck, deck%lines(i), 2_ip))
+         draft%model%pairs(n_pairs) = pair
+         call keep_token(draft%slaves, n_pairs, line_item(draft%deck, draft%deck%lines(i), 1_ip))
+         call keep_token(draft%masters, n_pairs, line_item(draft%deck, draft%deck%lines(i), 2_ip))
       end do
    end subroutine read_pair_card
 
-   subroutine find_surface(deck, line, item, draft, surface)
-      type(deck_t), intent(in) :: deck
+   subroutine find_surface(line, item, draft, surface)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: item
       type(draft_t), intent(in) :: draft
       integer(ip), intent(out) :: surface              !< place; 0: unknown, reported
       type(token_t) :: token
 
-      token = line_item(deck, line, item)
-      surface = find_name(draft%surface_names, token_text(deck, token))
-      if (surface == 0) call report_unknown(deck, draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'CONTACT PAIR')
+      token = line_item(draft%deck, line, item)
+      surface = find_name(draft%surface_names, token_text(draft%deck, token))
+      if (surface == 0) call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'CONTACT PAIR')
    end subroutine find_surface
 
 end module atrito_build_contact

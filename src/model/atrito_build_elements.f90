@@ -1,6 +1,6 @@
 !> *ELEMENT and *ELGEN: the elements of the mesh, in the order of the deck, after all nodes.
 module atrito_build_elements
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors, is_unsure
    use atrito_id_map, only: find_id
@@ -52,45 +52,41 @@ contains
    end subroutine read_element_type
 
    !> *ELEMENT: number, nodes.
-   subroutine read_element_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_element_card(i_card, draft)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i, first, n_nodes, state
       logical :: ok
 
-      first = model%mesh%n_elements + 1
-      associate (card => deck%cards(i_card))
-         call read_element_type(deck, card, n_nodes, state, ok)
+      first = draft%model%mesh%n_elements + 1
+      associate (card => draft%deck%cards(i_card))
+         call read_element_type(draft%deck, card, n_nodes, state, ok)
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (ok .and. deck%lines(i)%ok) then
-               call read_element_line(deck, deck%lines(i), n_nodes, state, model, draft)
+            if (ok .and. draft%deck%lines(i)%ok) then
+               call read_element_line(draft%deck%lines(i), n_nodes, state, draft)
             else
-               call spoil_element(deck, deck%lines(i), draft)
+               call spoil_element(draft%deck%lines(i), draft)
             end if
          end do
-         call put_named_set(deck, card, model, [(i, i=first, model%mesh%n_elements)])
+         call put_named_set(draft%deck, card, draft%model, [(i, i=first, draft%model%mesh%n_elements)])
       end associate
    end subroutine read_element_card
 
-   subroutine read_element_line(deck, line, n_nodes, state, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_element_line(line, n_nodes, state, draft)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: n_nodes, state
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: id, nodes(n_nodes), i
       logical :: good, ok
 
-      call get_id(deck, deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
+      call get_id(draft%deck, draft%deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
       do i = 1, n_nodes
-         call find_one_node(deck, model, draft, line_item(deck, line, i + 1), nodes(i), ok, 'ELEMENT')
+         call find_one_node(draft, line_item(draft%deck, line, i + 1), nodes(i), ok, 'ELEMENT')
          good = good .and. ok
-         if (ok) good = is_new_corner(deck, line, nodes(:i)) .and. good
+         if (ok) good = is_new_corner(draft%deck, line, nodes(:i)) .and. good
       end do
-      if (good) call place_element(deck, model, draft, id, state, nodes, line%first_token, good, 'ELEMENT')
-      if (.not. good) call spoil_element(deck, line, draft)
+      if (good) call place_element(draft, id, state, nodes, line%first_token, good, 'ELEMENT')
+      if (.not. good) call spoil_element(line, draft)
    end subroutine read_element_line
 
    !> The last of an element's nodes so far is none of the earlier ones.
@@ -107,9 +103,7 @@ contains
    end function is_new_corner
 
    !> Adds an element and keeps where it comes from; a number given twice is an error.
-   subroutine place_element(deck, model, draft, id, state, nodes, place, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine place_element(draft, id, state, nodes, place, ok, keyword)
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: id                    !< > 0
       integer(ip), intent(in) :: state                 !< PLANE_STRAIN or PLANE_STRESS
@@ -120,16 +114,16 @@ contains
       type(token_t) :: token, earlier
       logical :: known
 
-      call add_element(model%mesh, id, state, nodes, known)
+      call add_element(draft%model%mesh, id, state, nodes, known)
       ok = .not. known
       if (known) then
-         token = place_token(deck, place)
-         earlier = place_token(deck, draft%element_place(find_element(model%mesh, id)))
-         call report_error(deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice, first in '// &
-                           place_text(deck, earlier, token), expected='an element number that is free', keyword=keyword)
+         token = place_token(draft%deck, place)
+         earlier = place_token(draft%deck, draft%element_place(find_element(draft%model%mesh, id)))
+         call report_error(draft%deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice, first in '// &
+                           place_text(draft%deck, earlier, token), expected='an element number that is free', keyword=keyword)
          return
       end if
-      call note_place(draft%element_place, model%mesh%n_elements, place)
+      call note_place(draft%element_place, draft%model%mesh%n_elements, place)
       draft%greatest_element = max(draft%greatest_element, id)
    end subroutine place_element
 
@@ -147,30 +141,29 @@ contains
    end subroutine put_named_set
 
    !> *ELGEN: rows, and rows of rows, of copies of an element.
-   subroutine read_elgen_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_elgen_card(i_card, draft)
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: members
       type(repeat_t) :: repeats(3)
       integer(ip) :: i, k, master, first_new
       logical :: ok
 
-      associate (card => deck%cards(i_card))
+      associate (card => draft%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. deck%lines(i)%ok) cycle
-            call find_one_element(deck, model, draft, line_item(deck, deck%lines(i), 1_ip), master, ok, 'ELGEN')
+            if (.not. draft%deck%lines(i)%ok) cycle
+            call find_one_element(draft, line_item(draft%deck, draft%deck%lines(i), 1_ip), master, ok, 'ELGEN')
             if (.not. ok) cycle
-            call read_repeats(deck, deck%lines(i), repeats, ok)
-            if (ok) ok = fits_memory(deck, deck%tokens(deck%lines(i)%first_token), model, draft, 0_lp, copies(repeats), 'ELGEN')
+            call read_repeats(draft%deck, draft%deck%lines(i), repeats, ok)
+            if (ok) ok = fits_memory(draft%deck%tokens(draft%deck%lines(i)%first_token), draft, 0_lp, &
+                                     copies(repeats), 'ELGEN')
             if (.not. ok) cycle
-            first_new = model%mesh%n_elements + 1
-            call copy_element(deck, deck%lines(i), model, draft, master, repeats)
+            first_new = draft%model%mesh%n_elements + 1
+            call copy_element(draft%deck%lines(i), draft, master, repeats)
             call add_number(members, master)
-            call add_numbers(members, [(k, k=first_new, model%mesh%n_elements)])
+            call add_numbers(members, [(k, k=first_new, draft%model%mesh%n_elements)])
          end do
-         call put_named_set(deck, card, model, numbers_of(members))
+         call put_named_set(draft%deck, card, draft%model, numbers_of(members))
       end associate
    end subroutine read_elgen_card
 
@@ -208,10 +201,8 @@ contains
    end function copies
 
    !> Stops at the first copy that cannot be made: the others would fail for the same reason.
-   subroutine copy_element(deck, line, model, draft, master, repeats)
-      type(deck_t), intent(in) :: deck
+   subroutine copy_element(line, draft, master, repeats)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: master                !< place
       type(repeat_t), intent(in) :: repeats(3)
@@ -224,7 +215,7 @@ contains
             do i = 0, repeats(1)%n - 1
                shift = [i, j, k]
                if (all(shift == 0_lp)) cycle
-               call copy_element_once(deck, line_item(deck, line, 1_ip), line%first_token, 'ELGEN', model, draft, master, &
+               call copy_element_once(line_item(draft%deck, line, 1_ip), line%first_token, 'ELGEN', draft, master, &
                                       [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
                if (.not. ok) return
             end do
@@ -233,38 +224,36 @@ contains
    end subroutine copy_element
 
    !> An element once more on other nodes.
-   subroutine copy_element_once(deck, token, place, keyword, model, draft, master, shift, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine copy_element_once(token, place, keyword, draft, master, shift, ok)
       type(token_t), intent(in) :: token               !< at which errors are told
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       character(len=*), intent(in) :: keyword
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: master                !< place
       integer(lp), intent(in) :: shift(2)              !< of the numbers of nodes and of elements, which may become too large
       logical, intent(out) :: ok
-      integer(lp) :: ids(model%mesh%shape(master)), id
+      integer(lp) :: ids(draft%model%mesh%shape(master)), id
       integer(ip) :: nodes(size(ids)), i
 
-      id = model%mesh%element_id(master) + shift(2)
-      ids = model%mesh%node_id(model%mesh%nodes(:size(nodes), master)) + shift(1)
+      id = draft%model%mesh%element_id(master) + shift(2)
+      ids = draft%model%mesh%node_id(draft%model%mesh%nodes(:size(nodes), master)) + shift(1)
       do i = 1, size(nodes, kind=ip)
          nodes(i) = 0
-         if (ids(i) <= int(huge(1_ip), lp)) nodes(i) = find_node(model%mesh, int(max(ids(i), 0_lp), ip))
+         if (ids(i) <= int(huge(1_ip), lp)) nodes(i) = find_node(draft%model%mesh, int(max(ids(i), 0_lp), ip))
          ok = nodes(i) > 0
          if (.not. ok) exit
       end do
       if (.not. ok) then
          if (is_spoiled_node(draft, ids(i)) .or. is_unsure(draft, 'node')) return
-         call report_error(deck, token, 'E-NODE', 'node '//to_text(ids(i))//' of the generated element '//to_text(id)// &
+         call report_error(draft%deck, token, 'E-NODE', 'node '//to_text(ids(i))//' of the generated element '//to_text(id)// &
                            ' does not exist', expected='copies whose nodes all exist', keyword=keyword)
       else if (id < 1_lp .or. id > int(huge(1_ip), lp)) then
          ok = .false.
-         call report_error(deck, token, 'E-ID', 'the generated element number '//to_text(id)// &
+         call report_error(draft%deck, token, 'E-ID', 'the generated element number '//to_text(id)// &
                            trim(merge(' is too large   ', ' is not positive', id > 0_lp)), expected='positive element numbers', &
                            keyword=keyword)
       else
-         call place_element(deck, model, draft, int(id, ip), model%mesh%state(master), nodes, place, ok, keyword)
+         call place_element(draft, int(id, ip), draft%model%mesh%state(master), nodes, place, ok, keyword)
       end if
    end subroutine copy_element_once
 

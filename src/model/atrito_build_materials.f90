@@ -1,12 +1,12 @@
 !> *MATERIAL with *ELASTIC and *DENSITY, and *SOLID SECTION.
 module atrito_build_materials
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_name, place_text, keep_token, count_cards, ids_text, is_spoiled, has_errors
+   use atrito_draft, only: draft_t, place_text, keep_token, define_name, count_cards, ids_text, has_errors
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, material_t, section_t, FORMULATION_BBAR
-   use atrito_name_list, only: add_name, find_name
+   use atrito_model, only: material_t, section_t, FORMULATION_BBAR
+   use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set
@@ -21,28 +21,26 @@ module atrito_build_materials
 contains
 
    !> All materials and sections of a model.
-   subroutine build_materials(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine build_materials(draft)
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i, current, n_sections
       logical :: is_open                               ! nothing but *ELASTIC and *DENSITY since the last *MATERIAL
 
-      i = count_cards(deck, 'MATERIAL')
-      allocate (model%materials(i), model%sections(count_cards(deck, 'SOLID SECTION')))
+      i = count_cards(draft%deck, 'MATERIAL')
+      allocate (draft%model%materials(i), draft%model%sections(count_cards(draft%deck, 'SOLID SECTION')))
       allocate (draft%elastic_given(i), draft%elastic_spoiled(i), source=.false.)
-      allocate (model%section_of(model%mesh%n_elements), source=0_ip)
+      allocate (draft%model%section_of(draft%model%mesh%n_elements), source=0_ip)
       current = 0
       is_open = .false.
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('MATERIAL')
-            call read_material_card(deck, deck%cards(i), model, draft, current)
+            call read_material_card(draft%deck%cards(i), draft, current)
             is_open = current > 0
          case ('ELASTIC')
-            if (current > 0) call read_elastic_card(deck, deck%cards(i), model%materials(current), draft, current)
+            if (current > 0) call read_elastic_card(draft%deck%cards(i), draft%model%materials(current), draft, current)
          case ('DENSITY')
-            if (current > 0) call read_density_card(deck, deck%cards(i), model%materials(current))
+            if (current > 0) call read_density_card(draft%deck, draft%deck%cards(i), draft%model%materials(current))
          case ('')
             ! a misspelt *ELASTIC: the material is not blamed for missing it
             if (is_open .and. has_errors()) draft%elastic_spoiled(current) = .true.
@@ -50,47 +48,30 @@ contains
             is_open = .false.
          end select
       end do
-      model%materials = model%materials(:draft%material_names%n)
+      draft%model%materials = draft%model%materials(:draft%material_names%n)
       n_sections = 0
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'SOLID SECTION') then
-            call read_section_card(deck, deck%cards(i), model, draft, n_sections)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) == 'SOLID SECTION') then
+            call read_section_card(draft%deck%cards(i), draft, n_sections)
          end if
       end do
-      model%sections = model%sections(:n_sections)
+      draft%model%sections = draft%model%sections(:n_sections)
    end subroutine build_materials
 
-   subroutine read_material_card(deck, card, model, draft, current)
-      type(deck_t), intent(in) :: deck
+   subroutine read_material_card(card, draft, current)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(out) :: current              !< the material that has begun; 0: none
-      type(material_t) :: material
-      type(token_t) :: place
-      logical :: found
+      character(len=:), allocatable :: name
 
-      current = 0
-      call option_text(deck, card, 'NAME', material%name, found, place)
-      if (.not. found) return
-      current = find_name(draft%material_names, material%name)
-      if (current > 0) then
-         call report_error(deck, place, 'E-TWICE', 'material '//material%name//' is defined twice, first in '// &
-                           place_text(deck, draft%materials(current), place), expected='a name that no other material has', &
-                           keyword='MATERIAL')
-         current = 0
-         return
-      end if
-      call add_name(draft%material_names, material%name)
-      current = draft%material_names%n
-      model%materials(current) = material
+      call define_name(draft%deck, card, 'material', draft%material_names, draft%materials, name, current)
+      if (current == 0) return
+      draft%model%materials(current) = material_t(name=name)
       draft%elastic_spoiled(current) = .not. card%ok
-      call keep_token(draft%materials, current, place)
-      call keep_token(draft%poisson, current, place)
+      call keep_token(draft%poisson, current, draft%materials(current))
    end subroutine read_material_card
 
-   subroutine read_elastic_card(deck, card, material, draft, i)
-      type(deck_t), intent(in) :: deck
+   subroutine read_elastic_card(card, material, draft, i)
       type(card_t), intent(in) :: card
       type(material_t), intent(inout) :: material
       type(draft_t), intent(inout) :: draft
@@ -100,28 +81,28 @@ contains
       logical :: ok(2)
 
       if (draft%elastic_given(i)) then
-         if (card%ok) call report_error(deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
+         if (card%ok) call report_error(draft%deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
                                         expected='one *ELASTIC a material', keyword='ELASTIC')
          return
       end if
       draft%elastic_given(i) = .true.
       draft%elastic_spoiled(i) = .true.
       if (card%n_lines == 0) return
-      associate (line => deck%lines(card%first_line))
+      associate (line => draft%deck%lines(card%first_line))
          if (.not. line%ok) return
-         call get_real(deck, line_item(deck, line, 1_ip), WHAT_E, material%young, ok(1), keyword='ELASTIC')
-         call get_real(deck, line_item(deck, line, 2_ip), WHAT_MU, material%poisson, ok(2), keyword='ELASTIC')
+         call get_real(draft%deck, line_item(draft%deck, line, 1_ip), WHAT_E, material%young, ok(1), keyword='ELASTIC')
+         call get_real(draft%deck, line_item(draft%deck, line, 2_ip), WHAT_MU, material%poisson, ok(2), keyword='ELASTIC')
          if (ok(1) .and. material%young <= 0.0_wp) then
             ok(1) = .false.
-            call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'E = '//to_text(material%young)// &
+            call report_error(draft%deck, line_item(draft%deck, line, 1_ip), 'E-VALUE', 'E = '//to_text(material%young)// &
                               ' is not positive', expected=WHAT_E, keyword='ELASTIC')
          end if
          if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
             ok(2) = .false.
-            call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson, 15)// &
+            call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson, 15)// &
                               ' is out of range', expected=WHAT_MU, keyword='ELASTIC')
          end if
-         draft%poisson(i) = line_item(deck, line, 2_ip)
+         draft%poisson(i) = line_item(draft%deck, line, 2_ip)
       end associate
       draft%elastic_spoiled(i) = .not. all(ok)
    end subroutine read_elastic_card
@@ -143,10 +124,8 @@ contains
    end subroutine read_density_card
 
    !> *SOLID SECTION.
-   subroutine read_section_card(deck, card, model, draft, n_sections)
-      type(deck_t), intent(in) :: deck
+   subroutine read_section_card(card, draft, n_sections)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(inout) :: n_sections         !< that there are
       type(section_t) :: section
@@ -155,28 +134,28 @@ contains
       integer(ip) :: i_set, number
       logical :: named, ok
 
-      call option_text(deck, card, 'ELSET', section%elset, named, place)
-      i_set = find_set(model%element_sets, section%elset)
-      if (named .and. i_set == 0) call report_unknown(deck, draft, place, 'element set', 'E-SET', &
-                                                      model%element_sets%names, 'SOLID SECTION')
+      call option_text(draft%deck, card, 'ELSET', section%elset, named, place)
+      i_set = find_set(draft%model%element_sets, section%elset)
+      if (named .and. i_set == 0) call report_unknown(draft, place, 'element set', 'E-SET', draft%model%element_sets%names, &
+                                                      'SOLID SECTION')
       ok = i_set > 0 .and. card%ok
-      if (option_word(deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
-      call read_thickness(deck, card, section%thickness, ok)
+      if (option_word(draft%deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
+      call read_thickness(draft%deck, card, section%thickness, ok)
       if (i_set == 0) draft%sections_unsure = .true.
 
-      call option_text(deck, card, 'MATERIAL', material, named, place)
+      call option_text(draft%deck, card, 'MATERIAL', material, named, place)
       section%material = find_name(draft%material_names, material)
-      if (named .and. section%material == 0) call report_unknown(deck, draft, place, 'material', 'E-MATERIAL', &
-                                                                 draft%material_names, 'SOLID SECTION')
+      if (named .and. section%material == 0) call report_unknown(draft, place, 'material', 'E-MATERIAL', draft%material_names, &
+                                                                 'SOLID SECTION')
       ok = ok .and. section%material > 0
       number = SECTION_SPOILED
       if (ok) then
          n_sections = n_sections + 1
-         model%sections(n_sections) = section
+         draft%model%sections(n_sections) = section
          call keep_token(draft%sections, n_sections, card%place)
          number = n_sections
       end if
-      if (i_set > 0) call assign_section(deck, card, model, draft, model%element_sets%sets(i_set)%members, number)
+      if (i_set > 0) call assign_section(card, draft, draft%model%element_sets%sets(i_set)%members, number)
    end subroutine read_section_card
 
    subroutine read_thickness(deck, card, thickness, ok)
@@ -201,10 +180,8 @@ contains
    end subroutine read_thickness
 
    !> Gives elements their section; those that have one already are an error, told in one message.
-   subroutine assign_section(deck, card, model, draft, elements, number)
-      type(deck_t), intent(in) :: deck
+   subroutine assign_section(card, draft, elements, number)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: elements(:), number
       type(number_list_t) :: twice
@@ -215,18 +192,18 @@ contains
 
       first = 0
       do i = 1, size(elements, kind=ip)
-         if (model%section_of(elements(i)) /= 0) then
-            call add_number(twice, model%mesh%element_id(elements(i)))
-            first = max(first, model%section_of(elements(i)))
+         if (draft%model%section_of(elements(i)) /= 0) then
+            call add_number(twice, draft%model%mesh%element_id(elements(i)))
+            first = max(first, draft%model%section_of(elements(i)))
          end if
-         model%section_of(elements(i)) = number
+         draft%model%section_of(elements(i)) = number
       end do
       if (twice%n == 0) return
-      call option_text(deck, card, 'ELSET', elset, found, place)
+      call option_text(draft%deck, card, 'ELSET', elset, found, place)
       earlier = card%place
       if (first > 0) earlier = draft%sections(first)
-      call report_error(deck, place, 'E-SECTION', 'element '//ids_text(numbers_of(twice))//' of set '//elset// &
-                        ' has a section already, from '//place_text(deck, earlier, place), &
+      call report_error(draft%deck, place, 'E-SECTION', 'element '//ids_text(numbers_of(twice))//' of set '//elset// &
+                        ' has a section already, from '//place_text(draft%deck, earlier, place), &
                         expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
    end subroutine assign_section
 

@@ -8,7 +8,7 @@ module atrito_build_model
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
    use atrito_build_requests, only: build_requests
-   use atrito_build_sets, only: try_nset_card, read_nset_card, read_elset_card
+   use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
@@ -16,13 +16,15 @@ module atrito_build_model
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_draft, only: draft_t, prepare_draft, has_errors
-   use atrito_faces, only: list_node_elements
+   use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
+   use atrito_pairing, only: order_slaves, pair_all
+   use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_strings, only: deck_name
    implicit none (type, external)
@@ -66,35 +68,41 @@ contains
    end subroutine build_model
 
    subroutine build_once(deck, levels, shape, memory, model)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in), target :: deck
       integer(ip), intent(in) :: levels, shape
       integer(lp), intent(in) :: memory
-      type(model_t), intent(out) :: model
+      type(model_t), intent(out), target :: model
       type(draft_t) :: draft
       type(contact_rules_t) :: rules
+      type(chain_report_t), allocatable :: chains(:)
+      type(contact_points_t), allocatable :: points(:)
 
       call prepare_draft(deck, draft)
+      draft%model => model
       draft%memory = memory
       call take_titles(deck, model)
       call take_parameters(deck, model)
-      call build_nodes(deck, model, draft)
-      call build_elements(deck, model, draft)
+      call build_nodes(draft)
+      call build_elements(draft)
       call trim_mesh(model%mesh)
       draft%around = list_node_elements(model%mesh)
-      if (levels > 0 .or. shape > 0) call refine_model(deck, levels, shape, model, draft)
-      call build_surfaces(deck, model, draft)
-      call build_materials(deck, model, draft)
-      call build_contact(deck, model, draft)
-      call read_contact_rules(deck, model, draft, rules)
-      call build_supports(deck, model, draft)
-      call build_loads(deck, model, draft)
-      call build_requests(deck, model, draft)
-      call check_mesh(deck, model, draft)
-      call check_surfaces_of_pairs(deck, model, draft)
+      if (levels > 0 .or. shape > 0) call refine_model(levels, shape, draft)
+      call build_surfaces(draft)
+      call build_materials(draft)
+      call build_contact(draft)
+      call read_contact_rules(draft, rules)
+      call build_supports(draft)
+      call build_loads(draft)
+      call build_requests(draft)
+      call check_mesh(model, draft)
+      call order_slaves(model, chains)
+      call check_surfaces_of_pairs(model, draft, chains)
       if (has_errors()) return
-      call find_contact(deck, rules, model, draft)
-      call note_unused_interactions(deck, model, draft)
-      call check_points_of_pairs(deck, model, draft)
+      call find_contact(rules, draft)
+      call note_unused_interactions(model, draft)
+      call pair_all(model, points)
+      call move_alloc(points, model%points)
+      call check_points_of_pairs(model, draft)
    end subroutine build_once
 
    subroutine take_titles(deck, model)
@@ -133,56 +141,52 @@ contains
    end subroutine take_parameters
 
    !> Nodes, and the node sets.
-   subroutine build_nodes(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine build_nodes(draft)
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('NODE')
-            call read_node_card(deck, i, model, draft)
+            call read_node_card(i, draft)
          case ('NGEN')
-            call read_ngen_card(deck, i, model, draft)
+            call read_ngen_card(i, draft)
          case ('NFILL')
-            call read_nfill_card(deck, i, model, draft)
+            call read_nfill_card(i, draft)
          case ('NCOPY')
-            call read_ncopy_card(deck, i, model, draft)
+            call read_ncopy_card(i, draft)
          case ('BLOCK')
-            call read_block_card(deck, i, model, draft)
+            call read_block_card(i, draft)
          case ('NSET')
-            call try_nset_card(deck, i, model, draft)
+            call try_set_card(i, draft)
          end select
       end do
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
-         call read_nset_card(deck, i, model, draft)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
+         call read_set_card(i, draft)
       end do
    end subroutine build_nodes
 
    !> Elements, and the element sets.
-   subroutine build_elements(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine build_elements(draft)
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
+      do i = 1, draft%deck%n_cards
+         select case (keyword_name(draft%deck%cards(i)))
          case ('ELEMENT')
-            call read_element_card(deck, i, model, draft)
+            call read_element_card(i, draft)
          case ('ELGEN')
-            call read_elgen_card(deck, i, model, draft)
+            call read_elgen_card(i, draft)
          case ('ELCOPY')
-            call read_elcopy_card(deck, i, model, draft)
+            call read_elcopy_card(i, draft)
          case ('BLOCK')
-            call place_block_elements(deck, i, model, draft)
+            call place_block_elements(i, draft)
          end select
       end do
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
-         call read_elset_card(deck, i, model, draft)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
+         call read_set_card(i, draft)
       end do
    end subroutine build_elements
 

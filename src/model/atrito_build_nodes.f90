@@ -1,13 +1,12 @@
 !> *NODE, *NGEN and *NFILL: the nodes of the mesh, in the order of the deck.
 module atrito_build_nodes
    use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
+   use atrito_deck, only: deck_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, spoil_node, place_token, place_text, note_place
    use atrito_items, only: get_integer, get_real, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
-   use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_sets, only: grow_set, set_count
@@ -22,26 +21,22 @@ module atrito_build_nodes
 contains
 
    !> *NODE: number, x, y[, z].
-   subroutine read_node_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_node_card(i_card, draft)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i, first
 
-      first = model%mesh%n_nodes + 1
-      associate (card => deck%cards(i_card))
+      first = draft%model%mesh%n_nodes + 1
+      associate (card => draft%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_node_line(deck, deck%lines(i), model, draft)
+            call read_node_line(draft%deck%lines(i), draft)
          end do
       end associate
-      call put_named_set(deck, i_card, model, draft, [(i, i=first, model%mesh%n_nodes)])
+      call put_named_set(i_card, draft, [(i, i=first, draft%model%mesh%n_nodes)])
    end subroutine read_node_card
 
-   subroutine read_node_line(deck, line, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_node_line(line, draft)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       real(wp) :: x(2), z
       integer(ip) :: id
@@ -49,29 +44,27 @@ contains
 
       ok = line%ok
       if (line%ok) then
-         call get_id(deck, deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
-         call get_coordinate(deck, line_item(deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE')
-         call get_coordinate(deck, line_item(deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE')
+         call get_id(draft%deck, draft%deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
+         call get_coordinate(draft%deck, line_item(draft%deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE')
+         call get_coordinate(draft%deck, line_item(draft%deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE')
          if (line%n_tokens > 3) then
-            call get_real(deck, line_item(deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, 'NODE')
+            call get_real(draft%deck, line_item(draft%deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, 'NODE')
             if (ok(4) .and. abs(z) > 0.0_wp) then
                ok(4) = .false.
-               call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
+               call report_error(draft%deck, line_item(draft%deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
                                  expected='z = 0 [L], or no third coordinate', keyword='NODE')
             end if
          end if
       end if
       if (all(ok)) then
-         call place_node(deck, model, draft, id, x, line%first_token, ok(1), 'NODE')
+         call place_node(draft, id, x, line%first_token, ok(1), 'NODE')
       else
-         call spoil_node(deck, line, draft)
+         call spoil_node(line, draft)
       end if
    end subroutine read_node_line
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
-   subroutine place_node(deck, model, draft, id, x, place, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine place_node(draft, id, x, place, ok, keyword)
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: id                    !< > 0
       real(wp), intent(in) :: x(2)                     !< [L]
@@ -81,74 +74,67 @@ contains
       type(token_t) :: token, earlier
       logical :: known
 
-      call add_node(model%mesh, id, x, known)
+      call add_node(draft%model%mesh, id, x, known)
       ok = .not. known
       if (known) then
-         token = place_token(deck, place)
-         earlier = place_token(deck, draft%node_place(find_node(model%mesh, id)))
-         call report_error(deck, token, 'E-TWICE', 'node '//to_text(id)//' is given twice, first in '// &
-                           place_text(deck, earlier, token), expected='a node number that is free', keyword=keyword)
+         token = place_token(draft%deck, place)
+         earlier = place_token(draft%deck, draft%node_place(find_node(draft%model%mesh, id)))
+         call report_error(draft%deck, token, 'E-TWICE', 'node '//to_text(id)//' is given twice, first in '// &
+                           place_text(draft%deck, earlier, token), expected='a node number that is free', keyword=keyword)
          return
       end if
-      call note_place(draft%node_place, model%mesh%n_nodes, place)
+      call note_place(draft%node_place, draft%model%mesh%n_nodes, place)
       draft%greatest_node = max(draft%greatest_node, id)
    end subroutine place_node
 
    !> Puts nodes into a node set and keeps which card made it.
-   subroutine put_node_set(model, draft, i_card, name, members)
-      type(model_t), intent(inout) :: model
+   subroutine put_node_set(draft, i_card, name, members)
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: members(:)            !< places
       integer(ip) :: n
 
-      n = set_count(model%node_sets)
-      call grow_set(model%node_sets, name, members)
-      if (set_count(model%node_sets) > n) call note_place(draft%set_card, n + 1, i_card)
+      n = set_count(draft%model%node_sets)
+      call grow_set(draft%model%node_sets, name, members)
+      if (set_count(draft%model%node_sets) > n) call note_place(draft%set_card, n + 1, i_card)
    end subroutine put_node_set
 
    !> The set that NSET= of a card names.
-   subroutine put_named_set(deck, i_card, model, draft, members)
-      type(deck_t), intent(in) :: deck
+   subroutine put_named_set(i_card, draft, members)
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: members(:)
       character(len=:), allocatable :: name
       logical :: found
 
-      call option_text(deck, deck%cards(i_card), 'NSET', name, found)
-      if (found .and. len(name) > 0) call put_node_set(model, draft, i_card, name, members)
+      call option_text(draft%deck, draft%deck%cards(i_card), 'NSET', name, found)
+      if (found .and. len(name) > 0) call put_node_set(draft, i_card, name, members)
    end subroutine put_named_set
 
    !> *NGEN: nodes on the straight line between two nodes, equally spaced.
-   subroutine read_ngen_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_ngen_card(i_card, draft)
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), allocatable :: members(:)
       integer(ip) :: i, ends(2), step, first_new, k
       logical :: ok
 
       allocate (members(0))
-      associate (card => deck%cards(i_card))
+      associate (card => draft%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_ngen_line(deck, deck%lines(i), model, draft, ends, step, ok)
+            call read_ngen_line(draft%deck%lines(i), draft, ends, step, ok)
             if (.not. ok) cycle
-            first_new = model%mesh%n_nodes + 1
-            call fill_line(deck, model, draft, ends, step, deck%lines(i)%first_token, 'NGEN')
-            members = [members, ends(1), (k, k=first_new, model%mesh%n_nodes), ends(2)]
+            first_new = draft%model%mesh%n_nodes + 1
+            call fill_line(draft, ends, step, draft%deck%lines(i)%first_token, 'NGEN')
+            members = [members, ends(1), (k, k=first_new, draft%model%mesh%n_nodes), ends(2)]
          end do
       end associate
-      call put_named_set(deck, i_card, model, draft, members)
+      call put_named_set(i_card, draft, members)
    end subroutine read_ngen_card
 
-   subroutine read_ngen_line(deck, line, model, draft, ends, step, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine read_ngen_line(line, draft, ends, step, ok)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(out) :: ends(2)              !< places of the two nodes
       integer(ip), intent(out) :: step                 !< from number to number
@@ -157,14 +143,15 @@ contains
 
       good = line%ok
       if (line%ok) then
-         call find_one_node(deck, model, draft, deck%tokens(line%first_token), ends(1), good(1), 'NGEN')
-         call find_one_node(deck, model, draft, line_item(deck, line, 2_ip), ends(2), good(2), 'NGEN')
-         call get_integer(deck, line_item(deck, line, 3_ip), 'increment of the numbers, an integer', step, good(3), 1_ip, 'NGEN')
-         if (all(good)) good(3) = is_step(deck, line, model%mesh%node_id(ends), step)
+         call find_one_node(draft, draft%deck%tokens(line%first_token), ends(1), good(1), 'NGEN')
+         call find_one_node(draft, line_item(draft%deck, line, 2_ip), ends(2), good(2), 'NGEN')
+         call get_integer(draft%deck, line_item(draft%deck, line, 3_ip), 'increment of the numbers, an integer', step, good(3), &
+                          1_ip, 'NGEN')
+         if (all(good)) good(3) = is_step(draft%deck, line, draft%model%mesh%node_id(ends), step)
          if (all(good)) then
-            associate (ids => model%mesh%node_id(ends))
-               good(3) = fits_memory(deck, deck%tokens(line%first_token), model, draft, int((ids(2) - ids(1))/step, lp), 0_lp, &
-                                     'NGEN')
+            associate (ids => draft%model%mesh%node_id(ends))
+               good(3) = fits_memory(draft%deck%tokens(line%first_token), draft, int((ids(2) - ids(1))/step, lp), &
+                                     0_lp, 'NGEN')
             end associate
          end if
       end if
@@ -187,9 +174,7 @@ contains
    end function is_step
 
    !> Nodes between two nodes, equally spaced, numbered by `step` from the first.
-   subroutine fill_line(deck, model, draft, ends, step, place, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine fill_line(draft, ends, step, place, keyword)
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: ends(2), step, place
       character(len=*), intent(in) :: keyword
@@ -197,44 +182,40 @@ contains
       integer(ip) :: i, n, first_id
       logical :: ok
 
-      first_id = model%mesh%node_id(ends(1))
-      n = (model%mesh%node_id(ends(2)) - first_id)/step
-      a = model%mesh%x(:, ends(1))
-      b = model%mesh%x(:, ends(2))
+      first_id = draft%model%mesh%node_id(ends(1))
+      n = (draft%model%mesh%node_id(ends(2)) - first_id)/step
+      a = draft%model%mesh%x(:, ends(1))
+      b = draft%model%mesh%x(:, ends(2))
       do i = 1, n - 1
          t = real(i, wp)/real(n, wp)
-         call place_node(deck, model, draft, first_id + i*step, (1 - t)*a + t*b, place, ok, keyword)
+         call place_node(draft, first_id + i*step, (1 - t)*a + t*b, place, ok, keyword)
          if (.not. ok) return
       end do
    end subroutine fill_line
 
    !> *NFILL: nodes between those of two sets, line by line.
-   subroutine read_nfill_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_nfill_card(i_card, draft)
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), allocatable :: from(:), to(:), members(:)
       integer(ip) :: i, k, n, step, first_new
       logical :: ok
 
       allocate (members(0))
-      associate (card => deck%cards(i_card))
+      associate (card => draft%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_nfill_line(deck, deck%lines(i), model, draft, from, to, n, step, ok)
+            call read_nfill_line(draft%deck%lines(i), draft, from, to, n, step, ok)
             if (.not. ok) cycle
-            first_new = model%mesh%n_nodes + 1
-            call fill_lines(deck, model, draft, from, to, n, step, deck%lines(i)%first_token)
-            members = [members, from, (k, k=first_new, model%mesh%n_nodes), to]
+            first_new = draft%model%mesh%n_nodes + 1
+            call fill_lines(draft, from, to, n, step, draft%deck%lines(i)%first_token)
+            members = [members, from, (k, k=first_new, draft%model%mesh%n_nodes), to]
          end do
       end associate
-      call put_named_set(deck, i_card, model, draft, members)
+      call put_named_set(i_card, draft, members)
    end subroutine read_nfill_card
 
-   subroutine read_nfill_line(deck, line, model, draft, from, to, n, step, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine read_nfill_line(line, draft, from, to, n, step, ok)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip), allocatable, intent(out) :: from(:), to(:)   !< places, node by node
       integer(ip), intent(out) :: n                    !< intervals between them
@@ -244,26 +225,27 @@ contains
 
       good = line%ok
       if (line%ok) then
-         call find_nodes(deck, model, draft, deck%tokens(line%first_token), from, good(1), 'NFILL')
-         call find_nodes(deck, model, draft, line_item(deck, line, 2_ip), to, good(2), 'NFILL')
-         call get_integer(deck, line_item(deck, line, 3_ip), 'number of intervals, a positive integer', n, good(3), &
+         call find_nodes(draft, draft%deck%tokens(line%first_token), from, good(1), 'NFILL')
+         call find_nodes(draft, line_item(draft%deck, line, 2_ip), to, good(2), 'NFILL')
+         call get_integer(draft%deck, line_item(draft%deck, line, 3_ip), 'number of intervals, a positive integer', n, good(3), &
                           keyword='NFILL')
-         call get_integer(deck, line_item(deck, line, 4_ip), 'increment of the numbers, an integer', step, good(4), 1_ip, 'NFILL')
+         call get_integer(draft%deck, line_item(draft%deck, line, 4_ip), 'increment of the numbers, an integer', step, good(4), &
+                          1_ip, 'NFILL')
          if (good(3) .and. n < 1) then
             good(3) = .false.
-            call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', &
+            call report_error(draft%deck, line_item(draft%deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', &
                               expected='number of intervals, a positive integer', keyword='NFILL')
          end if
          if (all(good(:2))) then
             good(1) = size(from) == size(to)
-            if (.not. good(1)) call report_error(deck, line_item(deck, line, 2_ip), 'E-SET', 'the two sets have '// &
+            if (.not. good(1)) call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-SET', 'the two sets have '// &
                                                  to_text(size(from, kind=ip))//' and '//to_text(size(to, kind=ip))//' nodes', &
                                                  expected='two node sets of as many nodes', keyword='NFILL')
          end if
       end if
       ok = all(good)
-      if (ok) ok = numbers_fit(deck, line, model%mesh%node_id(from), n, step)
-      if (ok) ok = fits_memory(deck, deck%tokens(line%first_token), model, draft, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
+      if (ok) ok = numbers_fit(draft%deck, line, draft%model%mesh%node_id(from), n, step)
+      if (ok) ok = fits_memory(draft%deck%tokens(line%first_token), draft, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
                                'NFILL')
    end subroutine read_nfill_line
 
@@ -284,9 +266,7 @@ contains
                         to_text(MOST_NODES)//' nodes', keyword='NFILL')
    end function numbers_fit
 
-   subroutine fill_lines(deck, model, draft, from, to, n, step, place)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine fill_lines(draft, from, to, n, step, place)
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: from(:), to(:), n, step, place
       real(wp) :: t, x(2)
@@ -296,9 +276,9 @@ contains
       do i = 1, size(from, kind=ip)
          do k = 1, n - 1
             t = real(k, wp)/real(n, wp)
-            x = (1 - t)*model%mesh%x(:, from(i)) + t*model%mesh%x(:, to(i))
-            id = model%mesh%node_id(from(i)) + k*step
-            call place_node(deck, model, draft, id, x, place, ok, 'NFILL')
+            x = (1 - t)*draft%model%mesh%x(:, from(i)) + t*draft%model%mesh%x(:, to(i))
+            id = draft%model%mesh%node_id(from(i)) + k*step
+            call place_node(draft, id, x, place, ok, 'NFILL')
             if (.not. ok) return
          end do
       end do

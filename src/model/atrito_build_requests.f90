@@ -5,11 +5,10 @@ module atrito_build_requests
    use atrito_draft, only: draft_t
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+   use atrito_model, only: controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set
-   use atrito_strings, only: same_name, to_text
+   use atrito_strings, only: same_name
    implicit none (type, external)
    private
    public :: build_requests, refuse_field_files
@@ -22,39 +21,31 @@ module atrito_build_requests
 contains
 
    !> Controls and requests of the step.
-   subroutine build_requests(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine build_requests(draft)
       type(draft_t), intent(in) :: draft
       integer(ip) :: i
 
-      do i = 1, deck%n_cards
-         select case (keyword_name(deck%cards(i)))
-         case ('CONTROLS')
-            call read_controls_card(deck, deck%cards(i), model%controls)
-         case ('NODE PRINT')
-            call read_node_card(deck, deck%cards(i), model%mesh, model%node_sets, draft, &
-                                model%requests%requested_t)
-         case ('EL PRINT')
-            call read_el_card(deck, deck%cards(i), model%mesh, model%element_sets, draft, &
-                              model%requests%requested_t)
-         case ('CONTACT PRINT')
-            model%requests%contact = .true.
-         case ('BODY PRINT')
-            model%requests%bodies = .true.
-         case ('JOINT PRINT')
-            model%requests%joints = .true.
-         case ('NODE FILE')
-            call read_node_card(deck, deck%cards(i), model%mesh, model%node_sets, draft, &
-                                model%requests%fields)
-         case ('EL FILE')
-            call read_el_card(deck, deck%cards(i), model%mesh, model%element_sets, draft, &
-                              model%requests%fields)
-         case ('CONTACT FILE')
-            model%requests%fields%contact = .true.
-         end select
+      do i = 1, draft%deck%n_cards
+         associate (card => draft%deck%cards(i), requests => draft%model%requests)
+            select case (keyword_name(card))
+            case ('CONTROLS')
+               call read_controls_card(draft%deck, card, draft%model%controls)
+            case ('NODE PRINT', 'EL PRINT')
+               call read_request_card(card, draft, requests%requested_t)
+            case ('CONTACT PRINT')
+               requests%contact = .true.
+            case ('BODY PRINT')
+               requests%bodies = .true.
+            case ('JOINT PRINT')
+               requests%joints = .true.
+            case ('NODE FILE', 'EL FILE')
+               call read_request_card(card, draft, requests%fields)
+            case ('CONTACT FILE')
+               requests%fields%contact = .true.
+            end select
+         end associate
       end do
-      call check_relaxation(deck, model%controls)
+      call check_relaxation(draft%deck, draft%model%controls)
    end subroutine build_requests
 
    subroutine read_controls_card(deck, card, controls)
@@ -127,38 +118,26 @@ contains
       end do
    end subroutine check_relaxation
 
-   !> *NODE PRINT, *NODE FILE
-   subroutine read_node_card(deck, card, mesh, sets, draft, requested)
-      type(deck_t), intent(in) :: deck
+   !> *NODE PRINT, *NODE FILE, *EL PRINT, *EL FILE
+   subroutine read_request_card(card, draft, requested)
       type(card_t), intent(in) :: card
-      type(mesh_t), intent(in) :: mesh
-      type(set_list_t), intent(in) :: sets
       type(draft_t), intent(in) :: draft
       type(requested_t), intent(inout) :: requested
       logical, allocatable :: chosen(:)
       logical :: ok
 
-      call choose_members(deck, card, 'NSET', 'node set', sets, mesh%n_nodes, draft, chosen, ok)
+      associate (model => draft%model)
+         if (index(keyword_name(card), 'NODE') == 1) then
+            call choose_members(card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, draft, chosen, ok)
+         else
+            call choose_members(card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, draft, chosen, ok)
+         end if
+      end associate
       if (.not. ok) return
-      if (asks_for(deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
-      if (asks_for(deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
-   end subroutine read_node_card
-
-   !> *EL PRINT, *EL FILE
-   subroutine read_el_card(deck, card, mesh, sets, draft, requested)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(mesh_t), intent(in) :: mesh
-      type(set_list_t), intent(in) :: sets
-      type(draft_t), intent(in) :: draft
-      type(requested_t), intent(inout) :: requested
-      logical, allocatable :: chosen(:)
-      logical :: ok
-
-      call choose_members(deck, card, 'ELSET', 'element set', sets, mesh%n_elements, draft, chosen, ok)
-      if (.not. ok) return
-      if (asks_for(deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
-   end subroutine read_el_card
+      if (asks_for(draft%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
+      if (asks_for(draft%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
+      if (asks_for(draft%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
+   end subroutine read_request_card
 
    !> Adds members to those asked for before.
    pure subroutine ask_for(chosen, wanted, mask)
@@ -190,8 +169,7 @@ contains
    end subroutine refuse_field_files
 
    !> The members of the set that an option names; all without it.
-   subroutine choose_members(deck, card, option, noun, sets, n, draft, chosen, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine choose_members(card, option, noun, sets, n, draft, chosen, ok)
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: option, noun
       type(set_list_t), intent(in) :: sets
@@ -204,7 +182,7 @@ contains
       integer(ip) :: i
       logical :: found
 
-      call option_text(deck, card, option, name, found, place)
+      call option_text(draft%deck, card, option, name, found, place)
       allocate (chosen(n), source=.not. found)
       ok = .true.
       if (.not. found) return
@@ -213,7 +191,7 @@ contains
       if (ok) then
          chosen(sets%sets(i)%members) = .true.
       else
-         call report_unknown(deck, draft, place, noun, 'E-SET', sets%names, keyword_name(card))
+         call report_unknown(draft, place, noun, 'E-SET', sets%names, keyword_name(card))
       end if
    end subroutine choose_members
 

@@ -7,7 +7,6 @@ module atrito_build_sets
    use atrito_id_map, only: id_map_t, find_id
    use atrito_items, only: get_integer, has_option, option_text
    use atrito_kinds, only: ip
-   use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_references, only: get_id, find_nodes, find_elements
@@ -15,34 +14,28 @@ module atrito_build_sets
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: try_nset_card, try_elset_card, read_nset_card, read_elset_card
+   public :: try_set_card, read_set_card
 
 contains
 
-   !> Reads a *NSET when all of its members are known by now, so that a *NFILL or *BLOCK below can use it. One with members that
-   !> follow later is left to read_nset_card.
-   subroutine try_nset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(model_t), intent(inout) :: model
+   !> Reads a *NSET or *ELSET when all of its members are known by now, so that a *NFILL, *BLOCK or *ELCOPY below can use it. One
+   !> with members that follow later is left to read_set_card.
+   subroutine try_set_card(i_card, draft)
+      integer(ip), intent(in) :: i_card                !< place in the deck's cards
       type(draft_t), intent(inout) :: draft
+      logical :: known
 
-      if (.not. members_are_known(deck, deck%cards(i_card), model%mesh%node_map, model%node_sets)) return
-      call read_nset_card(deck, i_card, model, draft)
+      associate (deck => draft%deck, card => draft%deck%cards(i_card))
+         if (keyword_name(card) == 'NSET') then
+            known = members_are_known(deck, card, draft%model%mesh%node_map, draft%model%node_sets)
+         else
+            known = members_are_known(deck, card, draft%model%mesh%element_map, draft%model%element_sets)
+         end if
+      end associate
+      if (.not. known) return
+      call read_set_card(i_card, draft)
       draft%card_done(i_card) = .true.
-   end subroutine try_nset_card
-
-   !> The same of a *ELSET, for a *ELCOPY below.
-   subroutine try_elset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: i_card
-      type(model_t), intent(inout) :: model
-      type(draft_t), intent(inout) :: draft
-
-      if (.not. members_are_known(deck, deck%cards(i_card), model%mesh%element_map, model%element_sets)) return
-      call read_elset_card(deck, i_card, model, draft)
-      draft%card_done(i_card) = .true.
-   end subroutine try_elset_card
+   end subroutine try_set_card
 
    pure logical function members_are_known(deck, card, map, sets) result(known)
       type(deck_t), intent(in) :: deck
@@ -105,37 +98,42 @@ contains
       end do
    end function ranges_are_known
 
-   !> *NSET.
-   subroutine read_nset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(model_t), intent(inout) :: model
+   !> *NSET and *ELSET.
+   subroutine read_set_card(i_card, draft)
+      integer(ip), intent(in) :: i_card                !< place in the deck's cards
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: members
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, keyword
       integer(ip) :: i
       logical :: found
 
-      associate (card => deck%cards(i_card))
-         call option_text(deck, card, 'NSET', name, found)
+      associate (card => draft%deck%cards(i_card))
+         keyword = keyword_name(card)
+         call option_text(draft%deck, card, keyword, name, found)
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. deck%lines(i)%ok) cycle
-            if (has_option(deck, card, 'GENERATE')) then
-               call read_range(deck, deck%lines(i), model%mesh%node_map, draft%spoiled_nodes, 'node', 'NSET', members)
+            if (.not. draft%deck%lines(i)%ok) cycle
+            if (.not. has_option(draft%deck, card, 'GENERATE')) then
+               call read_items(draft%deck%lines(i), i_card, draft, members)
+            else if (keyword == 'NSET') then
+               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%node_map, draft%spoiled_nodes, 'node', keyword, &
+                               members)
             else
-               call read_node_items(deck, deck%lines(i), i_card, model, draft, members)
+               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%element_map, draft%spoiled_elements, 'element', &
+                               keyword, members)
             end if
          end do
-         call put_node_set(model, draft, i_card, name, numbers_of(members))
       end associate
-   end subroutine read_nset_card
+      if (keyword == 'NSET') then
+         call put_node_set(draft, i_card, name, numbers_of(members))
+      else
+         call grow_set(draft%model%element_sets, name, numbers_of(members))
+      end if
+   end subroutine read_set_card
 
-   subroutine read_node_items(deck, line, i_card, model, draft, members)
-      type(deck_t), intent(in) :: deck
+   subroutine read_items(line, i_card, draft, members)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(number_list_t), intent(inout) :: members
       type(token_t) :: token
@@ -144,75 +142,33 @@ contains
       logical :: ok
 
       do i = 1, line%n_tokens
-         token = line_item(deck, line, i)
-         call find_nodes(deck, model, draft, token, found, ok, 'NSET')
-         if (ok) ok = is_earlier(deck, token, i_card, model, draft)
+         token = line_item(draft%deck, line, i)
+         if (keyword_name(draft%deck%cards(i_card)) == 'NSET') then
+            call find_nodes(draft, token, found, ok, 'NSET')
+            if (ok) ok = is_earlier(token, i_card, draft)
+         else
+            call find_elements(draft, token, found, ok, 'ELSET')
+         end if
          if (ok) call add_numbers(members, found)
       end do
-   end subroutine read_node_items
+   end subroutine read_items
 
    !> A set in a list must be an earlier one: it could not be complete otherwise.
-   logical function is_earlier(deck, token, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
+   logical function is_earlier(token, i_card, draft)
       type(token_t), intent(in) :: token
       integer(ip), intent(in) :: i_card
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip) :: i
 
       is_earlier = .true.
-      if (is_id_token(deck, token)) return
-      i = find_set(model%node_sets, token_text(deck, token))
-      if (keyword_name(deck%cards(draft%set_card(i))) /= 'NSET') return
+      if (is_id_token(draft%deck, token)) return
+      i = find_set(draft%model%node_sets, token_text(draft%deck, token))
+      if (keyword_name(draft%deck%cards(draft%set_card(i))) /= 'NSET') return
       is_earlier = draft%set_card(i) < i_card
-      if (.not. is_earlier) call report_error(deck, token, 'E-SET', 'node set '//token_text(deck, token)// &
-                                           ' is defined later, in '//place_text(deck, deck%cards(draft%set_card(i))%place, token), &
+      if (.not. is_earlier) call report_error(draft%deck, token, 'E-SET', 'node set '//token_text(draft%deck, token)// &
+                               ' is defined later, in '//place_text(draft%deck, draft%deck%cards(draft%set_card(i))%place, token), &
                                               expected='a node set that is defined above', keyword='NSET')
    end function is_earlier
-
-   !> *ELSET.
-   subroutine read_elset_card(deck, i_card, model, draft)
-      type(deck_t), intent(in) :: deck
-      integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(model_t), intent(inout) :: model
-      type(draft_t), intent(in) :: draft
-      type(number_list_t) :: members
-      character(len=:), allocatable :: name
-      integer(ip) :: i
-      logical :: found
-
-      associate (card => deck%cards(i_card))
-         call option_text(deck, card, 'ELSET', name, found)
-         if (.not. found) return
-         do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. deck%lines(i)%ok) cycle
-            if (has_option(deck, card, 'GENERATE')) then
-               call read_range(deck, deck%lines(i), model%mesh%element_map, draft%spoiled_elements, 'element', 'ELSET', members)
-            else
-               call read_element_items(deck, deck%lines(i), model, draft, members)
-            end if
-         end do
-         call grow_set(model%element_sets, name, numbers_of(members))
-      end associate
-   end subroutine read_elset_card
-
-   subroutine read_element_items(deck, line, model, draft, members)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
-      type(number_list_t), intent(inout) :: members
-      type(token_t) :: token
-      integer(ip), allocatable :: found(:)
-      integer(ip) :: i
-      logical :: ok
-
-      do i = 1, line%n_tokens
-         token = line_item(deck, line, i)
-         call find_elements(deck, model, draft, token, found, ok, 'ELSET')
-         if (ok) call add_numbers(members, found)
-      end do
-   end subroutine read_element_items
 
    !> A line of GENERATE: first number, last number, increment.
    subroutine read_range(deck, line, map, spoiled, noun, keyword, members)

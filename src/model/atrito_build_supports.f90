@@ -6,8 +6,7 @@ module atrito_build_supports
    use atrito_draft, only: draft_t, place_text, ids_text, has_errors
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_prescribed, trim_prescribed
-   use atrito_model, only: model_t
+   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
    use atrito_parameters, only: evaluate_function
    use atrito_references, only: find_nodes
    use atrito_refinement, only: edge_place, is_refined
@@ -33,38 +32,36 @@ module atrito_build_supports
 contains
 
    !> All prescribed displacements, those of the model and of the step.
-   subroutine build_supports(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine build_supports(draft)
       type(draft_t), intent(inout) :: draft
       type(by_number_t) :: numbered
       integer(ip) :: i, k
 
-      allocate (draft%dof_entry(PLANE_DOFS, model%mesh%n_nodes), draft%dof_token(PLANE_DOFS, model%mesh%n_nodes), source=0_ip)
-      do i = 1, deck%n_cards
-         associate (card => deck%cards(i))
+      allocate (draft%dof_entry(PLANE_DOFS, draft%model%mesh%n_nodes), draft%dof_token(PLANE_DOFS, draft%model%mesh%n_nodes), &
+                source=0_ip)
+      do i = 1, draft%deck%n_cards
+         associate (card => draft%deck%cards(i))
             if (keyword_name(card) /= 'BOUNDARY') cycle
             call begin_numbers(draft, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
-               if (.not. deck%lines(k)%ok) cycle
-               if (has_option(deck, card, 'FUNCTION')) then
-                  call read_function_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft, numbered)
+               if (.not. draft%deck%lines(k)%ok) cycle
+               if (has_option(draft%deck, card, 'FUNCTION')) then
+                  call read_function_line(draft%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, draft, &
+                                          numbered)
                else
-                  call read_line(deck, deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, model, draft, numbered)
+                  call read_line(draft%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, draft, numbered)
                end if
             end do
-            call hold_edges(deck, model, draft, numbered)
+            call hold_edges(draft, numbered)
          end associate
       end do
-      call trim_prescribed(model%prescribed)
+      call trim_nodal_values(draft%model%prescribed)
    end subroutine build_supports
 
    !> Node or set, first dof[, last dof[, value]].
-   subroutine read_line(deck, line, in_model, model, draft, numbered)
-      type(deck_t), intent(in) :: deck
+   subroutine read_line(line, in_model, draft, numbered)
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(by_number_t), intent(inout) :: numbered
       integer(ip), allocatable :: nodes(:)
@@ -72,44 +69,40 @@ contains
       integer(ip) :: first, last, dof, i
       logical :: ok(4)
 
-      call read_place(deck, line, model, draft, nodes, first, last, ok(:3))
-      call get_real(deck, line_item(deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
+      call read_place(line, draft, nodes, first, last, ok(:3))
+      call get_real(draft%deck, line_item(draft%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
       if (.not. all(ok(2:))) return
       if (in_model .and. abs(value) > 0.0_wp) then
          ok(4) = .false.
-         call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'a displacement other than 0 before *STEP', &
+         call report_error(draft%deck, line_item(draft%deck, line, 4_ip), 'E-VALUE', 'a displacement other than 0 before *STEP', &
                            expected='0 [L] here; other values in the step', keyword='BOUNDARY')
       end if
-      if (.not. are_dofs(deck, line, first, last, value)) return
+      if (.not. are_dofs(draft%deck, line, first, last, value)) return
       if (.not. all(ok)) return
-      call note_loose(deck, line, model, draft, nodes)
+      call note_loose(line, draft, nodes)
       do dof = first, min(last, PLANE_DOFS)
-         call prescribe(deck, line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], model, draft)
+         call prescribe(line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], draft)
       end do
       if (size(nodes) == 1 .and. is_refined(draft%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
 
    !> Node or set, first dof[, last dof]: what both kinds of line begin with.
-   subroutine read_place(deck, line, model, draft, nodes, first, last, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine read_place(line, draft, nodes, first, last, ok)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), allocatable, intent(out) :: nodes(:)
       integer(ip), intent(out) :: first, last
       logical, intent(out) :: ok(3)
 
-      call find_nodes(deck, model, draft, deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
-      call get_integer(deck, line_item(deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(deck, line_item(deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      call find_nodes(draft, draft%deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
+      call get_integer(draft%deck, line_item(draft%deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
+      call get_integer(draft%deck, line_item(draft%deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
    end subroutine read_place
 
    !> Node or set, first dof[, last dof], expression in x and y.
-   subroutine read_function_line(deck, line, in_model, model, draft, numbered)
-      type(deck_t), intent(in) :: deck
+   subroutine read_function_line(line, in_model, draft, numbered)
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(by_number_t), intent(inout) :: numbered
       type(token_t) :: expression
@@ -118,21 +111,21 @@ contains
       integer(ip) :: first, last, dof
       logical :: ok(4)
 
-      call read_place(deck, line, model, draft, nodes, first, last, ok(:3))
+      call read_place(line, draft, nodes, first, last, ok(:3))
       ! commas belong to the expression: max(x, y)
-      expression = line_item(deck, line, 4_ip)
-      expression%last = deck%tokens(line%first_token + line%n_tokens - 1)%last
+      expression = line_item(draft%deck, line, 4_ip)
+      expression%last = draft%deck%tokens(line%first_token + line%n_tokens - 1)%last
       ok(4) = .not. in_model
-      if (in_model) call report_error(deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
+      if (in_model) call report_error(draft%deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
                                       expected='*BOUNDARY, FUNCTION in the step', keyword='BOUNDARY')
       ! a function is not 0, whatever it is: there are no harmless dofs
-      if (all(ok(2:3))) ok(2) = are_dofs(deck, line, first, last, 1.0_wp)
+      if (all(ok(2:3))) ok(2) = are_dofs(draft%deck, line, first, last, 1.0_wp)
       allocate (values(size(nodes)))
-      if (ok(4)) call evaluate_function(deck, expression, model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
+      if (ok(4)) call evaluate_function(draft%deck, expression, draft%model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
       if (.not. all(ok)) return
-      call note_loose(deck, line, model, draft, nodes)
+      call note_loose(line, draft, nodes)
       do dof = first, last
-         call prescribe(deck, line, nodes, dof, values, model, draft)
+         call prescribe(line, nodes, dof, values, draft)
       end do
       if (size(nodes) == 1 .and. is_refined(draft%refinement)) call take_number(line, nodes(1), first, last, values(1), numbered)
    end subroutine read_function_line
@@ -166,9 +159,7 @@ contains
    end subroutine take_number
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
-   subroutine hold_edges(deck, model, draft, numbered)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine hold_edges(draft, numbered)
       type(draft_t), intent(inout) :: draft
       type(by_number_t), intent(in) :: numbered
       type(data_line_t) :: line
@@ -184,8 +175,8 @@ contains
                line%first_token = numbered%token(dof, fine%edge_node(1, edge))
                line%n_tokens = 1
                do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
-                  call prescribe(deck, line, [k], dof, [edge_value(numbered%value(dof, fine%edge_node(:n, edge)), &
-                                                                   edge_place(fine, edge, k))], model, draft)
+                  call prescribe(line, [k], dof, [edge_value(numbered%value(dof, fine%edge_node(:n, edge)), edge_place(fine, edge, &
+                                                                                                                       k))], draft)
                end do
             end do
          end do
@@ -224,27 +215,23 @@ contains
       end if
    end function are_dofs
 
-   subroutine note_loose(deck, line, model, draft, nodes)
-      type(deck_t), intent(in) :: deck
+   subroutine note_loose(line, draft, nodes)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: nodes(:)
       logical :: loose(size(nodes))
 
       loose = in_no_element(draft, nodes)
-      if (any(loose) .and. .not. has_errors()) call report_note(deck, line_item(deck, line, 1_ip), 'N-NODE', 'node '// &
-                                                                ids_text(pack(model%mesh%node_id(nodes), loose))// &
-                                                      ' belongs to no element; the support has no effect there', keyword='BOUNDARY')
+      if (any(loose) .and. .not. has_errors()) call report_note(draft%deck, line_item(draft%deck, line, 1_ip), 'N-NODE', 'node '// &
+                ids_text(pack(draft%model%mesh%node_id(nodes), loose))//' belongs to no element; the support has no effect there', &
+                                                                keyword='BOUNDARY')
    end subroutine note_loose
 
    !> Prescribes a dof of some nodes. A value that differs from an earlier one is an error, told once a line.
-   subroutine prescribe(deck, line, nodes, dof, value, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine prescribe(line, nodes, dof, value, draft)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value(:)                 !< of each node [L]
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(number_list_t) :: clashes
       real(wp) :: first_value, scale
@@ -258,15 +245,15 @@ contains
          if (loose(i)) cycle
          entry = draft%dof_entry(dof, nodes(i))
          if (entry == 0) then
-            call add_prescribed(model%prescribed, nodes(i), dof, value(i))
-            draft%dof_entry(dof, nodes(i)) = model%prescribed%n
+            call add_nodal_value(draft%model%prescribed, nodes(i), dof, value(i))
+            draft%dof_entry(dof, nodes(i)) = draft%model%prescribed%n
             draft%dof_token(dof, nodes(i)) = line%first_token
-         else if (.not. is_same(model%prescribed%value(entry), value(i), scale)) then
+         else if (.not. is_same(draft%model%prescribed%value(entry), value(i), scale)) then
             if (clashes%n == 0) first_value = value(i)
             call add_number(clashes, nodes(i))
          end if
       end do
-      if (clashes%n > 0) call report_clash(deck, line, model, draft, numbers_of(clashes), dof, first_value)
+      if (clashes%n > 0) call report_clash(line, draft, numbers_of(clashes), dof, first_value)
    end subroutine prescribe
 
    !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
@@ -277,10 +264,8 @@ contains
       is_same = abs(earlier - value) <= SAME_VALUE*max(abs(earlier), scale)
    end function is_same
 
-   subroutine report_clash(deck, line, model, draft, nodes, dof, value)
-      type(deck_t), intent(in) :: deck
+   subroutine report_clash(line, draft, nodes, dof, value)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value
@@ -289,12 +274,12 @@ contains
       real(wp) :: other
       integer :: digits
 
-      earlier = deck%tokens(draft%dof_token(dof, nodes(1)))
-      other = model%prescribed%value(draft%dof_entry(dof, nodes(1)))
+      earlier = draft%deck%tokens(draft%dof_token(dof, nodes(1)))
+      other = draft%model%prescribed%value(draft%dof_entry(dof, nodes(1)))
       digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
-      call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
-                        ids_text(model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '// &
-                        to_text(other, digits)//' in '//place_text(deck, earlier, deck%tokens(line%first_token)), &
+      call report_error(draft%deck, line_item(draft%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
+                        ids_text(draft%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '//to_text(other, &
+                                            digits)//' in '//place_text(draft%deck, earlier, draft%deck%tokens(line%first_token)), &
                         expected='one value for each dof [L]; those before *STEP hold in the step', keyword='BOUNDARY')
    end subroutine report_clash
 

@@ -1,16 +1,15 @@
 !> *SURFACE and *RIGID BODY, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
    use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, count_cards, ids_text, &
-                           is_spoiled
+   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, count_cards, ids_text
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: MOST_FACES => FACES
-   use atrito_model, only: model_t, surface_t, SURFACE_ELEMENTS, SURFACE_SEGMENTS
+   use atrito_model, only: surface_t, SURFACE_SEGMENTS
    use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
@@ -27,38 +26,34 @@ module atrito_build_surfaces
 contains
 
    !> All surfaces of a model.
-   subroutine build_surfaces(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine build_surfaces(draft)
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
       ! each block may have four sides of its own, and those of all copies are of their *BLOCK
-      allocate (model%surfaces((draft%n_blocks + count_cards(deck, 'BLOCK'))*size(BLOCK_SIDES, kind=ip) + &
-                               count_cards(deck, 'SURFACE')))
+      allocate (draft%model%surfaces((draft%n_blocks + count_cards(draft%deck, 'BLOCK'))*size(BLOCK_SIDES, &
+                                                                                     kind=ip) + count_cards(draft%deck, 'SURFACE')))
       do i = 1, draft%n_blocks
-         call put_block_surfaces(deck, draft%blocks(i), model, draft)
+         call put_block_surfaces(draft%blocks(i), draft)
       end do
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'SURFACE') call read_surface_card(deck, deck%cards(i), model, draft)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) == 'SURFACE') call read_surface_card(draft%deck%cards(i), draft)
       end do
-      if (draft%surface_names%n < size(model%surfaces)) model%surfaces = model%surfaces(:draft%surface_names%n)
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(deck, deck%cards(i), model, draft)
+      if (draft%surface_names%n < size(draft%model%surfaces)) draft%model%surfaces = draft%model%surfaces(:draft%surface_names%n)
+      do i = 1, draft%deck%n_cards
+         if (keyword_name(draft%deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(draft%deck%cards(i), draft)
       end do
    end subroutine build_surfaces
 
    !> The four sides of a block, and its part of the sides of all copies; faces that another block has joined are left out.
-   subroutine put_block_surfaces(deck, block, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine put_block_surfaces(block, draft)
       type(block_t), intent(in) :: block
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       integer(ip) :: nx, ny, i
 
       nx = ubound(block%nodes, 1, kind=ip)/block%order
       ny = ubound(block%nodes, 2, kind=ip)/block%order
-      if (block%first_element + nx*ny - 1 > model%mesh%n_elements) return
+      if (block%first_element + nx*ny - 1 > draft%model%mesh%n_elements) return
       call put_side(1_ip, [(i, i=0, nx - 1)])
       call put_side(2_ip, [(nx - 1 + nx*i, i=0, ny - 1)])
       call put_side(3_ip, [(nx*(ny - 1) + i, i=0, nx - 1)])
@@ -83,65 +78,61 @@ contains
 
          s = find_name(draft%surface_names, name)
          if (s == 0) then
-            call add_surface(model, draft, surface_t(name=name), deck%cards(block%card)%place)
+            call add_surface(draft, surface_t(name=name), draft%deck%cards(block%card)%place)
             s = draft%surface_names%n
          end if
          do k = 1, size(pieces, kind=ip)
             if (.not. is_on_side(draft%refinement, pieces(k), face)) cycle
-            if (is_outer_face(model%mesh, draft%around, pieces(k), face)) call add_face(model%surfaces(s)%faces, pieces(k), face)
+            if (is_outer_face(draft%model%mesh, draft%around, pieces(k), face)) call add_face(draft%model%surfaces(s)%faces, &
+                                                                                              pieces(k), face)
          end do
       end subroutine put_faces
 
    end subroutine put_block_surfaces
 
-   subroutine add_surface(model, draft, surface, place)
-      type(model_t), intent(inout) :: model
+   subroutine add_surface(draft, surface, place)
       type(draft_t), intent(inout) :: draft
       type(surface_t), intent(in) :: surface
       type(token_t), intent(in) :: place               !< where it is defined
 
       call add_name(draft%surface_names, surface%name)
-      model%surfaces(draft%surface_names%n) = surface
+      draft%model%surfaces(draft%surface_names%n) = surface
       call keep_token(draft%surfaces, draft%surface_names%n, place)
    end subroutine add_surface
 
    !> *SURFACE.
-   subroutine read_surface_card(deck, card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_surface_card(card, draft)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(surface_t) :: surface
       type(token_t) :: place
       integer(ip) :: i
       logical :: found, ok
 
-      call option_text(deck, card, 'NAME', surface%name, found, place)
+      call option_text(draft%deck, card, 'NAME', surface%name, found, place)
       if (.not. found) return
       i = find_name(draft%surface_names, surface%name)
       if (i > 0) then
-         call report_error(deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
-                           place_text(deck, draft%surfaces(i), place), expected='a name that no other surface has', &
+         call report_error(draft%deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
+                           place_text(draft%deck, draft%surfaces(i), place), expected='a name that no other surface has', &
                            keyword='SURFACE')
          return
       end if
       ok = card%ok
       if (.not. ok) then
          ! the reader has not checked the words of its lines
-      else if (option_word(deck, card, 'TYPE') == 'ELEMENT') then
-         call read_faces(deck, card, model, draft, surface%faces, ok)
+      else if (option_word(draft%deck, card, 'TYPE') == 'ELEMENT') then
+         call read_faces(card, draft, surface%faces, ok)
       else
          surface%kind = SURFACE_SEGMENTS
-         call read_segments(deck, card, surface, ok)
+         call read_segments(draft%deck, card, surface, ok)
       end if
       if (.not. ok) call spoil_name(draft, surface%name)
-      call add_surface(model, draft, surface, place)
+      call add_surface(draft, surface, place)
    end subroutine read_surface_card
 
-   subroutine read_faces(deck, card, model, draft, faces, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine read_faces(card, draft, faces, ok)
       type(card_t), intent(in) :: card
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(face_list_t), intent(inout) :: faces
       logical, intent(out) :: ok
@@ -151,9 +142,9 @@ contains
 
       ok = .true.
       do i = card%first_line, card%first_line + card%n_lines - 1
-         good = deck%lines(i)%ok
-         if (good) call find_elements(deck, model, draft, line_item(deck, deck%lines(i), 1_ip), elements, good, 'SURFACE')
-         if (good) call take_faces(deck, deck%lines(i), model, draft, elements, faces, good)
+         good = draft%deck%lines(i)%ok
+         if (good) call find_elements(draft, line_item(draft%deck, draft%deck%lines(i), 1_ip), elements, good, 'SURFACE')
+         if (good) call take_faces(draft%deck%lines(i), draft, elements, faces, good)
          ok = ok .and. good
       end do
       call keep_once(faces)
@@ -175,10 +166,8 @@ contains
    end subroutine keep_once
 
    !> The face of each element that a line names, or all their outer faces.
-   subroutine take_faces(deck, line, model, draft, elements, faces, ok)
-      type(deck_t), intent(in) :: deck
+   subroutine take_faces(line, draft, elements, faces, ok)
       type(data_line_t), intent(in) :: line
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: elements(:)
       type(face_list_t), intent(inout) :: faces
@@ -189,9 +178,9 @@ contains
       integer(ip) :: i, face
       integer :: outcome
 
-      word = token_text(deck, line_item(deck, line, 2_ip))
+      word = token_text(draft%deck, line_item(draft%deck, line, 2_ip))
       if (len(word) == 0) then
-         outer = outer_faces(model%mesh, draft%around, elements)
+         outer = outer_faces(draft%model%mesh, draft%around, elements)
          do i = 1, outer%n
             call add_face(faces, outer%element(i), outer%face(i))
          end do
@@ -201,17 +190,17 @@ contains
       call read_integer(word(2:), face, outcome)       ! S1..S4, checked by the reader
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(draft%refinement, elements(i), face)) cycle
-         if (is_outer_face(model%mesh, draft%around, elements(i), face)) then
+         if (is_outer_face(draft%model%mesh, draft%around, elements(i), face)) then
             call add_face(faces, elements(i), face)
          else
-            call add_number(inside, model%mesh%element_id(elements(i)))
+            call add_number(inside, draft%model%mesh%element_id(elements(i)))
          end if
       end do
       ok = inside%n == 0
       if (ok) return
-      call report_error(deck, line_item(deck, line, 2_ip), 'E-FACE', 'face '//word//' lies inside the mesh, of element '// &
-                        ids_text(numbers_of(inside)), expected='faces on the outline of the body; without a face, all of them', &
-                        keyword='SURFACE')
+      call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-FACE', 'face '//word// &
+                        ' lies inside the mesh, of element '//ids_text(numbers_of(inside)), &
+                        expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
    end subroutine take_faces
 
    !> START, LINE and CIRCL.
@@ -326,26 +315,24 @@ contains
    end function has_length
 
    !> *RIGID BODY.
-   subroutine read_rigid_body_card(deck, card, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine read_rigid_body_card(card, draft)
       type(card_t), intent(in) :: card
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(token_t) :: place
       character(len=:), allocatable :: name
       integer(ip) :: i
       logical :: found
 
-      call option_text(deck, card, 'ANALYTICAL SURFACE', name, found, place)
+      call option_text(draft%deck, card, 'ANALYTICAL SURFACE', name, found, place)
       if (.not. found) return
       i = find_name(draft%surface_names, name)
       if (i == 0) then
-         call report_unknown(deck, draft, place, 'surface', 'E-SURFACE', draft%surface_names, 'RIGID BODY')
-      else if (model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
-         call report_error(deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
+         call report_unknown(draft, place, 'surface', 'E-SURFACE', draft%surface_names, 'RIGID BODY')
+      else if (draft%model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
+         call report_error(draft%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
       else
-         model%surfaces(i)%is_rigid_body = .true.
+         draft%model%surfaces(i)%is_rigid_body = .true.
          return
       end if
       draft%rigid_unsure = .true.

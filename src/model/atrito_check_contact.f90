@@ -1,18 +1,18 @@
 !> Checks of the contact pairs: first what their surfaces are, then, in a model that is right otherwise, where their points lie.
 module atrito_check_contact
+   use atrito_average, only: least_spacing
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_draft, only: draft_t, ids_text, place_text, has_errors, is_spoiled
    use atrito_face_geometry, only: has_quarter_node
-   use atrito_faces, only: order_chain, chain_report_t, face_list_t, face_normal
+   use atrito_faces, only: chain_report_t, face_list_t, face_normal
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_pairing, only: pairing_t, prepare_pairing, pair_points
    use atrito_points, only: contact_points_t
-   use atrito_sorting, only: sorted_places
+   use atrito_sorting, only: sorted_places, each_once
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -23,7 +23,8 @@ module atrito_check_contact
    !> What the checks of the pairs share: thousands of pairs may have surfaces in common.
    type :: pairs_draft_t
       integer(ip), allocatable :: first_of(:)          !< (pairs) the first one of the same two surfaces
-      logical, allocatable :: is_ordered(:)            !< (surfaces) it is a slave, and its faces stand in their order
+      type(chain_report_t), allocatable :: chains(:)   !< (surfaces)
+      logical, allocatable :: is_judged(:)             !< (surfaces) it was the slave of an earlier pair
       integer(ip), allocatable :: first(:), face(:)    !< face(first(i):first(i + 1) - 1): the faces of masters at node i
       integer(ip), allocatable :: surface_of(:)        !< the surface of such a face
    end type pairs_draft_t
@@ -32,19 +33,20 @@ module atrito_check_contact
 
 contains
 
-   !> What can be told of each pair without looking for its points. Slave surfaces are put into the order of their chain.
-   subroutine check_surfaces_of_pairs(deck, model, draft)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   !> What can be told of each pair without looking for its points.
+   subroutine check_surfaces_of_pairs(model, draft, chains)
+      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
+      type(chain_report_t), intent(in) :: chains(:)    !< of each surface
       type(pairs_draft_t) :: known
       integer(ip) :: i
 
       known%first_of = first_of_each(model%pairs)
-      allocate (known%is_ordered(size(model%surfaces)), source=.false.)
+      known%chains = chains
+      allocate (known%is_judged(size(model%surfaces)), source=.false.)
       call list_masters(model, known)
       do i = 1, size(model%pairs, kind=ip)
-         call check_sides(deck, model, draft, i, known)
+         call check_sides(model, draft, i, known)
       end do
    end subroutine check_surfaces_of_pairs
 
@@ -95,9 +97,8 @@ contains
       call list_holders(model%mesh%n_nodes, nodes, known%first, known%face)
    end subroutine list_masters
 
-   subroutine check_sides(deck, model, draft, i, known)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine check_sides(model, draft, i, known)
+      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i
       type(pairs_draft_t), intent(inout) :: known
@@ -106,60 +107,56 @@ contains
       slave = model%pairs(i)%slave
       master = model%pairs(i)%master
       if (slave == master) then
-         call report_error(deck, draft%masters(i), 'E-PAIR', 'slave and master are the same surface', &
+         call report_error(draft%deck, draft%masters(i), 'E-PAIR', 'slave and master are the same surface', &
                            expected='two surfaces that face each other', keyword='CONTACT PAIR')
          return
       end if
       k = known%first_of(i)
       if (k < i) then
-         call report_error(deck, draft%slaves(i), 'E-TWICE', 'this pair is given twice, first in '// &
-                           place_text(deck, draft%slaves(k), draft%slaves(i)), expected='each pair of surfaces once', &
-                           keyword='CONTACT PAIR')
+         call report_error(draft%deck, draft%slaves(i), 'E-TWICE', 'this pair is given twice, first in '//place_text(draft%deck, &
+                                   draft%slaves(k), draft%slaves(i)), expected='each pair of surfaces once', keyword='CONTACT PAIR')
          return
       end if
-      call check_slave(deck, model, draft, slave, draft%slaves(i), known%is_ordered(slave))
-      call check_master(deck, model, draft, master, draft%masters(i))
+      call check_slave(model, draft, slave, draft%slaves(i), known)
+      call check_master(model, draft, master, draft%masters(i))
       if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
-         call check_shared_nodes(deck, model, slave, master, draft%masters(i), known)
+         call check_shared_nodes(draft%deck, model, slave, master, draft%masters(i), known)
       end if
    end subroutine check_sides
 
-   subroutine check_slave(deck, model, draft, i, place, is_ordered)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(inout) :: model
+   subroutine check_slave(model, draft, i, place, known)
+      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i                     !< the slave's surface
       type(token_t), intent(in) :: place
-      logical, intent(inout) :: is_ordered             !< it was the slave of an earlier pair
-      type(chain_report_t) :: report
+      type(pairs_draft_t), intent(inout) :: known
 
-      associate (surface => model%surfaces(i))
+      associate (surface => model%surfaces(i), report => known%chains(i))
          if (is_spoiled(draft, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
-            call report_error(deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
+            call report_error(draft%deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
                               expected='a surface of element faces as slave; the rigid surface is the master', &
                               keyword='CONTACT PAIR')
             return
          else if (surface%faces%n == 0) then
-            call report_no_faces(deck, place, surface%name)
+            call report_no_faces(draft%deck, place, surface%name)
             return
          end if
-         if (is_ordered) return
-         call order_chain(model%mesh, surface%faces, report)
-         is_ordered = .true.
+         if (known%is_judged(i)) return
+         known%is_judged(i) = .true.
          if (has_errors()) return            ! the chain may be broken by what was told already
          if (report%branch_node > 0) then
-            call report_error(deck, place, 'E-CHAIN', 'the slave branches at node '// &
+            call report_error(draft%deck, place, 'E-CHAIN', 'the slave branches at node '// &
                               to_text(model%mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
                               keyword='CONTACT PAIR')
          else if (report%loose_face > 0) then
-            call report_error(deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
+            call report_error(draft%deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
                               to_text(surface%faces%face(report%loose_face))//' of element '// &
                               to_text(model%mesh%element_id(surface%faces%element(report%loose_face)))// &
-                              ' does not continue the others', &
-                              expected='one connected chain of faces; otherwise a pair for each', keyword='CONTACT PAIR')
+                              ' does not continue the others', expected='one connected chain of faces; otherwise a pair for each', &
+                              keyword='CONTACT PAIR')
          end if
-         call check_middles(deck, model%mesh, surface%faces, place)
+         call check_middles(draft%deck, model%mesh, surface%faces, place)
       end associate
    end subroutine check_slave
 
@@ -183,8 +180,7 @@ contains
                                             keyword='CONTACT PAIR')
    end subroutine check_middles
 
-   subroutine check_master(deck, model, draft, i, place)
-      type(deck_t), intent(in) :: deck
+   subroutine check_master(model, draft, i, place)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(ip), intent(in) :: i                     !< the master's surface
@@ -194,10 +190,10 @@ contains
          if (is_spoiled(draft, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
             if (surface%is_rigid_body .or. (draft%rigid_unsure .and. has_errors())) return
-            call report_error(deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
+            call report_error(draft%deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
                               expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
          else if (surface%faces%n == 0) then
-            call report_no_faces(deck, place, surface%name)
+            call report_no_faces(draft%deck, place, surface%name)
          end if
       end associate
    end subroutine check_master
@@ -231,7 +227,7 @@ contains
          end do
       end associate
       if (shared%n > 0) call report_error(deck, place, 'E-PAIR', 'slave and master share node '// &
-                                          ids_text(model%mesh%node_id(rising(numbers_of(shared)))), &
+                                          ids_text(model%mesh%node_id(each_once(numbers_of(shared)))), &
                                           expected='surfaces of different bodies, each with its own nodes', &
                                           keyword='CONTACT PAIR')
    end subroutine check_shared_nodes
@@ -248,21 +244,8 @@ contains
       end do
    end function is_on
 
-   !> Numbers in rising order, each once.
-   pure function rising(numbers) result(once)
-      integer(ip), intent(in) :: numbers(:)
-      integer(ip), allocatable :: once(:)
-      logical :: is_new(size(numbers))
-
-      once = numbers(sorted_places(int(numbers, lp)))
-      is_new = .true.
-      is_new(2:) = once(2:) > once(:size(once) - 1)
-      once = pack(once, is_new)
-   end function rising
-
    !> Tells of interactions that no pair has; for models without any error.
-   subroutine note_unused_interactions(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine note_unused_interactions(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       logical :: is_used(size(model%interactions))
@@ -272,29 +255,24 @@ contains
       is_used(model%pairs%interaction) = .true.
       do i = 1, size(model%interactions, kind=ip)
          if (is_used(i)) cycle
-         call report_note(deck, draft%interactions(i), 'N-UNUSED', &
-                          'no contact pair uses the surface interaction '//model%interactions(i)%name, keyword='CONTACT PAIR')
+         call report_note(draft%deck, draft%interactions(i), 'N-UNUSED', 'no contact pair uses the surface interaction '// &
+                          model%interactions(i)%name, keyword='CONTACT PAIR')
       end do
    end subroutine note_unused_interactions
 
-   !> Places the points of each pair; for models without any error.
-   subroutine check_points_of_pairs(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   !> Judges the points of each pair; for models without any error.
+   subroutine check_points_of_pairs(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
-      type(pairing_t) :: pairing
-      type(contact_points_t) :: points
       logical :: is_judged(size(model%interactions))         ! its radius, too small for some points, was told of
       integer(ip) :: i
 
-      call prepare_pairing(model, pairing)
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
-         call pair_points(model, pairing, i, points)
-         if (points%n == 0) then
-            call report_blind(deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, draft%slaves(i))
+         if (model%points(i)%n == 0) then
+            call report_blind(draft%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, draft%slaves(i))
          else
-            call judge_points(deck, draft, model, i, points, is_judged(model%pairs(i)%interaction))
+            call judge_points(draft, model, i, model%points(i), is_judged(model%pairs(i)%interaction))
          end if
       end do
    end subroutine check_points_of_pairs
@@ -315,23 +293,22 @@ contains
                         'at its left', keyword='CONTACT PAIR')
    end subroutine report_blind
 
-   subroutine judge_points(deck, draft, model, i, points, is_judged)
-      type(deck_t), intent(in) :: deck
+   subroutine judge_points(draft, model, i, points, is_judged)
       type(draft_t), intent(in) :: draft
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
       type(contact_points_t), intent(in) :: points
       logical, intent(inout) :: is_judged              !< of the interaction
 
-      if (points%n_left_out > 0) call report_note(deck, draft%slaves(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
+      if (points%n_left_out > 0) call report_note(draft%deck, draft%slaves(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
                to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
       if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) then
-         call report_error(deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides '//of_pair(model, i)// &
+         call report_error(draft%deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides '//of_pair(model, i)// &
                            'do not match, and MORTAR, the quadrature for such sides, is not built yet', &
                            expected='QUADRATURE=NODAL, or sides whose nodes face each other', keyword='CONTACT PAIR')
       end if
-      if (.not. is_judged) call judge_radius(deck, draft%interactions(model%pairs(i)%interaction), &
-                                             model%interactions(model%pairs(i)%interaction), least_spacing(points), is_judged)
+      if (.not. is_judged) call judge_radius(draft%deck, draft%interactions(model%pairs(i)%interaction), &
+                                             model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)
    end subroutine judge_points
 
    !> What a pair is called that the deck does not give; '' for one that it gives.
@@ -365,15 +342,5 @@ contains
          is_told = .true.
       end if
    end subroutine judge_radius
-
-   pure real(wp) function least_spacing(points) result(least)
-      type(contact_points_t), intent(in) :: points
-      integer(ip) :: i
-
-      least = huge(least)
-      do i = 2, points%n
-         least = min(least, norm2(points%x(:, i) - points%x(:, i - 1)))
-      end do
-   end function least_spacing
 
 end module atrito_check_contact

@@ -1,7 +1,6 @@
 !> Elements that have an edge in common have all nodes of it in common: four-node beside nine-node elements, or large ones of nine
 !> nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes.
 module atrito_check_edges
-   use atrito_deck, only: deck_t
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, place_token, ids_text
    use atrito_kinds, only: ip
@@ -15,8 +14,7 @@ module atrito_check_edges
 contains
 
    !> Reports the elements that do not fit their neighbours, all in one message.
-   subroutine check_edges(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine check_edges(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       logical, allocatable :: misfit(:)
@@ -33,8 +31,8 @@ contains
       do e = first, model%mesh%n_elements
          if (misfit(e)) call add_number(ids, model%mesh%element_id(e))
       end do
-      call report_error(deck, place_token(deck, draft%element_place(first)), 'E-EDGE', 'element '//ids_text(numbers_of(ids))// &
-                        ' and a neighbour share nodes of an edge, but not all of them', &
+      call report_error(draft%deck, place_token(draft%deck, draft%element_place(first)), 'E-EDGE', 'element '// &
+                        ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
                         expected='elements of one order and size on both sides of an edge (CPE4 or CPE9, CPS4 or CPS9), '// &
                         'or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges

@@ -4,7 +4,7 @@ module atrito_check_mesh
    use atrito_check_shapes, only: check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
-   use atrito_draft, only: draft_t, place_token, ids_text, has_errors, is_spoiled
+   use atrito_draft, only: draft_t, place_token, ids_text, has_errors
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: PLANE_STRAIN, Q1_NODES, Q2_NODES
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
@@ -22,27 +22,25 @@ module atrito_check_mesh
 contains
 
    !> Reports what is wrong with the mesh of a model whose cards have all been read.
-   subroutine check_mesh(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine check_mesh(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
 
       if (model%mesh%n_elements == 0) then
-         if (.not. has_errors()) call report_deck_error(deck, 'E-EMPTY', 'the deck has no elements', &
+         if (.not. has_errors()) call report_deck_error(draft%deck, 'E-EMPTY', 'the deck has no elements', &
                                                         expected='*ELEMENT or *BLOCK', keyword='BLOCK')
          return
       end if
-      call check_shapes(deck, model%mesh, draft)
-      if (.not. is_refined(draft%refinement)) call check_edges(deck, model, draft)
-      call check_sections(deck, model, draft)
-      call check_materials(deck, model, draft)
-      call note_formulations(deck, model, draft)
-      call note_loose_nodes(deck, model, draft)
+      call check_shapes(model%mesh, draft)
+      if (.not. is_refined(draft%refinement)) call check_edges(model, draft)
+      call check_sections(model, draft)
+      call check_materials(model, draft)
+      call note_formulations(model, draft)
+      call note_loose_nodes(model, draft)
    end subroutine check_mesh
 
    !> Every element has a section.
-   subroutine check_sections(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine check_sections(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(number_list_t) :: without
@@ -57,14 +55,13 @@ contains
          call add_number(without, model%mesh%element_id(e))
       end do
       if (first == 0) return
-      place = place_token(deck, draft%element_place(first))
-      call report_error(deck, place, 'E-SECTION', 'no *SOLID SECTION for element '//ids_text(numbers_of(without)), &
+      place = place_token(draft%deck, draft%element_place(first))
+      call report_error(draft%deck, place, 'E-SECTION', 'no *SOLID SECTION for element '//ids_text(numbers_of(without)), &
                         expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
    end subroutine check_sections
 
    !> Materials in use have their constants, which fit the elements.
-   subroutine check_materials(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine check_materials(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       logical, dimension(size(model%materials)) :: strained, locks, oscillates
@@ -89,11 +86,11 @@ contains
          associate (material => model%materials(i))
             if (.not. draft%elastic_given(i)) then
                if (.not. (draft%elastic_spoiled(i) .and. has_errors())) then
-                  call report_error(deck, draft%materials(i), 'E-MATERIAL', 'material '//material%name//' has no *ELASTIC', &
+                  call report_error(draft%deck, draft%materials(i), 'E-MATERIAL', 'material '//material%name//' has no *ELASTIC', &
                                     expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
                end if
             else if (strained(i) .and. .not. draft%elastic_spoiled(i)) then
-               call check_strained(deck, material%poisson, locks(i), oscillates(i), draft%poisson(i))
+               call check_strained(draft%deck, material%poisson, locks(i), oscillates(i), draft%poisson(i))
             end if
          end associate
       end do
@@ -121,8 +118,7 @@ contains
    end subroutine check_strained
 
    !> BBAR is for four nodes in plane strain; elsewhere it changes nothing, which is told once a section.
-   subroutine note_formulations(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine note_formulations(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(number_list_t), allocatable :: elements(:)  ! of each section, those that it is not for
@@ -138,14 +134,13 @@ contains
       end do
       do i = 1, size(model%sections, kind=ip)
          if (elements(i)%n == 0) cycle
-         call report_note(deck, draft%sections(i), 'N-FORMULATION', 'FORMULATION=BBAR changes nothing in element '// &
+         call report_note(draft%deck, draft%sections(i), 'N-FORMULATION', 'FORMULATION=BBAR changes nothing in element '// &
                           ids_text(numbers_of(elements(i)))//' of set '//model%sections(i)%elset// &
                           ': it is for four nodes in plane strain', expected='CPE4 elements', keyword='SOLID SECTION')
       end do
    end subroutine note_formulations
 
-   subroutine note_loose_nodes(deck, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine note_loose_nodes(model, draft)
       type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(number_list_t) :: loose
@@ -158,7 +153,7 @@ contains
          call add_number(loose, model%mesh%node_id(i))
       end do
       if (first == 0 .or. has_errors()) return
-      call report_note(deck, place_token(deck, draft%node_place(first)), 'N-NODE', 'node '// &
+      call report_note(draft%deck, place_token(draft%deck, draft%node_place(first)), 'N-NODE', 'node '// &
                        ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
    end subroutine note_loose_nodes
 

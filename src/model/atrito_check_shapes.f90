@@ -25,8 +25,7 @@ module atrito_check_shapes
 
 contains
 
-   subroutine check_shapes(deck, mesh, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine check_shapes(mesh, draft)
       type(mesh_t), intent(in) :: mesh
       type(draft_t), intent(in) :: draft
       logical, allocatable :: good(:)                  !< (runs of elements)
@@ -47,12 +46,12 @@ contains
             call judge_shape(mesh, e, shape, node)
             if (shape == SHAPE_GOOD) cycle
             n = n + 1
-            if (n <= MOST_ERRORS) call report_shape(deck, mesh, e, shape, node, place_token(deck, draft%element_place(e)))
+            if (n <= MOST_ERRORS) call report_shape(draft%deck, mesh, e, shape, node, place_token(draft%deck, &
+                                                                                                  draft%element_place(e)))
          end do
       end do
-      if (n > MOST_ERRORS) call report_deck_error(deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &
-                                                  ' further elements are clockwise or degenerate', &
-                                                  expected='corners counter-clockwise', keyword='ELEMENT')
+      if (n > MOST_ERRORS) call report_deck_error(draft%deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &
+                           ' further elements are clockwise or degenerate', expected='corners counter-clockwise', keyword='ELEMENT')
    end subroutine check_shapes
 
    !> Whether some elements, one after the other, all have a good shape.

@@ -1,6 +1,7 @@
 !> Which points of a few lie on points of many.
 module atrito_coincidence
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_sorting, only: sorted_places, first_at_least, order_key
    implicit none (type, external)
    private
    public :: match_points
@@ -14,7 +15,7 @@ contains
       real(wp), intent(in) :: reach           !< [L], >= 0
       integer(ip) :: match(size(points, 2))
       integer(ip), allocatable :: near(:)
-      real(wp), allocatable :: key(:)
+      integer(lp), allocatable :: key(:)
       real(wp) :: low(2), high(2)
       integer(ip) :: i, k, n
 
@@ -26,10 +27,10 @@ contains
                   others(2, :) >= low(2) .and. others(2, :) <= high(2))
       n = size(near, kind=ip)
       k = merge(1_ip, 2_ip, high(1) - low(1) >= high(2) - low(2))
-      call sort_by(others(k, :), near)
-      key = others(k, near)
+      near = near(sorted_places(order_key(others(k, near))))
+      key = order_key(others(k, near))
       do i = 1, size(points, 2, kind=ip)
-         match(i) = nearest_of(points(:, i), others, near, first_at_least(key, points(k, i) - reach), k, reach)
+         match(i) = nearest_of(points(:, i), others, near, first_at_least(key, order_key(points(k, i) - reach)), k, reach)
       end do
    end function match_points
 
@@ -51,61 +52,5 @@ contains
          match = near(i)
       end do
    end function nearest_of
-
-   pure integer(ip) function first_at_least(key, bound) result(low)
-      real(wp), intent(in) :: key(:)          !< rising
-      real(wp), intent(in) :: bound
-      integer(ip) :: high, middle
-
-      low = 1
-      high = size(key, kind=ip) + 1
-      do while (low < high)
-         middle = (low + high)/2
-         if (key(middle) < bound) then
-            low = middle + 1
-         else
-            high = middle
-         end if
-      end do
-   end function first_at_least
-
-   !> Heap sort of places by their key.
-   pure subroutine sort_by(key, places)
-      real(wp), intent(in) :: key(:)
-      integer(ip), intent(inout) :: places(:)
-      integer(ip) :: i, n, held
-
-      n = size(places, kind=ip)
-      do i = n/2, 1, -1
-         call sift_down(key, places, i, n)
-      end do
-      do i = n, 2, -1
-         held = places(1)
-         places(1) = places(i)
-         places(i) = held
-         call sift_down(key, places, 1_ip, i - 1)
-      end do
-   end subroutine sort_by
-
-   pure subroutine sift_down(key, places, top, n)
-      real(wp), intent(in) :: key(:)
-      integer(ip), intent(inout) :: places(:)
-      integer(ip), intent(in) :: top, n
-      integer(ip) :: i, child, held
-
-      i = top
-      held = places(i)
-      do
-         child = 2*i
-         if (child > n) exit
-         if (child < n) then
-            if (key(places(child + 1)) > key(places(child))) child = child + 1
-         end if
-         if (key(places(child)) <= key(held)) exit
-         places(i) = places(child)
-         i = child
-      end do
-      places(i) = held
-   end subroutine sift_down
 
 end module atrito_coincidence

@@ -1,15 +1,19 @@
-!> What the builders share while a model grows and nobody needs afterwards: places in the deck, and which names and numbers an
-!> error has spoiled.
+!> What the builders share while a model grows: the deck, the model so far, and what nobody needs afterwards: places in the deck, and
+!> which names and numbers an error has spoiled.
 !>
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_draft
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
    use atrito_faces, only: node_elements_t
+   use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id
+   use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
-   use atrito_name_list, only: name_list_t, add_name, has_name
+   use atrito_model, only: model_t
+   use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
    use atrito_strings, only: same_name, to_text
@@ -17,7 +21,7 @@ module atrito_draft
    private
    public :: draft_t, block_t, BLOCK_SIDES
    public :: prepare_draft, add_draft_block, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, is_unsure, has_errors
-   public :: place_token, place_text, note_place, note_places, keep_token, count_cards, ids_text
+   public :: place_token, place_text, note_place, note_places, keep_token, define_name, count_cards, ids_text
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
    character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
@@ -35,6 +39,8 @@ module atrito_draft
    end type block_t
 
    type :: draft_t
+      type(deck_t), pointer :: deck => null()
+      type(model_t), pointer :: model => null()        !< so far
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(name_list_t) :: spoiled                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
@@ -66,10 +72,11 @@ contains
 
    !> Begins a draft: the names and numbers that faulty cards would have defined are spoiled.
    subroutine prepare_draft(deck, draft)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(in), target :: deck
       type(draft_t), intent(out) :: draft
       integer(ip) :: i
 
+      draft%deck => deck
       allocate (draft%blocks(64), draft%set_card(0))
       allocate (draft%node_place(64), draft%element_place(64))
       allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
@@ -78,10 +85,10 @@ contains
       allocate (draft%block_of_card(deck%n_cards), source=0_ip)
       if (.not. has_errors()) return
       do i = 1, deck%n_cards
-         call note_nameless(deck, deck%cards(i), draft)
+         call note_nameless(deck%cards(i), draft)
          if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
-         call spoil_options(deck, deck%cards(i), draft)
-         if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck, deck%cards(i), draft)
+         call spoil_options(deck%cards(i), draft)
+         if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck%cards(i), draft)
       end do
    end subroutine prepare_draft
 
@@ -102,24 +109,23 @@ contains
    end subroutine add_draft_block
 
    !> A definition without its name, or with one that cannot be read: any unknown name may be the one that was meant.
-   subroutine note_nameless(deck, card, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine note_nameless(card, draft)
       type(card_t), intent(in) :: card
       type(draft_t), intent(inout) :: draft
 
       select case (keyword_name(card))
       case ('MATERIAL')
-         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'material')
+         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'material')
       case ('SURFACE INTERACTION')
-         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'surface interaction')
+         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'surface interaction')
       case ('SURFACE')
-         if (is_nameless(deck, card, 'NAME')) call note_unsure(draft, 'surface')
+         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'surface')
       case ('NSET')
-         if (is_nameless(deck, card, 'NSET')) call note_unsure(draft, 'node set')
+         if (is_nameless(draft%deck, card, 'NSET')) call note_unsure(draft, 'node set')
       case ('ELSET')
-         if (is_nameless(deck, card, 'ELSET')) call note_unsure(draft, 'element set')
+         if (is_nameless(draft%deck, card, 'ELSET')) call note_unsure(draft, 'element set')
       case ('BLOCK')
-         if (.not. is_nameless(deck, card, 'ELSET')) return
+         if (.not. is_nameless(draft%deck, card, 'ELSET')) return
          call note_unsure(draft, 'node set')
          call note_unsure(draft, 'earlier node set')
          call note_unsure(draft, 'element set')
@@ -156,8 +162,7 @@ contains
       has_control = any([(iachar(name(i:i)) < iachar(' '), i=1, len(name))])
    end function has_control
 
-   subroutine spoil_options(deck, card, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_options(card, draft)
       type(card_t), intent(in) :: card
       type(draft_t), intent(inout) :: draft
       character(len=:), allocatable :: name
@@ -165,27 +170,26 @@ contains
 
       if (.not. allocated(card%options)) return
       do i = 1, size(card%options)
-         name = token_text(deck, card%options(i)%name)
+         name = token_text(draft%deck, card%options(i)%name)
          if (len(keyword_name(card)) == 0) then
             if (same_name(name, 'MATERIAL')) draft%sections_unsure = .true.
             if (same_name(name, 'INTERACTION')) draft%pairs_unsure = .true.
          end if
          if (.not. card%options(i)%has_value) cycle
-         if (.not. is_empty_token(card%options(i)%value)) call spoil_name(draft, token_text(deck, card%options(i)%value))
+         if (.not. is_empty_token(card%options(i)%value)) call spoil_name(draft, token_text(draft%deck, card%options(i)%value))
       end do
    end subroutine spoil_options
 
    !> What an unknown keyword would have defined begins each of its lines.
-   subroutine spoil_numbers(deck, card, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_numbers(card, draft)
       type(card_t), intent(in) :: card
       type(draft_t), intent(inout) :: draft
       integer(ip) :: i
 
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (deck%lines(i)%n_tokens == 0) cycle
-         call spoil_node(deck, deck%lines(i), draft)
-         call spoil_element(deck, deck%lines(i), draft)
+         if (draft%deck%lines(i)%n_tokens == 0) cycle
+         call spoil_node(draft%deck%lines(i), draft)
+         call spoil_element(draft%deck%lines(i), draft)
       end do
    end subroutine spoil_numbers
 
@@ -215,21 +219,19 @@ contains
    end subroutine spoil_name
 
    !> Passes over, in silence, all that refers to the node with which a data line begins.
-   subroutine spoil_node(deck, line, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_node(line, draft)
       type(data_line_t), intent(in) :: line
       type(draft_t), intent(inout) :: draft
 
-      call spoil_id(deck, line, draft%spoiled_nodes)
+      call spoil_id(draft%deck, line, draft%spoiled_nodes)
    end subroutine spoil_node
 
    !> As spoil_node for an element.
-   subroutine spoil_element(deck, line, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine spoil_element(line, draft)
       type(data_line_t), intent(in) :: line
       type(draft_t), intent(inout) :: draft
 
-      call spoil_id(deck, line, draft%spoiled_elements)
+      call spoil_id(draft%deck, line, draft%spoiled_elements)
    end subroutine spoil_element
 
    subroutine spoil_id(deck, line, map)
@@ -321,13 +323,8 @@ contains
    pure subroutine note_place(places, i, place)
       integer(ip), allocatable, intent(inout) :: places(:)
       integer(ip), intent(in) :: i, place
-      integer(ip), allocatable :: longer(:)
 
-      if (i > size(places)) then
-         allocate (longer(max(i, 2*size(places, kind=ip))))
-         longer(:size(places)) = places
-         call move_alloc(longer, places)
-      end if
+      call make_room(places, size(places, kind=ip), i)
       places(i) = place
    end subroutine note_place
 
@@ -346,15 +343,39 @@ contains
       type(token_t), allocatable, intent(inout) :: list(:)
       integer(ip), intent(in) :: i
       type(token_t), intent(in) :: token
-      type(token_t), allocatable :: longer(:)
 
-      if (i > size(list)) then
-         allocate (longer(max(i, 2*size(list, kind=ip))))
-         longer(:size(list)) = list
-         call move_alloc(longer, list)
-      end if
+      ! the second half is written over
+      do while (i > size(list))
+         list = [list, list, token]
+      end do
       list(i) = token
    end subroutine keep_token
+
+   !> The name that a card defines becomes the last of a list, unless it is there already, which is reported.
+   subroutine define_name(deck, card, noun, names, places, name, i)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: noun             !< what is defined, e.g. 'material'
+      type(name_list_t), intent(inout) :: names        !< of all that there are
+      type(token_t), allocatable, intent(inout) :: places(:) !< where they are defined
+      character(len=:), allocatable, intent(out) :: name
+      integer(ip), intent(out) :: i                    !< its place; 0: it cannot be defined
+      type(token_t) :: place
+      logical :: found
+
+      i = 0
+      call option_text(deck, card, 'NAME', name, found, place)
+      if (.not. found) return
+      if (has_name(names, name)) then
+         call report_error(deck, place, 'E-TWICE', noun//' '//name//' is defined twice, first in '// &
+                           place_text(deck, places(find_name(names, name)), place), &
+                           expected='a name that no other '//noun//' has', keyword=keyword_name(card))
+         return
+      end if
+      call add_name(names, name)
+      i = names%n
+      call keep_token(places, i, place)
+   end subroutine define_name
 
    !> How many cards of a keyword a deck has: as many things as they can make at most.
    pure integer(ip) function count_cards(deck, keyword) result(n)

@@ -1,6 +1,7 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
 module atrito_model
    use atrito_kinds, only: ip, wp
+   use atrito_points, only: contact_points_t
    use atrito_strings, only: string_t
    use atrito_mesh, only: mesh_t
    use atrito_sets, only: set_list_t
@@ -9,7 +10,7 @@ module atrito_model
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    implicit none (type, external)
    private
-   public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, prescribed_t, node_load_t, element_load_t
+   public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
    public :: controls_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
@@ -68,19 +69,12 @@ module atrito_model
       integer(ip) :: outline = 0    !< of *CONTACT: the same for slaves that continue each other, which S_rho does not cut; 0: none
    end type pair_t
 
-   !> Prescribed displacements, one dof each.
-   type :: prescribed_t
+   !> Values at single dofs: prescribed displacements [L], or forces [F] for the whole thickness.
+   type :: nodal_values_t
       integer(ip) :: n = 0
       integer(ip), allocatable :: node(:), dof(:)   !< dof 1 or 2
-      real(wp), allocatable :: value(:)             !< [L]
-   end type prescribed_t
-
-   !> Concentrated loads [F], for the whole thickness; several on one dof add up.
-   type :: node_load_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: node(:), dof(:)
       real(wp), allocatable :: value(:)
-   end type node_load_t
+   end type nodal_values_t
 
    !> Loads on elements; several add up.
    type :: element_load_t
@@ -91,11 +85,14 @@ module atrito_model
       real(wp), allocatable :: value(:, :)          !< (2, n): pressure [F/L^2] in value(1), or force per volume [F/L^3]
    end type element_load_t
 
+   !> Of the outer iteration. A deck gives the first four.
    type :: controls_t
       integer(ip) :: method = METHOD_ANDERSON
       real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
       integer(ip) :: max_iterations = 100           !< outer iterations
       real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
+      logical :: is_coarse = .false.                !< box_problem_t%is_coarse: states that round-off turns to and fro
+      real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
    end type controls_t
 
    !> Nodes, elements and contact that were asked for.
@@ -130,8 +127,9 @@ module atrito_model
       type(surface_t), allocatable :: surfaces(:)
       type(interaction_t), allocatable :: interactions(:)
       type(pair_t), allocatable :: pairs(:)
-      type(prescribed_t) :: prescribed              !< each dof once
-      type(node_load_t) :: node_loads
+      type(contact_points_t), allocatable :: points(:) !< of each pair
+      type(nodal_values_t) :: prescribed            !< each dof once
+      type(nodal_values_t) :: node_loads            !< several on one dof add up
       type(element_load_t) :: element_loads
       type(controls_t) :: controls
       type(requests_t) :: requests

@@ -1,11 +1,10 @@
 !> Whether the machine can hold a mesh, asked before it is made.
 module atrito_model_memory
-   use atrito_deck, only: deck_t, token_t
+   use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: lp
    use atrito_memory, only: memory_text
-   use atrito_model, only: model_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -25,20 +24,18 @@ contains
    end function mesh_bytes
 
    !> False, and an error, when the mesh with some more nodes and elements needs more memory than there is.
-   logical function fits_memory(deck, place, model, draft, new_nodes, new_elements, keyword) result(fits)
-      type(deck_t), intent(in) :: deck
+   logical function fits_memory(place, draft, new_nodes, new_elements, keyword) result(fits)
       type(token_t), intent(in) :: place               !< of the item or keyword that asks for them; source 0: none
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       integer(lp), intent(in) :: new_nodes, new_elements
       character(len=*), intent(in), optional :: keyword
       integer(lp) :: n_nodes, n_elements
 
-      n_nodes = new_nodes + int(model%mesh%n_nodes, lp)
-      n_elements = new_elements + int(model%mesh%n_elements, lp)
+      n_nodes = new_nodes + int(draft%model%mesh%n_nodes, lp)
+      n_elements = new_elements + int(draft%model%mesh%n_elements, lp)
       fits = mesh_bytes(n_nodes, n_elements) <= draft%memory
       if (fits) return
-      call report_error(deck, place, 'E-MEMORY', 'a mesh of '//to_text(n_nodes)//' nodes and '//to_text(n_elements)// &
+      call report_error(draft%deck, place, 'E-MEMORY', 'a mesh of '//to_text(n_nodes)//' nodes and '//to_text(n_elements)// &
                         ' elements needs about '//memory_text(mesh_bytes(n_nodes, n_elements))//' of memory, there are '// &
                         memory_text(draft%memory), expected='a coarser mesh, or a larger machine', keyword=keyword)
    end function fits_memory

@@ -1,69 +1,71 @@
-!> The points of the contact pairs of a model. What pairs share, the master of a surface and the thickness of the elements, is made
-!> once for all of them.
+!> Pairs of a model: their slaves in order, and their points.
 module atrito_pairing
-   use atrito_faces, only: face_list_t
+   use atrito_faces, only: face_list_t, chain_report_t, order_chain
    use atrito_kinds, only: ip, wp
    use atrito_master, only: master_t, master_of_faces, master_of_segments
    use atrito_model, only: model_t, SURFACE_SEGMENTS
    use atrito_points, only: contact_points_t, pair_with_master
    implicit none (type, external)
    private
-   public :: pairing_t, prepare_pairing, pair_points, element_thickness
-
-   type :: pairing_t
-      real(wp), allocatable :: thickness(:)            !< of each element [L]
-      integer(ip), allocatable :: master_of(:)         !< (surfaces) place in masters; 0: the surface is no master
-      type(master_t), allocatable :: masters(:)
-   end type pairing_t
+   public :: order_slaves, pair_all, element_thickness
 
 contains
 
-   !> What the pairs of a model share. Each has two surfaces that are what a slave and a master must be.
-   subroutine prepare_pairing(model, pairing)
-      type(model_t), intent(in) :: model
-      type(pairing_t), intent(out) :: pairing
-      integer(ip) :: i, n
+   !> Puts the faces of slaves into the order of their chains; reports: of each surface, what is wrong with its chain.
+   subroutine order_slaves(model, reports)
+      type(model_t), intent(inout) :: model
+      type(chain_report_t), allocatable, intent(out) :: reports(:)
+      logical :: is_slave(size(model%surfaces))
+      integer(ip) :: i
 
-      allocate (pairing%master_of(size(model%surfaces)), source=0_ip)
-      n = 0
-      do i = 1, size(model%pairs, kind=ip)
-         associate (place => pairing%master_of(model%pairs(i)%master))
-            if (place > 0) cycle
-            n = n + 1
-            place = n
+      is_slave = .false.
+      is_slave(model%pairs%slave) = .true.
+      allocate (reports(size(model%surfaces)))
+      do i = 1, size(model%surfaces, kind=ip)
+         associate (surface => model%surfaces(i))
+            if (.not. is_slave(i) .or. surface%kind == SURFACE_SEGMENTS .or. surface%faces%n == 0) cycle
+            call order_chain(model%mesh, surface%faces, reports(i))
          end associate
       end do
-      allocate (pairing%masters(n))
-      do i = 1, size(model%surfaces, kind=ip)
-         if (pairing%master_of(i) == 0) cycle
-         associate (surface => model%surfaces(i), master => pairing%masters(pairing%master_of(i)))
+   end subroutine order_slaves
+
+   !> The points of all pairs. Each has two surfaces that are what a slave and a master must be, the slave in its order; a master is
+   !> made once for all of its pairs.
+   subroutine pair_all(model, points)
+      type(model_t), intent(in) :: model
+      type(contact_points_t), allocatable, intent(out) :: points(:)
+      type(master_t), allocatable :: masters(:)        ! of the surfaces
+      logical :: is_master(size(model%surfaces))
+      type(face_list_t) :: no_faces
+      real(wp), allocatable :: thickness(:)
+      integer(ip) :: i
+
+      allocate (points(size(model%pairs)), masters(size(model%surfaces)))
+      if (size(points) == 0) return
+      thickness = element_thickness(model)
+      is_master = .false.
+      is_master(model%pairs%master) = .true.
+      do i = 1, size(masters, kind=ip)
+         associate (surface => model%surfaces(i))
+            if (.not. is_master(i)) cycle
             if (surface%kind == SURFACE_SEGMENTS) then
-               call master_of_segments(surface%points, master, surface%is_arc, surface%centre)
+               call master_of_segments(surface%points, masters(i), surface%is_arc, surface%centre)
             else
-               call master_of_faces(model%mesh, surface%faces, master)
+               call master_of_faces(model%mesh, surface%faces, masters(i))
             end if
          end associate
       end do
-      if (n > 0) pairing%thickness = element_thickness(model)
-   end subroutine prepare_pairing
-
-   !> The points of one pair.
-   subroutine pair_points(model, pairing, i, points)
-      type(model_t), intent(in) :: model
-      type(pairing_t), intent(in) :: pairing           !< of this model
-      integer(ip), intent(in) :: i                     !< the pair
-      type(contact_points_t), intent(out) :: points
-      type(face_list_t) :: no_faces
-
-      associate (slave => model%surfaces(model%pairs(i)%slave)%faces, surface => model%surfaces(model%pairs(i)%master), &
-                 master => pairing%masters(pairing%master_of(model%pairs(i)%master)))
-         if (surface%kind == SURFACE_SEGMENTS) then
-            call pair_with_master(model%mesh, pairing%thickness, slave, no_faces, master, points)
-         else
-            call pair_with_master(model%mesh, pairing%thickness, slave, surface%faces, master, points)
-         end if
-      end associate
-   end subroutine pair_points
+      do i = 1, size(points, kind=ip)
+         associate (slave => model%surfaces(model%pairs(i)%slave)%faces, surface => model%surfaces(model%pairs(i)%master), &
+                    master => masters(model%pairs(i)%master))
+            if (surface%kind == SURFACE_SEGMENTS) then
+               call pair_with_master(model%mesh, thickness, slave, no_faces, master, points(i))
+            else
+               call pair_with_master(model%mesh, thickness, slave, surface%faces, master, points(i))
+            end if
+         end associate
+      end do
+   end subroutine pair_all
 
    !> Thickness [L] of each element.
    pure function element_thickness(model) result(thickness)

@@ -9,7 +9,6 @@ module atrito_references
    use atrito_kinds, only: ip
    use atrito_mesh, only: find_node, find_element
    use atrito_messages, only: has_room, SEVERITY_ERROR
-   use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, names_of
    use atrito_refinement, only: fine_elements, is_refined
    use atrito_sets, only: set_list_t, find_set
@@ -37,9 +36,7 @@ contains
    end subroutine get_id
 
    !> The place of the node whose number an item is.
-   subroutine find_one_node(deck, model, draft, token, node, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
+   subroutine find_one_node(draft, token, node, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), intent(out) :: node
@@ -48,21 +45,19 @@ contains
       integer(ip) :: id
 
       node = 0
-      call get_id(deck, token, 'node number', id, ok, keyword)
+      call get_id(draft%deck, token, 'node number', id, ok, keyword)
       if (.not. ok) return
-      node = find_node(model%mesh, id)
+      node = find_node(draft%model%mesh, id)
       ok = node > 0
       if (ok) return
       if (has_errors() .and. find_id(draft%spoiled_nodes, id) > 0 .or. is_unsure(draft, 'node')) return
-      call report_error(deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
+      call report_error(draft%deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
                         expected='the number of a node that *NODE, *NGEN, *NFILL or *BLOCK defines ('// &
-                        range_text(model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
+                        range_text(draft%model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
    end subroutine find_one_node
 
    !> The place of the element whose number an item is, in the mesh of the deck.
-   subroutine find_one_element(deck, model, draft, token, element, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
+   subroutine find_one_element(draft, token, element, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), intent(out) :: element
@@ -71,19 +66,19 @@ contains
       integer(ip) :: id
 
       element = 0
-      call get_id(deck, token, 'element number', id, ok, keyword)
+      call get_id(draft%deck, token, 'element number', id, ok, keyword)
       if (.not. ok) return
       if (is_refined(draft%refinement)) then
          element = find_id(draft%deck_elements, id)
       else
-         element = find_element(model%mesh, id)
+         element = find_element(draft%model%mesh, id)
       end if
       ok = element > 0
       if (ok) return
       if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0 .or. is_unsure(draft, 'element')) return
-      call report_error(deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
+      call report_error(draft%deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
                         expected='the number of an element that *ELEMENT, *ELGEN or *BLOCK defines ('// &
-                        range_text(model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)
+                        range_text(draft%model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)
    end subroutine find_one_element
 
    pure function range_text(n, noun, greatest) result(text)
@@ -99,9 +94,7 @@ contains
    end function range_text
 
    !> The places of the nodes that an item names: a number or a node set.
-   subroutine find_nodes(deck, model, draft, token, members, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
+   subroutine find_nodes(draft, token, members, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), allocatable, intent(out) :: members(:)
@@ -109,18 +102,16 @@ contains
       character(len=*), intent(in) :: keyword
       integer(ip) :: node
 
-      if (is_id_token(deck, token)) then
-         call find_one_node(deck, model, draft, token, node, ok, keyword)
+      if (is_id_token(draft%deck, token)) then
+         call find_one_node(draft, token, node, ok, keyword)
          members = pack([node], [ok])
       else
-         call find_members(deck, model%node_sets, draft, token, 'node', members, ok, keyword)
+         call find_members(draft%model%node_sets, draft, token, 'node', members, ok, keyword)
       end if
    end subroutine find_nodes
 
    !> The places of the elements that an item names: a number or an element set.
-   subroutine find_elements(deck, model, draft, token, members, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(model_t), intent(in) :: model
+   subroutine find_elements(draft, token, members, ok, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       integer(ip), allocatable, intent(out) :: members(:)
@@ -128,17 +119,16 @@ contains
       character(len=*), intent(in) :: keyword
       integer(ip) :: element
 
-      if (is_id_token(deck, token)) then
-         call find_one_element(deck, model, draft, token, element, ok, keyword)
+      if (is_id_token(draft%deck, token)) then
+         call find_one_element(draft, token, element, ok, keyword)
          members = pack([element], [ok])
          if (is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
       else
-         call find_members(deck, model%element_sets, draft, token, 'element', members, ok, keyword)
+         call find_members(draft%model%element_sets, draft, token, 'element', members, ok, keyword)
       end if
    end subroutine find_elements
 
-   subroutine find_members(deck, list, draft, token, noun, members, ok, keyword)
-      type(deck_t), intent(in) :: deck
+   subroutine find_members(list, draft, token, noun, members, ok, keyword)
       type(set_list_t), intent(in) :: list
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
@@ -150,20 +140,19 @@ contains
       integer(ip) :: i
 
       members = [integer(ip) ::]
-      call get_name(deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
+      call get_name(draft%deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
       if (.not. ok) return
       i = find_set(list, name)
       ok = i > 0
       if (ok) then
          members = list%sets(i)%members
       else
-         call report_unknown(deck, draft, token, noun//' set', 'E-SET', list%names, keyword)
+         call report_unknown(draft, token, noun//' set', 'E-SET', list%names, keyword)
       end if
    end subroutine find_members
 
    !> An unknown name, unless an earlier error explains it.
-   subroutine report_unknown(deck, draft, token, noun, id, known, keyword)
-      type(deck_t), intent(in) :: deck
+   subroutine report_unknown(draft, token, noun, id, known, keyword)
       type(draft_t), intent(in) :: draft
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: noun             !< what should have this name, e.g. 'element set'
@@ -172,15 +161,15 @@ contains
       character(len=*), intent(in) :: keyword
       character(len=:), allocatable :: expected
 
-      if (is_spoiled(draft, token_text(deck, token)) .or. is_unsure(draft, noun)) return
+      if (is_spoiled(draft, token_text(draft%deck, token)) .or. is_unsure(draft, noun)) return
       expected = 'name of '//article(noun)//noun//' of this deck'
       if (known%n == 0) expected = expected//'; there is none'
       if (has_room(SEVERITY_ERROR)) then
-         call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token), expected=expected, &
+         call report_error(draft%deck, token, id, 'unknown '//noun//' '//token_text(draft%deck, token), expected=expected, &
                            known=names_of(known), keyword=keyword)
       else
          ! it is only counted: no need to list the names that there are
-         call report_error(deck, token, id, 'unknown '//noun//' '//token_text(deck, token))
+         call report_error(draft%deck, token, id, 'unknown '//noun//' '//token_text(draft%deck, token))
       end if
    end subroutine report_unknown
 

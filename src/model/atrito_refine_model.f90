@@ -2,13 +2,12 @@
 !> read afterwards and follow them.
 module atrito_refine_model
    use atrito_build_nodes, only: MOST_NODES
-   use atrito_deck, only: deck_t, token_t
+   use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
-   use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
    use atrito_sets, only: set_count
@@ -21,65 +20,62 @@ contains
 
    !> Replaces the mesh, and the members of all sets. A mesh that would be too large is reported and left as it is. Of a nine-node
    !> element come four of four nodes, on the same nodes; of one of four nodes comes one of nine.
-   subroutine refine_model(deck, levels, shape, model, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine refine_model(levels, shape, draft)
       integer(ip), intent(in) :: levels                !< >= 0; each quadrilateral into 4**levels
       integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES for all elements; 0: their own
-      type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(mesh_t) :: coarse
       integer(ip) :: i, pieces
 
       pieces = 2**levels
-      if (shape == Q1_NODES .and. any(model%mesh%shape == Q2_NODES)) then
+      if (shape == Q1_NODES .and. any(draft%model%mesh%shape == Q2_NODES)) then
          pieces = 2*pieces
-         if (any(model%mesh%shape == Q1_NODES)) then
-            call report_deck_error(deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
+         if (any(draft%model%mesh%shape == Q1_NODES)) then
+            call report_deck_error(draft%deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
                                    expected='a mesh of one kind')
             return
          end if
       end if
-      if (.not. is_possible(deck, levels, pieces, shape, model, draft)) return
-      coarse = model%mesh
-      call refine_mesh(coarse, draft%around, pieces, shape, model%mesh, draft%refinement)
-      model%levels = levels
-      do i = 1, set_count(model%node_sets)
-         associate (set => model%node_sets%sets(i))
+      if (.not. is_possible(levels, pieces, shape, draft)) return
+      coarse = draft%model%mesh
+      call refine_mesh(coarse, draft%around, pieces, shape, draft%model%mesh, draft%refinement)
+      draft%model%levels = levels
+      do i = 1, set_count(draft%model%node_sets)
+         associate (set => draft%model%node_sets%sets(i))
             set%members = fine_nodes(coarse, draft%refinement, set%members)
          end associate
       end do
-      do i = 1, set_count(model%element_sets)
-         associate (set => model%element_sets%sets(i))
+      do i = 1, set_count(draft%model%element_sets)
+         associate (set => draft%model%element_sets%sets(i))
             set%members = fine_elements(draft%refinement, set%members)
          end associate
       end do
       draft%deck_elements = coarse%element_map
-      call keep_places(coarse, model%mesh, draft)
-      draft%around = list_node_elements(model%mesh)
+      call keep_places(coarse, draft%model%mesh, draft)
+      draft%around = list_node_elements(draft%model%mesh)
    end subroutine refine_model
 
    !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
-   logical function is_possible(deck, levels, pieces, shape, model, draft)
-      type(deck_t), intent(in) :: deck
+   logical function is_possible(levels, pieces, shape, draft)
       integer(ip), intent(in) :: levels, pieces, shape
-      type(model_t), intent(in) :: model
       type(draft_t), intent(in) :: draft
       type(token_t) :: nowhere
       integer(lp) :: n, greatest
 
-      n = count_fine_nodes(model%mesh, pieces, shape)
-      greatest = maxval(model%mesh%node_id(:model%mesh%n_nodes))
+      n = count_fine_nodes(draft%model%mesh, pieces, shape)
+      greatest = maxval(draft%model%mesh%node_id(:draft%model%mesh%n_nodes))
       is_possible = n <= int(MOST_NODES, lp)
       if (.not. is_possible) then
-         call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
+         call report_deck_error(draft%deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
                                 ' nodes', expected='a smaller number: each one more makes four elements of one')
          return
       end if
-      is_possible = greatest + (n - int(model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
-      if (.not. is_possible) call report_deck_error(deck, 'E-REFINE', '--refine '//to_text(levels)//': the numbers of the new '// &
-                                                    'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
-                                                    expected='smaller node numbers')
-      if (is_possible) is_possible = fits_memory(deck, nowhere, model, draft, n, int(model%mesh%n_elements, lp)*int(pieces, lp)**2)
+      is_possible = greatest + (n - int(draft%model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
+      if (.not. is_possible) call report_deck_error(draft%deck, 'E-REFINE', '--refine '//to_text(levels)// &
+          ': the numbers of the new '//'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
+          expected='smaller node numbers')
+      if (is_possible) is_possible = fits_memory(nowhere, draft, n, int(draft%model%mesh%n_elements, lp)*int(pieces, &
+          lp)**2)
    end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.

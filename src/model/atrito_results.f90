@@ -1,6 +1,7 @@
 !> What the solver found: filled by solve/, read by output/. No text layout here.
 module atrito_results
    use atrito_kinds, only: ip, lp, wp
+   use atrito_solve_history, only: iteration_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
@@ -29,14 +30,6 @@ module atrito_results
       real(wp) :: s_end = 0.0_wp                    !< s of the last candidate point [L]
       logical :: has_friction = .false.
    end type contact_result_t
-
-   !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
-   type :: iteration_t
-      integer(ip) :: outer = 0, inner = 0
-      real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
-      integer(ip) :: open = 0, stick = 0, slip = 0
-      real(wp) :: residual = 0.0_wp                 !< |nu S_rho(p) - tau| / |tau|, of the last outer iteration
-   end type iteration_t
 
    !> A contact point that changes its state from one outer iteration to the next.
    type :: chatter_t

@@ -6,19 +6,18 @@
 !> above it.
 module atrito_assembled_scene
    use atrito_assembly, only: fem_t, collect_elements
-   use atrito_bodies, only: mode_at, body_t
-   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_bodies, only: mode_at
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t, row_value, ROW_ENTRIES
+   use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, element_store_t, add_to_store, sum_diagonals, take_own_matrices, front_bytes_t, &
                                   variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
                                   solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
                                   variable_matrix_bytes
+   use atrito_row_entries, only: build_constraint_rows, direction_of
    use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
-   use atrito_strings, only: to_text
+   use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
    public :: assembled_scene_t, assemble_scene, set_scene_load, displacements_of
@@ -43,8 +42,6 @@ module atrito_assembled_scene
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
 
-   !> Entries of B Z below this are round-off: motions are of size one.
-   real(wp), parameter :: MOTION_ROUND_OFF = 1.0e-13_wp
    !> A load on a motion of at most this share of what it is the sum of is none.
    real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp
 
@@ -67,7 +64,7 @@ contains
       scene%k = scene%numbering%k
       scene%n_bodies = fem%bodies%n
       scene%body = scene%numbering%body
-      call build_constraints(fem, rows, line, scene%numbering, scene%rows)
+      call build_constraint_rows(fem, rows, line, .true., scene%rows)
       allocate (scene%g0(scene%rows%n))
       do i = 1, scene%rows%n
          scene%g0(i) = row_value(rows, line%point(i), direction_of(rows, line, i), value)
@@ -81,133 +78,6 @@ contains
       call move_alloc(elimination%text, scene%order)
       if (is_ok(status)) call set_flexibility(fem, rows, line, scene)
    end subroutine assemble_scene
-
-   pure function direction_of(rows, line, i) result(d)
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: i               !< unknown force
-      real(wp) :: d(2)
-
-      if (line%normal(line%point(i)) == i) then
-         d = rows%normal(:, line%point(i))
-      else
-         d = rows%tangent(:, line%point(i))
-      end if
-   end function direction_of
-
-   !> B in rows over displacements and rigid motions.
-   subroutine build_constraints(fem, rows, line, numbering, constraints)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(scene_numbering_t), intent(in) :: numbering
-      type(constraint_rows_t), intent(out) :: constraints
-      integer(ip), parameter :: MOST = 2*ROW_ENTRIES + 3*ROW_ENTRIES
-      integer(ip) :: i, n, m, unknown(MOST)
-      real(wp) :: coefficient(MOST)
-
-      m = size(line%point, kind=ip)
-      constraints%n = m
-      constraints%n_columns = numbering%n
-      allocate (constraints%first(m + 1), constraints%column(m*MOST), constraints%value(m*MOST))
-      constraints%point = line%point
-      constraints%first(1) = 1
-      do i = 1, m
-         n = 0
-         call add_row(fem, rows, line%point(i), direction_of(rows, line, i), numbering, n, unknown, coefficient)
-         associate (first => constraints%first(i))
-            constraints%column(first:first + n - 1) = unknown(:n)
-            constraints%value(first:first + n - 1) = coefficient(:n)
-            constraints%first(i + 1) = first + n
-         end associate
-      end do
-      constraints%column = constraints%column(:constraints%first(m + 1) - 1)
-      constraints%value = constraints%value(:constraints%first(m + 1) - 1)
-   end subroutine build_constraints
-
-   !> The entries of one row: displacements, then the motions of each body.
-   pure subroutine add_row(fem, rows, j, direction, numbering, n, unknown, coefficient)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: j               !< point
-      real(wp), intent(in) :: direction(2)
-      type(scene_numbering_t), intent(in) :: numbering
-      integer(ip), intent(inout) :: n            !< entries so far
-      integer(ip), intent(inout) :: unknown(:)
-      real(wp), intent(inout) :: coefficient(:)
-      integer(ip) :: k, dof, node, b, mode, n_displacements
-      real(wp) :: z
-
-      do k = 1, rows%entries(j)
-         node = rows%node(k, j)
-         do dof = 1, 2
-            if (direction(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) == 0) cycle
-            n = n + 1
-            unknown(n) = numbering%before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
-            coefficient(n) = rows%coefficient(k, j)*direction(dof)
-         end do
-      end do
-      n_displacements = n
-      do k = 1, rows%entries(j)
-         node = rows%node(k, j)
-         b = fem%bodies%of_node(node)
-         do mode = 1, numbering%n_motions(b)
-            z = rows%coefficient(k, j)*along_motion(fem, fem%bodies%list(b), mode, node, direction)
-            call add_entry(n_displacements, numbering%first_motion(b) + mode - 1, z, n, unknown, coefficient)
-         end do
-      end do
-      call drop_round_off(n_displacements, n, unknown, coefficient)
-   end subroutine add_row
-
-   !> The displacement of a node along a direction in a rigid motion; 0 where the node is held.
-   pure real(wp) function along_motion(fem, body, mode, node, direction) result(z)
-      type(fem_t), intent(in) :: fem
-      type(body_t), intent(in) :: body
-      integer(ip), intent(in) :: mode, node
-      real(wp), intent(in) :: direction(2)
-      integer(ip) :: dof
-
-      z = 0.0_wp
-      do dof = 1, 2
-         if (fem%bodies%equation(dof, node) == 0) cycle
-         z = z + direction(dof)*mode_at(body, body%modes(:, mode), fem%mesh%x(:, node), dof)
-      end do
-   end function along_motion
-
-   !> Adds to the entry of an unknown, which is new or stands behind the first ones.
-   pure subroutine add_entry(n_before, place, z, n, unknown, coefficient)
-      integer(ip), intent(in) :: n_before, place
-      real(wp), intent(in) :: z
-      integer(ip), intent(inout) :: n, unknown(:)
-      real(wp), intent(inout) :: coefficient(:)
-      integer(ip) :: at
-
-      do at = n_before + 1, n
-         if (unknown(at) == place) exit
-      end do
-      if (at > n) then
-         n = at
-         unknown(at) = place
-         coefficient(at) = 0.0_wp
-      end if
-      coefficient(at) = coefficient(at) + z
-   end subroutine add_entry
-
-   pure subroutine drop_round_off(n_displacements, n, unknown, coefficient)
-      integer(ip), intent(in) :: n_displacements
-      integer(ip), intent(inout) :: n, unknown(:)
-      real(wp), intent(inout) :: coefficient(:)
-      integer(ip) :: k, kept
-
-      kept = n_displacements
-      do k = n_displacements + 1, n
-         if (abs(coefficient(k)) < MOTION_ROUND_OFF) cycle
-         kept = kept + 1
-         unknown(kept) = unknown(k)
-         coefficient(kept) = coefficient(k)
-      end do
-      n = kept
-   end subroutine drop_round_off
 
    !> The elements that change: the points with the unknowns of their rows, then the motions of each floating body.
    subroutine list_variable_elements(line, scene)

@@ -46,23 +46,22 @@ contains
       answer = FALLS
       ! not over the work of the loads, all of which is too much where they fall off a slope
       excess = certificate%excess/sum(motions%work_size, mask=abs(certificate%motion) > 0.0_wp)
-      if (present(collapse)) call describe_collapse(model, data, motions, certificate, collapse)
+      if (present(collapse)) call describe_collapse(data, motions, certificate, collapse)
    end subroutine probe_balance
 
-   subroutine describe_collapse(model, data, motions, certificate, collapse)
-      type(model_t), intent(in) :: model
+   subroutine describe_collapse(data, motions, certificate, collapse)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: motions
       type(certificate_t), intent(in) :: certificate
       type(collapse_t), intent(out) :: collapse
       type(mechanism_t) :: mechanism
-      type(pair_scene_t) :: pairs(size(model%pairs))
+      type(pair_scene_t) :: pairs(size(data%model%pairs))
       real(wp) :: largest
       integer(ip) :: i
 
       do i = 1, size(pairs, kind=ip)
-         pairs(i)%slave = model%surfaces(model%pairs(i)%slave)%name
-         pairs(i)%master = model%surfaces(model%pairs(i)%master)%name
+         pairs(i)%slave = data%model%surfaces(data%model%pairs(i)%slave)%name
+         pairs(i)%master = data%model%surfaces(data%model%pairs(i)%master)%name
       end do
       call describe_motion(data%fem, data%rows, data%line, motions, certificate, mechanism)
       collapse%text = free_motion_text(data%fem, data%held, data%rows, data%line, pairs, mechanism)

@@ -20,6 +20,7 @@ module atrito_body_store
    public :: body_store_t, provide_bodies, take_numbering, release_bodies, forget_bodies
 
    type :: body_store_t
+      type(reporter_t) :: reporter                     !< of factorisations
       logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
       integer(ip) :: factorisations = 0                !< of the last call of provide_bodies
       type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
@@ -41,14 +42,13 @@ contains
    !> Condensed bodies with their reduced loads; those of the run before serve again where they can.
    !>
    !> status: STATUS_SINGULAR of condense_body.
-   subroutine provide_bodies(store, fem, held, points, load, asked, reporter, results, status)
+   subroutine provide_bodies(store, fem, held, points, load, asked, results, status)
       type(body_store_t), intent(inout) :: store
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
       real(wp), intent(in) :: load(:, :)               !< (2, n_nodes) [F], less the forces of prescribed displacements
       integer, intent(in) :: asked                     !< STORAGE_* or 0
-      type(reporter_t), intent(in) :: reporter
       type(body_result_t), intent(inout) :: results(:) !< one a body
       type(status_t), intent(out) :: status
       type(condensed_body_t), allocatable :: bodies(:)
@@ -68,7 +68,7 @@ contains
             call take_back(store, b, bodies(b), results(b))
          else
             same_load = .false.
-            call report_progress(reporter, 'factor '//fem%bodies%list(b)%name)
+            call report_progress(store%reporter, 'factor '//fem%bodies%list(b)%name)
             call condense_body(fem, b, asked, bodies(b), results(b), status)
             if (.not. is_ok(status)) return
             store%factorisations = store%factorisations + 1
@@ -78,7 +78,7 @@ contains
             call set_load(fem, b, load, bodies(b))
             call stop_phase('factor')
          end if
-         call report_body(reporter, fem, b, bodies(b), results(b))
+         call report_body(store%reporter, fem, b, bodies(b), results(b))
       end do
       call move_alloc(bodies, store%bodies)
       if (store%keeps) call remember(store, fem, held, points, load, asked, results, same_bodies)

@@ -13,22 +13,16 @@ module atrito_contact_solution
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, outer_controls_t, solve_with_bound, judge_condition, has_settled, may_be_round_off, &
+   public :: contact_solution_t, FREE_MOTION, solve_with_bound, judge_condition, has_settled, may_be_round_off, &
              relative_residual
+
+   !> Text of the status when no friction bound holds a body; solution%inner%motion is the motion.
+   character(len=*), parameter :: FREE_MOTION = 'free motion'
 
    real(wp), parameter :: MOST_ROUND_OFF = 1.0e-7_wp
    real(wp), parameter :: ROUND_OFFS = 10.0_wp        !< of a force: nothing else
    integer, parameter :: MOST_ROUNDS = 5
    real(wp), parameter :: NOISE = 1.0e-12_wp          !< of the largest friction bound or force: may be round-off elsewhere
-
-   type :: outer_controls_t
-      integer(ip) :: method = 1                       !< METHOD_* of the model
-      real(wp) :: tolerance = 1.0e-10_wp
-      integer(ip) :: max_iterations = 100
-      real(wp) :: relaxation = 1.0_wp
-      logical :: is_coarse = .false.                  !< box_problem_t%is_coarse: states that round-off turns to and fro
-      real(wp) :: most_entries = huge(1.0_wp)         !< of C to go through, over all linear solves, before it is given up
-   end type outer_controls_t
 
    type :: contact_solution_t
       type(box_bounds_t) :: bounds
@@ -41,6 +35,7 @@ module atrito_contact_solution
       real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
       logical :: converged = .false.
       character(len=:), allocatable :: verdict        !< why not
+      integer(ip) :: factorisations = 0               !< of the sparse form
       real(wp) :: residual = 0.0_wp                   !< |nu S_rho(p) - tau| / |tau|
       real(wp) :: contraction = 0.0_wp                !< largest measured rate of the Picard map; 0: not measured
    end type contact_solution_t
@@ -60,7 +55,8 @@ contains
       call set_friction_bounds(line, problem, tau, solution%bounds, solution%state)
       if (allocated(solution%rows)) then
          call solve_box_proximal(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
-                                 solution%factor, solution%rows, solution%is_shared)
+                                 solution%factor, solution%rows)
+         call move_alloc(solution%inner%is_shared, solution%is_shared)
       else
          call solve_box(problem, solution%bounds, solution%state, solution%history, solution%inner, status, &
                         solution%factor)
@@ -113,6 +109,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
       logical :: beside_loads(problem%m)
+      integer(ip), allocatable :: unknowns(:)
       integer(ip) :: first, last
 
       if (line%n == 0 .or. .not. allocated(line%pair) .or. .not. allocated(problem%h_size)) return
@@ -122,45 +119,34 @@ contains
       first = 1
       do while (first <= line%n)
          last = last_of_pair(line, first)
-         if (is_noise(line%normal(first:last)) .and. is_noise(line%tangential(first:last))) then
-            call clear(line%normal(first:last))
-            call clear(line%tangential(first:last))
-         end if
+         unknowns = [line%normal(first:last), line%tangential(first:last)]
+         unknowns = pack(unknowns, unknowns > 0)
+         if (is_noise(problem, solution, beside_loads, unknowns)) solution%state%q(unknowns) = 0.0_wp
          first = last + 1
       end do
-
-   contains
-
-      !> The compliance of friction goes with its bound, which may be noise as well.
-      logical function is_noise(unknowns)
-         integer(ip), intent(in) :: unknowns(:)      !< 0: none
-         real(wp) :: d(problem%m)
-         integer(ip) :: k
-
-         d = 0.0_wp
-         d(:problem%n_normal) = solution%bounds%d(:problem%n_normal)
-         is_noise = .true.
-         do k = 1, size(unknowns, kind=ip)
-            if (unknowns(k) == 0) cycle
-            associate (q => solution%state%q(unknowns(k)))
-               if (abs(q) <= 0.0_wp) cycle
-               is_noise = beside_loads(unknowns(k))
-               if (is_noise) is_noise = abs(q) <= ROUND_OFFS*force_round_off(problem, d, solution%state, unknowns(k))
-            end associate
-            if (.not. is_noise) return
-         end do
-      end function is_noise
-
-      subroutine clear(unknowns)
-         integer(ip), intent(in) :: unknowns(:)
-         integer(ip) :: k
-
-         do k = 1, size(unknowns, kind=ip)
-            if (unknowns(k) > 0) solution%state%q(unknowns(k)) = 0.0_wp
-         end do
-      end subroutine clear
-
    end subroutine clear_noise
+
+   !> The compliance of friction goes with its bound, which may be noise as well.
+   pure logical function is_noise(problem, solution, beside_loads, unknowns)
+      type(box_problem_t), intent(in) :: problem
+      type(contact_solution_t), intent(in) :: solution
+      logical, intent(in) :: beside_loads(:)
+      integer(ip), intent(in) :: unknowns(:)
+      real(wp) :: d(problem%m)
+      integer(ip) :: k
+
+      d = 0.0_wp
+      d(:problem%n_normal) = solution%bounds%d(:problem%n_normal)
+      is_noise = .true.
+      do k = 1, size(unknowns, kind=ip)
+         associate (q => solution%state%q(unknowns(k)))
+            if (abs(q) <= 0.0_wp) cycle
+            is_noise = beside_loads(unknowns(k))
+            if (is_noise) is_noise = abs(q) <= ROUND_OFFS*force_round_off(problem, d, solution%state, unknowns(k))
+         end associate
+         if (.not. is_noise) return
+      end do
+   end function is_noise
 
    pure function noise_beside_loads(problem, q) result(is_noise)
       type(box_problem_t), intent(in) :: problem

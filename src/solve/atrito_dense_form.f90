@@ -3,12 +3,13 @@ module atrito_dense_form
    use atrito_body_store, only: body_store_t, provide_bodies, release_bodies, forget_bodies
    use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
    use atrito_contact_problem, only: build_problem
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_refinement, only: refine_dense_solution
    use atrito_kinds, only: ip, wp
+   use atrito_model, only: controls_t
    use atrito_outer_loop, only: solve_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, free_load
    use atrito_shared_points, only: has_dependent_points, solve_shared_points
@@ -23,10 +24,9 @@ module atrito_dense_form
 contains
 
    !> u: displacements without rigid motions. status: STATUS_SINGULAR of provide_bodies and solve_contact_line.
-   subroutine solve_dense_form(data, controls, reporter, store, results, solution, u, status)
+   subroutine solve_dense_form(data, controls, store, results, solution, u, status)
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(out) :: solution
@@ -35,26 +35,25 @@ contains
       type(box_problem_t) :: problem
       logical :: is_right
 
-      call solve_condensed(data, controls, reporter, store, results, problem, solution, u, status)
+      call solve_condensed(data, controls, store, results, problem, solution, u, status)
       if (is_ok(status) .and. solution%converged .and. results%scene%near_elements) then
          call start_phase('refine')
-         call refine_dense_solution(data, controls, reporter, store%bodies, problem, solution, u, is_right)
+         call refine_dense_solution(data, controls, store%bodies, problem, solution, u, is_right)
          call stop_phase('refine')
          if (.not. is_right) then
-            call report_progress(reporter, 'refinement does not converge; each element with its own last digits')
+            call report_progress(data%reporter, 'refinement does not converge; each element with its own last digits')
             data%fem%grain = 0.0_wp
             call forget_bodies(store)
-            call solve_condensed(data, controls, reporter, store, results, problem, solution, u, status)
+            call solve_condensed(data, controls, store, results, problem, solution, u, status)
          end if
       end if
       call release_bodies(store)
    end subroutine solve_dense_form
 
    !> Solves with the bodies as they are factored.
-   subroutine solve_condensed(data, controls, reporter, store, results, problem, solution, u, status)
+   subroutine solve_condensed(data, controls, store, results, problem, solution, u, status)
       type(scene_data_t), intent(in) :: data
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(box_problem_t), intent(out) :: problem
@@ -62,17 +61,17 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
 
-      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%storage_kind, reporter, &
-                          results%scene%bodies, status)
+      store%reporter = data%reporter
+      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%storage_kind, results%scene%bodies, status)
       results%factorisations = store%factorisations
       if (.not. is_ok(status)) return
       results%scene%near_elements = any(store%bodies%is_near)
       call start_phase('iterate')
       call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
       problem%is_coarse = controls%is_coarse
-      call solve_contact_line(problem, data%line, controls, reporter, solution, status)
-      if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, reporter, &
-                                                                 solution, status)
+      call solve_contact_line(problem, data%line, controls, data%reporter, solution, status)
+      if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, data%reporter, &
+          solution, status)
       if (is_ok(status)) results%contraction_estimate = estimate_contraction(problem, data%line, solution%bounds%d, &
                                                                              solution%state%state)
       call stop_phase('iterate')

@@ -11,12 +11,13 @@ module atrito_dense_refinement
    use atrito_box_problem, only: box_problem_t
    use atrito_condensed_body, only: condensed_body_t, set_load
    use atrito_contact_problem, only: add_displacements
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_model, only: controls_t
    use atrito_outer_loop, only: continue_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
-   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_reporter, only: report_progress
    use atrito_scene_data, only: scene_data_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
@@ -29,6 +30,13 @@ module atrito_dense_refinement
       real(wp), allocatable :: reduced(:, :)
    end type load_t
 
+   !> What is refined, and how far off it is: (2, n_nodes).
+   type :: state_t
+      real(wp), allocatable :: u(:, :)                    !< displacements without rigid motions [L]
+      real(wp), allocatable :: contact(:, :)              !< B'q of the solution [F]
+      real(wp), allocatable :: residual(:, :)             !< f - B'q - K u [F]
+   end type state_t
+
    integer(ip), parameter :: MOST_STEPS = 4_ip
    !> A residual of this share of the largest force is round-off.
    real(wp), parameter :: ENOUGH = 1.0e-13_wp
@@ -40,10 +48,9 @@ module atrito_dense_refinement
 contains
 
    !> Refines as often as it takes. Where `is_right` is false the solution is of no use.
-   subroutine refine_dense_solution(data, controls, reporter, bodies, problem, solution, u, is_right)
+   subroutine refine_dense_solution(data, controls, bodies, problem, solution, u, is_right)
       type(scene_data_t), intent(in) :: data
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
       type(box_problem_t), intent(inout) :: problem
       type(contact_solution_t), intent(inout) :: solution !< converged
@@ -51,91 +58,90 @@ contains
       logical, intent(out) :: is_right
       type(load_t) :: loads(size(bodies))
       type(status_t) :: status
-      real(wp), allocatable :: contact(:, :), residual(:, :)
+      type(state_t) :: now
       real(wp) :: share, last_share
       integer(ip) :: step, b
 
       do b = 1, size(bodies, kind=ip)
          call move_alloc(bodies(b)%load, loads(b)%reduced)
       end do
-      contact = contact_forces(data%fem, data%rows, data%line, solution)
+      now%u = u
+      now%contact = contact_forces(data%fem, data%rows, data%line, solution)
       last_share = HUGE_REAL
       do step = 1, MOST_STEPS
-         call find_residual(data, u, contact, residual, share)
+         call find_residual(data, now, share)
          is_right = share <= TOO_MUCH
          if (.not. is_right .or. share <= ENOUGH .or. share > FALLS*last_share) exit
-         call report_progress(reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
-         call correct(data, controls, reporter, residual, bodies, problem, solution, contact, u, status)
+         call report_progress(data%reporter, 'refine  residual '//to_text(share, 3)//' by the last digits of the nodes')
+         call correct(data, controls, bodies, problem, solution, now, status)
          is_right = is_ok(status) .and. solution%converged
          if (.not. is_right .or. share**2 <= ENOUGH) exit ! the next one will be no more than round-off
          last_share = share
       end do
+      u = now%u
       do b = 1, size(bodies, kind=ip)
          call move_alloc(loads(b)%reduced, bodies(b)%load)
       end do
    end subroutine refine_dense_solution
 
    !> f - B'q - K u at the free dofs, 0 at the others; and its largest entry over the largest force.
-   subroutine find_residual(data, u, contact, residual, share)
+   subroutine find_residual(data, now, share)
       type(scene_data_t), intent(in) :: data
-      real(wp), intent(in) :: u(:, :)
-      real(wp), intent(in) :: contact(:, :)               !< B'q (2, n_nodes) [F]
-      real(wp), allocatable, intent(out) :: residual(:, :) !< (2, n_nodes) [F]
+      type(state_t), intent(inout) :: now
       real(wp), intent(out) :: share
       real(wp) :: energy, largest
       integer(ip) :: node, dof
 
-      allocate (residual, mold=u)
-      residual = 0.0_wp
+      if (.not. allocated(now%residual)) allocate (now%residual, mold=now%u)
+      now%residual = 0.0_wp
       energy = 0.0_wp
-      call internal_forces(data%fem, u, residual, energy)
+      call internal_forces(data%fem, now%u, now%residual, energy)
       share = 0.0_wp
       largest = 0.0_wp
-      do node = 1, size(u, 2, kind=ip)
+      do node = 1, size(now%u, 2, kind=ip)
          do dof = 1, 2
-            residual(dof, node) = data%f(dof, node) - contact(dof, node) - residual(dof, node)
-            largest = max(largest, abs(data%f(dof, node)), abs(contact(dof, node)))
-            if (data%held(dof, node)) then
-               largest = max(largest, abs(residual(dof, node)))
-               residual(dof, node) = 0.0_wp
-            else
-               share = max(share, abs(residual(dof, node)))
-            end if
+            associate (r => now%residual(dof, node), contact => now%contact(dof, node))
+               r = data%f(dof, node) - contact - r
+               largest = max(largest, abs(data%f(dof, node)), abs(contact))
+               if (data%held(dof, node)) then
+                  largest = max(largest, abs(r))
+                  r = 0.0_wp
+               else
+                  share = max(share, abs(r))
+               end if
+            end associate
          end do
       end do
       share = share/max(largest, tiny(largest))
    end subroutine find_residual
 
    !> One step.
-   subroutine correct(data, controls, reporter, residual, bodies, problem, solution, contact, u, status)
+   subroutine correct(data, controls, bodies, problem, solution, now, status)
       type(scene_data_t), intent(in) :: data
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
-      real(wp), intent(in) :: residual(:, :)
+      type(controls_t), intent(in) :: controls
       type(condensed_body_t), intent(inout) :: bodies(:)
       type(box_problem_t), intent(inout) :: problem
       type(contact_solution_t), intent(inout) :: solution
-      real(wp), intent(inout) :: contact(:, :)            !< that of the solution
-      real(wp), intent(inout) :: u(:, :)
+      type(state_t), intent(inout) :: now
       type(status_t), intent(out) :: status
       real(wp), allocatable :: change(:, :), moved(:, :)
       integer(ip) :: b
 
       do b = 1, size(bodies, kind=ip)
-         call set_load(data%fem, b, residual, bodies(b))
+         call set_load(data%fem, b, now%residual, bodies(b))
          call add_displacements(data%fem, b, bodies(b), data%rows, data%line, problem)
       end do
-      call continue_contact_line(problem, data%line, controls, reporter, solution, status)
+      call continue_contact_line(problem, data%line, controls, data%reporter, solution, status)
       if (.not. is_ok(status)) return
-      change = -contact
-      contact = contact_forces(data%fem, data%rows, data%line, solution)
-      change = change + contact
-      allocate (moved, mold=u)
+      change = -now%contact
+      now%contact = contact_forces(data%fem, data%rows, data%line, solution)
+      change = change + now%contact
+      allocate (moved, mold=now%u)
       moved = 0.0_wp
       do b = 1, size(bodies, kind=ip)
          call elastic_displacements(data%fem, b, bodies(b), change, moved)
       end do
-      u = u + moved
+      now%u = now%u + moved
    end subroutine correct
 
 end module atrito_dense_refinement

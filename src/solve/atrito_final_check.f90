@@ -41,7 +41,7 @@ module atrito_final_check
 contains
 
    !> K u_e - f + B'q of all elements, assembled again: reactions at the prescribed dofs, residual at the free ones.
-   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, rows, sizes)
+   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)           !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :)           !< applied forces (2, n_nodes) [F]
@@ -49,7 +49,6 @@ contains
       logical, intent(in) :: held(:, :)
       real(wp), intent(out) :: reaction(:, :)   !< (2, n_nodes) [F]; 0 at free dofs
       type(equilibrium_t), intent(out) :: equilibrium
-      type(contact_rows_t), intent(in), optional :: rows      !< with sizes: each body and each pair is judged by its own forces
       type(contact_sizes_t), intent(in), optional :: sizes
       type(extremes_t) :: found(run_count(fem%mesh%n_nodes))
       real(wp) :: allowed
@@ -74,8 +73,8 @@ contains
       ! the round-off is asked for where it matters
       if (equilibrium%residual > allowed) allowed = allowed + ROUND_OFFS*EPS_MACH*largest_size(fem, u)
       equilibrium%holds = equilibrium%residual <= allowed .and. all(found%finite)
-      if (equilibrium%holds .and. present(rows) .and. present(sizes)) then
-         equilibrium%holds = weak_parts_hold(fem, u, f, contact, held, reaction, rows, sizes)
+      if (equilibrium%holds .and. present(sizes)) then
+         equilibrium%holds = weak_parts_hold(fem, u, f, contact, held, reaction, sizes)
       end if
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
       do node = 1, fem%mesh%n_nodes
@@ -247,12 +246,13 @@ contains
       do j = 1, line%n
          if (j > last) then
             last = last_of_pair(line, j)
-            call measure_pair(rows, line, results, uncertain, j, last, p, tau, scales)
+            call measure_pair(rows, line, results, uncertain, j, last, p, scales)
+            scales%friction = maxval(tau(j:last))
          end if
          wrong = ''
          call judge_place(rows, results, j, gap(j), slip(j), scales, line%tangential(j) > 0, wrong)
          call judge_normal(p(j), gap(j), line%delta(j), scales%gap, wrong)
-         call judge_friction(line, j, t(j), tau(j), slip(j), scales%friction, scales%slip, tolerance, wrong)
+         call judge_friction(line, j, t(j), tau(j), slip(j), scales, tolerance, wrong)
          if (len(wrong) == 0) cycle
          results%law_holds = .false.
          if (.not. results%converged) return
@@ -287,19 +287,18 @@ contains
       uncertain = largest(of_node)
    end function uncertain_displacements
 
-   !> The scales of one pair: its own pressure and friction, and what is certain of its gaps and slips.
-   pure subroutine measure_pair(rows, line, results, uncertain, first, last, p, tau, scales)
+   !> The scales of one pair: its own pressure, and what is certain of its gaps and slips.
+   pure subroutine measure_pair(rows, line, results, uncertain, first, last, p, scales)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(results_t), intent(in) :: results
       real(wp), intent(in) :: uncertain(:)       !< (n_nodes) [L]
       integer(ip), intent(in) :: first, last     !< points of the pair
-      real(wp), intent(in) :: p(:), tau(:)
+      real(wp), intent(in) :: p(:)
       type(contact_scales_t), intent(out) :: scales
       real(wp) :: far
       integer(ip) :: j
 
-      scales%friction = maxval(tau(first:last))
       far = 0.0_wp
       do j = first, last
          far = max(far, abs(point_x(results, j, 1_ip)), abs(point_x(results, j, 2_ip)))
@@ -371,11 +370,11 @@ contains
       if (p == 0.0_wp .and. gap < -place) wrong = 'penetration '//to_text(-gap)//' without pressure'
    end subroutine judge_normal
 
-   pure subroutine judge_friction(line, j, t, tau, slip, tau_scale, place, tolerance, wrong)
+   pure subroutine judge_friction(line, j, t, tau, slip, scales, tolerance, wrong)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: j
-      real(wp), intent(in) :: t, tau, slip, tau_scale, tolerance
-      real(wp), intent(in) :: place              !< a slip that is none [L]
+      real(wp), intent(in) :: t, tau, slip, tolerance
+      type(contact_scales_t), intent(in) :: scales
       character(len=:), allocatable, intent(inout) :: wrong
       real(wp) :: allowed, limit
 
@@ -384,14 +383,14 @@ contains
          if (t /= 0.0_wp) wrong = 'shear without friction'
          return
       end if
-      allowed = 10*tolerance*tau_scale
+      allowed = 10*tolerance*scales%friction
       limit = sticking_slip(line%law(j), tau)
       if (abs(t) > tau + allowed) wrong = 'shear '//to_text(abs(t))//' beyond the friction bound '//to_text(tau)
-      if (abs(slip) > limit*(1 + 10*tolerance) + place) then
+      if (abs(slip) > limit*(1 + 10*tolerance) + scales%slip) then
          if (abs(t - sign(tau, slip)) > allowed) wrong = 'slip without full friction against it'
-      else if (limit > place) then
+      else if (limit > scales%slip) then
          ! the law is steep here: compare the stress within what the slip leaves open
-         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(place/limit)) then
+         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(scales%slip/limit)) then
             wrong = 'shear off the friction law'
          end if
       end if

@@ -5,13 +5,14 @@ module atrito_multiplier_loop
    use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, normal_bounds, set_friction_bounds
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t, FREE_MOTION
    use atrito_contact_system, only: contact_system_t
    use atrito_idle_motions, only: settle_idle_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, forces_that_are_none
    use atrito_multiplier_step, only: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, &
                                      take_least_forces, clear_round_off
+   use atrito_model, only: controls_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: begin_outer, end_outer
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
@@ -27,6 +28,7 @@ module atrito_multiplier_loop
       real(wp), allocatable :: drift(:)          !< (m) change of the forces in the last step, when no state changed [F]
       logical :: asked = .false.                 !< whether forces are unique
       logical :: shares = .false.                !< some are not, and the least are taken
+      type(distance_t) :: distance               !< of the last step from a solution
       integer(ip) :: standing = 0                !< steps without a change of states
       logical :: slow = .false.                  !< states went on changing: smaller steps
       real(wp), allocatable :: share(:)          !< (points) of the way to Picard's bound that the next one goes
@@ -54,61 +56,46 @@ module atrito_multiplier_loop
 
 contains
 
-   !> Solves. x: the unknowns of the system. status: STATUS_SINGULAR with FREE_MOTION in words of atrito_outer_loop when a body
-   !> moves under every step; that of system%factor.
-   subroutine solve_by_multipliers(system, rows, line, controls, free_motion, reporter, solution, x, factorisations, status)
+   !> Solves. x: the unknowns of the system. status: STATUS_SINGULAR with FREE_MOTION when a body moves under every step; that of
+   !> system%factor.
+   subroutine solve_by_multipliers(system, rows, line, controls, reporter, solution, x, status)
       class(contact_system_t), intent(inout) :: system
       type(constraint_rows_t), intent(in) :: rows !< over displacements alone
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
-      character(len=*), intent(in) :: free_motion !< text of the status when a body moves
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: x(:)
-      integer(ip), intent(out) :: factorisations
       type(status_t), intent(out) :: status
       type(box_problem_t) :: shape
       type(multiplier_t) :: multipliers
       type(loop_t) :: loop
-      type(distance_t) :: distance
       type(anderson_t) :: anderson
       real(wp) :: tau(line%n), image(line%n)
-      integer(ip) :: outer, i
+      integer(ip) :: outer
 
-      factorisations = 0
-      call begin_solution(system, line, shape, solution)
-      call begin_multipliers(system, [(pair_of(line, line%point(i)), i=1, shape%m)], multipliers)
-      if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
-      tau = 0.0_wp
-      where (line%tangential > 0) tau = HUGE_REAL
-      call set_friction_bounds(line, shape, tau, solution%bounds, solution%state)
+      call begin_solution(system, line, shape, multipliers, solution)
       call start_closed(system, solution%bounds, multipliers, solution%state, status)
       if (.not. is_ok(status)) return
+      tau = solution%tau
       do outer = 1, OUTERS_A_MAXIT*controls%max_iterations
          call begin_outer(solution%history)
          solution%tau = tau
-         call set_friction_bounds(line, shape, tau, solution%bounds, solution%state)
+         call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
          call take_multiplier_step(system, shape, solution%bounds, multipliers, solution%state, solution%history, status)
-         factorisations = multipliers%factorisations
+         solution%factorisations = multipliers%factorisations
          if (.not. is_ok(status)) return
          x = multipliers%x
-         solution%inner%solved = multipliers%settled
          if (loop%shares) call take_least_forces(system, rows, shape%weight, solution%bounds, multipliers, solution%state, &
                                                  solution%is_shared)
-         solution%p = pressure_of(line, solution%state%q)
-         solution%t = shear_force_of(line, solution%state%q, tau)
-         image = friction_bound(line, solution%p)
-         distance = measure_distance(system, line, multipliers, solution%state%q, tau, image)
-         solution%residual = distance%bound
-         call end_outer(solution%history, distance%bound)
-         call tell(reporter, outer, distance, multipliers, solution)
-         call judge(controls%tolerance, outer, distance, multipliers, loop, solution)
+         call judge_step(system, line, controls%tolerance, outer, multipliers, loop, solution, image)
+         call tell(reporter, outer, loop%distance, multipliers, solution)
          if (solution%converged) call look_for_shared(system, rows, shape, multipliers, loop, solution)
          if (solution%converged .or. multipliers%factorisations > FACTORISATIONS_A_MAXIT*controls%max_iterations) exit
          if (loop%moving > MOST_MOVING) then
             solution%inner%moves = .true.
             solution%inner%motion = multipliers%x(system%n - system%k + 1:) - multipliers%a_old
-            call set_status(status, STATUS_SINGULAR, free_motion)
+            call set_status(status, STATUS_SINGULAR, FREE_MOTION)
             return
          end if
          call follow_drift(solution%bounds, multipliers, loop, solution%state)
@@ -116,14 +103,30 @@ contains
          call choose_steps(outer, multipliers, loop)
          call next_bound(image, loop, anderson, tau)
       end do
-      if (solution%converged) then
-         call finish(system, line, shape, multipliers, solution)
-         x = multipliers%x
-         return
-      end if
-      solution%verdict = 'the multipliers did not converge in '//to_text(solution%history%outer)//' steps (bound '// &
-                         to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
+      call finish(system, line, shape, loop%distance, multipliers, solution)
+      if (solution%converged) x = multipliers%x
    end subroutine solve_by_multipliers
+
+   !> What a step has found: stresses, Picard's bound, how far it is from a solution.
+   subroutine judge_step(system, line, tolerance, outer, multipliers, loop, solution, image)
+      class(contact_system_t), intent(in) :: system
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tolerance
+      integer(ip), intent(in) :: outer
+      type(multiplier_t), intent(inout) :: multipliers
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), intent(out) :: image(:)          !< (n) [F/L^2]
+
+      solution%inner%solved = multipliers%settled
+      solution%p = pressure_of(line, solution%state%q)
+      solution%t = shear_force_of(line, solution%state%q, solution%tau)
+      image = friction_bound(line, solution%p)
+      loop%distance = measure_distance(system, line, multipliers, solution%state%q, solution%tau, image)
+      solution%residual = loop%distance%bound
+      call end_outer(solution%history, loop%distance%bound)
+      call judge(tolerance, outer, multipliers, loop, solution)
+   end subroutine judge_step
 
    !> Forces of rows that depend on each other, and whose gaps contradict each other a little, change by the same amount in every
    !> step until one comes to its bound. They go there at once: the bodies do not feel it.
@@ -206,14 +209,20 @@ contains
    end subroutine go_part_of_the_way
 
    !> Forces that are round-off are none, motions that nothing holds are least, and slipping points have the friction of the
-   !> pressure that is there.
-   subroutine finish(system, line, shape, multipliers, solution)
+   !> pressure that is there; or why there is no solution.
+   subroutine finish(system, line, shape, distance, multipliers, solution)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
       type(box_problem_t), intent(in) :: shape
+      type(distance_t), intent(in) :: distance
       type(multiplier_t), intent(inout) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
 
+      if (.not. solution%converged) then
+         solution%verdict = 'the multipliers did not converge in '//to_text(solution%history%outer)//' steps (bound '// &
+                            to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
+         return
+      end if
       call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
       if (system%k > 0) call settle_idle_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
                                                  solution%inner%idle)
@@ -248,20 +257,14 @@ contains
       if (loop%shares) loop%best = HUGE_REAL
    end subroutine look_for_shared
 
-   pure integer(ip) function pair_of(line, j)
-      type(contact_line_t), intent(in) :: line
-      integer(ip), intent(in) :: j
-
-      pair_of = 1
-      if (allocated(line%pair)) pair_of = line%pair(j)
-   end function pair_of
-
-   !> Bounds, states and history of a solution that has none yet.
-   subroutine begin_solution(system, line, shape, solution)
+   !> Bounds, states and history of a solution that has none yet: all stuck.
+   subroutine begin_solution(system, line, shape, multipliers, solution)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
       type(box_problem_t), intent(out) :: shape
+      type(multiplier_t), intent(out) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
+      integer(ip) :: pair(line%n)
 
       shape%m = size(line%point, kind=ip)
       shape%n_normal = count(line%normal > 0, kind=ip)
@@ -269,31 +272,37 @@ contains
       shape%weight = line%weight(line%point)
       solution%history%tangential_of = line%tangential(line%point(:shape%n_normal))
       call normal_bounds(line, shape, solution%bounds, solution%state)
+      pair = 1
+      if (allocated(line%pair)) pair = line%pair(:line%n)
+      call begin_multipliers(system, pair(line%point), multipliers)
+      if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
+      allocate (solution%tau(line%n), source=0.0_wp)
+      where (line%tangential > 0) solution%tau = HUGE_REAL
+      call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
    end subroutine begin_solution
 
    !> Whether the loop has converged, and what the next step takes.
-   subroutine judge(tolerance, outer, distance, multipliers, loop, solution)
+   subroutine judge(tolerance, outer, multipliers, loop, solution)
       real(wp), intent(in) :: tolerance
       integer(ip), intent(in) :: outer
-      type(distance_t), intent(in) :: distance
       type(multiplier_t), intent(inout) :: multipliers
       type(loop_t), intent(inout) :: loop
       type(contact_solution_t), intent(inout) :: solution
       real(wp) :: whole
 
-      whole = max(distance%forces, distance%bound)
-      if (distance%pull > NO_LOAD) whole = max(whole, distance%pull)
+      whole = max(loop%distance%forces, loop%distance%bound)
+      if (loop%distance%pull > NO_LOAD) whole = max(whole, loop%distance%pull)
       solution%converged = multipliers%settled .and. whole <= tolerance
       if (whole < 0.5_wp*loop%best) then
          loop%best = whole
          loop%best_outer = outer
       end if
       if (multipliers%settled .and. outer - loop%best_outer >= STALE .and. whole <= STALE_DISTANCE) solution%converged = .true.
-      loop%moving = merge(loop%moving + 1_ip, 0_ip, distance%drive > MOVES .and. distance%drive > STEADY_PULL*loop%drive)
-      loop%drive = distance%drive
+      loop%moving = merge(loop%moving + 1_ip, 0_ip, loop%distance%drive > MOVES .and. loop%distance%drive > STEADY_PULL*loop%drive)
+      loop%drive = loop%distance%drive
       if (loop%moving > 1) then
          multipliers%kappa = max(0.1_wp*multipliers%kappa, LEAST_KAPPA)
-      else if (distance%drive < SMALL_PULL .and. multipliers%kappa > USUAL_KAPPA) then
+      else if (loop%distance%drive < SMALL_PULL .and. multipliers%kappa > USUAL_KAPPA) then
          multipliers%kappa = 0.01_wp*multipliers%kappa
       end if
    end subroutine judge

@@ -4,12 +4,14 @@
 !> the law of Oden and Pires), q = +-w tau(q) for slipping ones, G' q = h. The bound tau = nu W p is differentiated, so the matrix
 !> is not symmetric. States change after each step as in the full steps of the active set.
 module atrito_newton
-   use atrito_box_problem, only: box_problem_t, set_residual, row_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_active_set, only: change_states
+   use atrito_box_problem, only: box_problem_t, set_residual, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t, judge_condition, has_settled
+   use atrito_contact_solution, only: contact_solution_t, judge_condition, has_settled
    use atrito_dense, only: solve_lu
    use atrito_friction_law, only: stick_compliance, FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp
+   use atrito_model, only: controls_t
    use atrito_solve_history, only: record_solve, begin_outer, end_outer
    implicit none (type, external)
    private
@@ -22,7 +24,7 @@ contains
    subroutine iterate_newton(problem, line, controls, solution)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(contact_solution_t), intent(inout) :: solution
       real(wp), allocatable :: jacobian(:, :), rhs(:), dtau(:, :)
       integer(ip), allocatable :: active(:)
@@ -51,7 +53,8 @@ contains
          call update_compliances(problem, line, solution)
          call set_residual(problem, solution%bounds%d, solution%state)
          call record_solve(solution%history, problem, solution%bounds, solution%state)
-         call change_states(problem, line, solution, changes)
+         call change_states(problem, solution%bounds, solution%state, changes)
+         where (solution%state%state(:problem%n_normal) == AT_LOWER) solution%state%q(:problem%n_normal) = 0.0_wp
          if (largest_force > 0.0_wp) change = change/largest_force
          call end_outer(solution%history, change)
          solution%converged = changes == 0 .and. has_settled(controls%tolerance, solution%inner%condition, last_change, change)
@@ -242,41 +245,6 @@ contains
 
       forces = solution%state%q(active)/force_scale(problem, solution, active)
    end function scaled_forces
-
-   !> The full step on the states, with the bounds of the present pressure.
-   subroutine change_states(problem, line, solution, changes)
-      type(box_problem_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(inout) :: solution
-      integer(ip), intent(out) :: changes
-      real(wp), parameter :: OPENS = 1.0e-13_wp, SLIPS = 1.0e-12_wp
-      real(wp) :: largest_pressure, direction
-      integer(ip) :: i, old
-
-      largest_pressure = maxval([abs(pressure_of(line, solution%state%q)), 0.0_wp])
-      changes = 0
-      associate (state => solution%state%state, q => solution%state%q, r => solution%state%r)
-         do i = 1, problem%m
-            old = state(i)
-            if (i <= problem%n_normal) then
-               if (old == FREE .and. q(i)/problem%weight(i) < -OPENS*largest_pressure) then
-                  state(i) = AT_LOWER
-                  q(i) = 0.0_wp
-               else if (old == AT_LOWER .and. r(i) > row_round_off(problem, solution%state, i)) then
-                  state(i) = FREE
-               end if
-            else if (old == FREE) then
-               if (abs(q(i))/(1 + SLIPS) > solution%bounds%upper(i)) state(i) = merge(AT_UPPER, AT_LOWER, q(i) > 0.0_wp)
-            else if (old /= FROZEN) then
-               direction = merge(1.0_wp, -1.0_wp, old == AT_UPPER)
-               if (-direction*r(i) > row_round_off(problem, solution%state, i) + SLIPS*abs(solution%bounds%d(i)*q(i))) then
-                  state(i) = FREE
-               end if
-            end if
-            if (state(i) /= old) changes = changes + 1
-         end do
-      end associate
-   end subroutine change_states
 
    !> A slipping force is its bound to the last digit.
    pure subroutine put_slipping_at_bounds(problem, line, solution)

@@ -8,7 +8,7 @@ module atrito_scene_builder
    use atrito_incidence, only: list_holders
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_pairing, only: pairing_t, prepare_pairing, pair_points
+   use atrito_pairing, only: pair_all
    use atrito_points, only: contact_points_t
    use atrito_solver_choice, only: needs_profile
    implicit none (type, external)
@@ -24,7 +24,6 @@ contains
       logical, allocatable, intent(out) :: held(:, :)          !< (2, n_nodes)
       real(wp), allocatable, intent(out) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
       type(contact_points_t), allocatable, intent(out) :: points(:) !< one a pair
-      type(pairing_t) :: pairing
       integer(ip) :: i
 
       fem%mesh => model%mesh
@@ -38,11 +37,11 @@ contains
          end associate
       end do
       call list_prescribed(model, held, value)
-      allocate (points(size(model%pairs)))
-      call prepare_pairing(model, pairing)
-      do i = 1, size(model%pairs, kind=ip)
-         call pair_points(model, pairing, i, points(i))
-      end do
+      if (allocated(model%points)) then
+         points = model%points
+      else
+         call pair_all(model, points)     ! no deck was checked
+      end if
    end subroutine build_scene
 
    !> Bodies, equations (contact nodes last) and rigid motions.

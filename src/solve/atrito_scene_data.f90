@@ -13,6 +13,7 @@ module atrito_scene_data
    use atrito_model, only: model_t, METHOD_ANDERSON
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
+   use atrito_reporter, only: reporter_t
    use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_solver_choice, only: STORAGE_SPARSE
@@ -23,6 +24,8 @@ module atrito_scene_data
    public :: scene_data_t, asked_t, prepare, assemble, free_load, check_known_points
 
    type :: scene_data_t
+      type(model_t), pointer :: model => null()
+      type(reporter_t) :: reporter = reporter_t(quiet=.true.)
       type(fem_t) :: fem
       logical, allocatable :: held(:, :)                    !< (2, n_nodes)
       real(wp), allocatable :: value(:, :)                  !< (2, n_nodes) prescribed displacements [L]
@@ -56,8 +59,9 @@ contains
       type(status_t), intent(out) :: status
       logical :: known
 
+      data%model => model
       call build_scene(model, data%fem, data%held, data%value, data%points)
-      call choose_form(model, asked, data)
+      call choose_form(asked, data)
       data%storage_kind = asked%storage_kind
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%storage_kind = STORAGE_SPARSE
@@ -74,8 +78,7 @@ contains
    end subroutine prepare
 
    !> The form of the contact system, by the numbers of points and nodes.
-   subroutine choose_form(model, asked, data)
-      type(model_t), intent(in) :: model
+   subroutine choose_form(asked, data)
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(inout) :: data
       integer(ip) :: i, n
@@ -83,9 +86,9 @@ contains
       n = 0
       do i = 1, size(data%points, kind=ip)
          n = n + data%points(i)%n
-         if (model%interactions(model%pairs(i)%interaction)%nu > 0.0_wp) n = n + data%points(i)%n
+         if (data%model%interactions(data%model%pairs(i)%interaction)%nu > 0.0_wp) n = n + data%points(i)%n
       end do
-      call choose_contact_form(n, 2*model%mesh%n_nodes, asked%contact_form, model%controls%method /= METHOD_ANDERSON, &
+      call choose_contact_form(n, 2*data%model%mesh%n_nodes, asked%contact_form, data%model%controls%method /= METHOD_ANDERSON, &
                                min(asked%memory, available_memory()), data%contact_form, data%reason)
    end subroutine choose_form
 

@@ -26,8 +26,7 @@ module atrito_scene_survey
 contains
 
    !> Fills what `check` and the listing print of a scene.
-   subroutine describe_scene(model, data, scene)
-      type(model_t), intent(in) :: model
+   subroutine describe_scene(data, scene)
       type(scene_data_t), intent(in) :: data
       type(scene_t), intent(out) :: scene
       integer(ip) :: b
@@ -38,7 +37,7 @@ contains
          scene%n_dofs = scene%n_dofs + scene%bodies(b)%n_equations
          scene%n_rigid = scene%n_rigid + scene%bodies(b)%n_free_motions
       end do
-      call describe_pairs(model, data, scene)
+      call describe_pairs(data, scene)
       scene%n_normal = count(data%line%normal > 0, kind=ip)
       scene%n_tangential = count(data%line%tangential > 0, kind=ip)
       scene%outer_loop = data%line%has_friction
@@ -50,7 +49,7 @@ contains
       end if
       scene%peak_before = max(peak_memory(), resident_memory())
       scene%memory_before = resident_memory() - share_of(SERVES_AGAIN, reusable_memory())
-      scene%memory = forecast_memory(model, data, scene)
+      scene%memory = forecast_memory(data%model, data, scene)
       call list_left_out(data, scene)
    end subroutine describe_scene
 
@@ -81,8 +80,7 @@ contains
 
    !> Counts what could be estimated only: the fronts of bodies with the sparse storage. A run, which makes them itself in a while,
    !> wants it where the estimate does not fit.
-   subroutine count_fronts(model, data, always, scene)
-      type(model_t), intent(in) :: model
+   subroutine count_fronts(data, always, scene)
       type(scene_data_t), intent(in) :: data
       logical, intent(in) :: always
       type(scene_t), intent(inout) :: scene
@@ -96,7 +94,7 @@ contains
          if (scene%bodies(b)%storage_kind == STORAGE_SPARSE) call count_body_memory(data%fem, b, scene%bodies(b))
       end do
       scene%peak_before = max(scene%peak_before, peak_memory())
-      scene%memory = forecast_memory(model, data, scene)
+      scene%memory = forecast_memory(data%model, data, scene)
    end subroutine count_fronts
 
    !> status: STATUS_DECK when the matrices of the scene need more memory than there is.
@@ -111,8 +109,7 @@ contains
                         held=scene%memory_before)
    end subroutine check_scene
 
-   subroutine describe_pairs(model, data, scene)
-      type(model_t), intent(in) :: model
+   subroutine describe_pairs(data, scene)
       type(scene_data_t), intent(in) :: data
       type(scene_t), intent(inout) :: scene
       integer(ip) :: i
@@ -120,9 +117,9 @@ contains
       allocate (scene%pairs(size(data%points)))
       do i = 1, size(data%points, kind=ip)
          associate (pair => scene%pairs(i), points => data%points(i))
-            pair%slave = model%surfaces(model%pairs(i)%slave)%name
-            pair%master = model%surfaces(model%pairs(i)%master)%name
-            pair%interaction = model%interactions(model%pairs(i)%interaction)%name
+            pair%slave = data%model%surfaces(data%model%pairs(i)%slave)%name
+            pair%master = data%model%surfaces(data%model%pairs(i)%master)%name
+            pair%interaction = data%model%interactions(data%model%pairs(i)%interaction)%name
             pair%n_points = points%n
             pair%n_left_out = points%n_left_out
             pair%matching = points%matching

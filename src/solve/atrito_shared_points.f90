@@ -5,17 +5,19 @@ module atrito_shared_points
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
-   use atrito_kinds, only: ip, wp
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
    use atrito_messages, only: add_note
+   use atrito_model, only: controls_t
    use atrito_outer_loop, only: solve_contact_line
    use atrito_reporter, only: reporter_t, report_progress
+   use atrito_row_entries, only: build_constraint_rows
    use atrito_status, only: status_t, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: has_dependent_points, solve_shared_points, note_shared_points, build_constraint_rows
+   public :: has_dependent_points, solve_shared_points, note_shared_points
 
    integer(ip), parameter :: MOST_NAMED = 5        !< nodes in the note
 
@@ -34,70 +36,16 @@ contains
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       type(constraint_rows_t) :: constraints
 
       call report_progress(reporter, 'contact points depend on each other; the proximal method')
-      call build_constraint_rows(fem, rows, line, constraints)
+      call build_constraint_rows(fem, rows, line, .false., constraints)
       call solve_contact_line(problem, line, controls, reporter, solution, status, constraints)
    end subroutine solve_shared_points
-
-   !> The rows of the unknowns over the free dofs of all bodies.
-   pure subroutine build_constraint_rows(fem, rows, line, constraints)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(constraint_rows_t), intent(out) :: constraints
-      integer(ip) :: before(fem%bodies%n)            !< equations of earlier bodies
-      integer(ip) :: b, i, n
-
-      n = 0
-      do b = 1, fem%bodies%n
-         before(b) = n
-         n = n + fem%bodies%list(b)%n
-      end do
-      constraints%n = size(line%point, kind=ip)
-      constraints%n_columns = n
-      constraints%point = line%point
-      n = 2*sum(rows%entries(line%point))
-      allocate (constraints%first(constraints%n + 1), constraints%column(n), constraints%value(n))
-      constraints%first(1) = 1
-      do i = 1, constraints%n
-         call append_row(fem, rows, before, i, is_normal=line%normal(line%point(i)) == i, constraints=constraints)
-      end do
-      n = constraints%first(constraints%n + 1) - 1
-      constraints%column = constraints%column(:n)
-      constraints%value = constraints%value(:n)
-   end subroutine build_constraint_rows
-
-   pure subroutine append_row(fem, rows, before, i, is_normal, constraints)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      integer(ip), intent(in) :: before(:), i
-      logical, intent(in) :: is_normal
-      type(constraint_rows_t), intent(inout) :: constraints
-      real(wp) :: direction(2)
-      integer(ip) :: k, dof, node, at
-
-      at = constraints%first(i)
-      associate (j => constraints%point(i))
-         direction = rows%tangent(:, j)
-         if (is_normal) direction = rows%normal(:, j)
-         do k = 1, rows%entries(j)
-            node = rows%node(k, j)
-            do dof = 1, 2
-               if (fem%bodies%equation(dof, node) == 0 .or. direction(dof) == 0.0_wp) cycle
-               constraints%column(at) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
-               constraints%value(at) = rows%coefficient(k, j)*direction(dof)
-               at = at + 1
-            end do
-         end do
-      end associate
-      constraints%first(i + 1) = at
-   end subroutine append_row
 
    !> Names the points whose own force is not unique.
    subroutine note_shared_points(mesh, rows, line, solution)

@@ -8,19 +8,19 @@ module atrito_solve
    use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_problem, only: motion_body
    use atrito_contact_scales, only: usual_growth
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_form, only: solve_dense_form
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_joint_sums, only: sum_joints
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, wp
    use atrito_messages, only: add_note, add_warning
-   use atrito_model, only: model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
+   use atrito_model, only: controls_t, model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_outer_loop, only: FREE_MOTION
    use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: results_t, scene_t, pair_scene_t, iteration_t
+   use atrito_results, only: results_t, scene_t, pair_scene_t
    use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
@@ -56,7 +56,7 @@ module atrito_solve
       integer :: form, method
       integer(ip) :: times                                 !< MAXIT
       real(wp) :: relaxation
-      logical :: is_coarse                                 !< outer_controls_t
+      logical :: is_coarse                                 !< controls_t
    end type attempt_t
 
    type(attempt_t), parameter :: PATIENT(5) = [attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 1, 1.0_wp, .true.), &
@@ -93,8 +93,8 @@ contains
       call start_phase('order')
       call prepare(model, store, options%asked_t, data, status)
       if (is_ok(status) .and. data%contact_form == CONTACT_SPARSE) call assemble(data, status)
-      if (is_ok(status)) call describe_scene(model, data, scene)
-      if (is_ok(status)) call count_fronts(model, data, exact, scene)
+      if (is_ok(status)) call describe_scene(data, scene)
+      if (is_ok(status)) call count_fronts(data, exact, scene)
       call stop_phase('order')
       if (is_ok(status)) call check_scene(model, options%memory, scene, status)
       if (is_ok(status)) call check_known_points(data, status)
@@ -127,35 +127,35 @@ contains
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
-      type(outer_controls_t) :: controls
+      type(controls_t) :: controls
 
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (.not. is_ok(status)) return
-      controls = outer_controls_t(model%controls%method, model%controls%tolerance, model%controls%max_iterations, &
-                                  model%controls%relaxation)
+      data%reporter = reporter
+      controls = model%controls
       if (options%contact_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
       if (data%contact_form == CONTACT_SPARSE .and. controls%method /= METHOD_ANDERSON) then
          call add_note('N-METHOD', 'METHOD is one of the dense form of the contact system; the sparse one, which was taken, has' &
                        //' its own')
       end if
-      call solve_one_form(model, data, data%contact_form, controls, reporter, store, results, solution, status)
+      call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
-         call solve_without_near(model, data, controls, reporter, store, results, solution, status)
+         call solve_without_near(data, controls, store, results, solution, status)
       end if
       if (options%contact_form == CONTACT_AUTO .and. data%assembled%failed > 0 .and. .not. is_ok(status)) then
          ! what is singular for the one form need not be so for the other
          if (can_be_dense(size(data%line%point, kind=ip))) then
-            call solve_one_form(model, data, CONTACT_DENSE, controls, reporter, store, results, solution, status)
+            call solve_one_form(data, CONTACT_DENSE, controls, store, results, solution, status)
          end if
       end if
       if (options%contact_form == CONTACT_AUTO .and. is_ok(status) .and. .not. (results%converged .and. results%law_holds)) then
-         call try_others(model, data, controls, reporter, store, results, solution)
+         call try_others(data, controls, store, results, solution)
       end if
       if (.not. is_ok(status)) return
       ! with the fronts that the bodies have in place of those that were expected
       results%scene%memory = forecast_memory(model, data, results%scene)
       call report_chatter(data%fem%mesh, data%points, data%rows, data%line, solution, results)
-      call warn(model, data, solution, results)
+      call warn(data, solution, results)
    end subroutine solve_with_store
 
    pure logical function is_solved(results, status)
@@ -167,34 +167,30 @@ contains
 
    !> Solves again with the stiffness of each element: where a body is as slender as the digits of its nodes are few, taking near
    !> elements as equal says nothing of it, and refinement does not converge.
-   subroutine solve_without_near(model, data, controls, reporter, store, results, solution, status)
-      type(model_t), intent(in) :: model
+   subroutine solve_without_near(data, controls, store, results, solution, status)
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       type(results_t) :: again
 
-      call report_progress(reporter, 'not solved; each element with its own last digits')
+      call report_progress(data%reporter, 'not solved; each element with its own last digits')
       again%scene = results%scene
       again%scene%near_elements = .false.
       results = again
       data%fem%grain = 0.0_wp
       data%is_assembled = .false.
-      call solve_one_form(model, data, data%contact_form, controls, reporter, store, results, solution, status)
+      call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
    end subroutine solve_without_near
 
    !> Solves by one form of the contact system, and checks what it found. Without a solution it is judged whether there can be one:
    !> status is STATUS_SINGULAR where there is none.
-   subroutine solve_one_form(model, data, form, controls, reporter, store, results, solution, status)
-      type(model_t), intent(in) :: model
+   subroutine solve_one_form(data, form, controls, store, results, solution, status)
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
       type(contact_solution_t), intent(out) :: solution
@@ -202,16 +198,16 @@ contains
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
 
       if (form == CONTACT_SPARSE) then
-         call solve_sparse_form(data, controls, reporter, results, solution, u, status)
+         call solve_sparse_form(data, controls, results, solution, u, status)
       else
-         call solve_dense_form(data, controls, reporter, store, results, solution, u, status)
+         call solve_dense_form(data, controls, store, results, solution, u, status)
       end if
       call start_phase('iterate')
       call judge_outcome(data, results%scene%pairs, solution, status)
       call stop_phase('iterate')
       if (.not. is_ok(status)) return
       call start_phase('recover')
-      call recover(model, data, solution, u, results)
+      call recover(data, solution, u, results)
       call stop_phase('recover')
       call start_phase('estimate')
       call estimate_error(data%fem, results)
@@ -237,43 +233,39 @@ contains
 
    !> The other form of the contact system, and Newton's method from a start of its own; with few points also what takes long:
    !> what is found counts when it converges and its law holds.
-   subroutine try_others(model, data, controls, reporter, store, results, solution)
-      type(model_t), intent(in) :: model
+   subroutine try_others(data, controls, store, results, solution)
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
-      type(outer_controls_t) :: newton, patient_controls
+      type(controls_t) :: newton, patient_controls
       integer :: attempt
 
       if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
       if (data%contact_form == CONTACT_DENSE) then
-         call try_form(model, data, CONTACT_SPARSE, controls, reporter, store, results, solution)
+         call try_form(data, CONTACT_SPARSE, controls, store, results, solution)
       else
-         call try_form(model, data, CONTACT_DENSE, controls, reporter, store, results, solution)
+         call try_form(data, CONTACT_DENSE, controls, store, results, solution)
       end if
       if (results%converged .and. results%law_holds) return
       newton = controls
       newton%method = METHOD_NEWTON
-      call try_form(model, data, CONTACT_DENSE, newton, reporter, store, results, solution)
+      call try_form(data, CONTACT_DENSE, newton, store, results, solution)
       if (size(data%line%point) > MOST_PATIENT) return
       do attempt = 1, size(PATIENT)
          if (results%converged .and. results%law_holds) return
-         patient_controls = outer_controls_t(PATIENT(attempt)%method, controls%tolerance, &
+         patient_controls = controls_t(PATIENT(attempt)%method, controls%tolerance, &
                                              PATIENT(attempt)%times*controls%max_iterations, PATIENT(attempt)%relaxation, &
                                              PATIENT(attempt)%is_coarse, controls%most_entries)
-         call try_form(model, data, PATIENT(attempt)%form, patient_controls, reporter, store, results, solution)
+         call try_form(data, PATIENT(attempt)%form, patient_controls, store, results, solution)
       end do
    end subroutine try_others
 
-   subroutine try_form(model, data, form, controls, reporter, store, results, solution)
-      type(model_t), intent(in) :: model
+   subroutine try_form(data, form, controls, store, results, solution)
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(body_store_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
@@ -282,12 +274,12 @@ contains
       type(status_t) :: status
 
       if (form == CONTACT_DENSE .and. .not. can_be_dense(size(data%line%point, kind=ip))) return
-      call report_progress(reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
-                           attempt_text(model, controls))
+      call report_progress(data%reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
+                           attempt_text(data%model, controls))
       other%scene = results%scene
       other%scene%contact_form = contact_form_name(form)
       other%scene%contact_reason = 'what was tried before found no solution'
-      call solve_one_form(model, data, form, controls, reporter, store, other, other_solution, status)
+      call solve_one_form(data, form, controls, store, other, other_solution, status)
       if (.not. (is_ok(status) .and. other%converged .and. other%law_holds)) return
       solution = other_solution
       results = other
@@ -296,7 +288,7 @@ contains
    !> What an attempt is, besides its form.
    function attempt_text(model, controls) result(text)
       type(model_t), intent(in) :: model
-      type(outer_controls_t), intent(in) :: controls
+      type(controls_t), intent(in) :: controls
       character(len=:), allocatable :: text
 
       text = ''
@@ -348,8 +340,7 @@ contains
    end subroutine judge_failed_check
 
    !> Displacements, reactions, stresses, contact fields, energies and balances.
-   subroutine recover(model, data, solution, u, results)
-      type(model_t), intent(in) :: model
+   subroutine recover(data, solution, u, results)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       real(wp), allocatable, intent(inout) :: u(:, :)      !< without rigid motions, (2, n_nodes) [L]; moved to the results
@@ -361,7 +352,7 @@ contains
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
-      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, data%rows, &
+      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
                              sizes_at_points(data, solution))
       imbalance = check_balance(data%fem, data%f, contact, data%rows)
       call add_rigid_motions(data%fem, solution%state%a, results%u)
@@ -375,10 +366,10 @@ contains
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
-      if (model%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
+      if (data%model%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
-      call recover_stress(model, data%fem, results)
+      call recover_stress(data%model, data%fem, results)
       call copy_history(solution, results)
    end subroutine recover
 
@@ -391,6 +382,7 @@ contains
 
       sizes%force = data%line%weight*hypot(solution%p, solution%t)
       sizes%pair = data%line%pair
+      sizes%rows = data%rows
       allocate (sizes%motion(data%fem%bodies%n))
       first = 1
       do b = 1, data%fem%bodies%n
@@ -403,23 +395,16 @@ contains
    pure subroutine copy_history(solution, results)
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results
-      integer(ip) :: i
 
-      allocate (results%iterations(solution%history%n))
-      do i = 1, solution%history%n
-         associate (r => solution%history%records(i))
-            results%iterations(i) = iteration_t(r%outer, r%inner, r%change_displacement, r%change_pressure, r%change_friction, &
-                                                r%open, r%stick, r%slip, r%residual)
-         end associate
-      end do
+      allocate (results%iterations(0))
+      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
       results%outer_iterations = solution%history%outer
       results%linear_solves = max(solution%history%n, 1_ip)
       results%contraction = solution%contraction
    end subroutine copy_history
 
    !> What a careful user should know of a solution.
-   subroutine warn(model, data, solution, results)
-      type(model_t), intent(in) :: model
+   subroutine warn(data, solution, results)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(in) :: results
@@ -445,7 +430,7 @@ contains
                                                                  //' with more points than its soft master has nodes, or points' &
                                                                  //' that are almost one')
       call note_shared_points(data%fem%mesh, data%rows, data%line, solution)
-      call warn_of_others(model, results)
+      call warn_of_others(data%model, results)
    end subroutine warn
 
    !> Whether there may be other solutions.

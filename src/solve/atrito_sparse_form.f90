@@ -4,14 +4,13 @@ module atrito_sparse_form
    use atrito_assembly, only: fem_t
    use atrito_condensed_body, only: check_held
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_solution, only: contact_solution_t, outer_controls_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_loop, only: solve_by_multipliers
-   use atrito_outer_loop, only: FREE_MOTION
-   use atrito_reporter, only: reporter_t
+   use atrito_model, only: controls_t
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, assemble
-   use atrito_shared_points, only: build_constraint_rows
+   use atrito_row_entries, only: build_constraint_rows
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
@@ -22,10 +21,9 @@ module atrito_sparse_form
 contains
 
    !> u: displacements without rigid motions. status: STATUS_SINGULAR with FREE_MOTION, or with a body that is singular by itself.
-   subroutine solve_sparse_form(data, controls, reporter, results, solution, u, status)
+   subroutine solve_sparse_form(data, controls, results, solution, u, status)
       type(scene_data_t), intent(inout) :: data
-      type(outer_controls_t), intent(in) :: controls
-      type(reporter_t), intent(in) :: reporter
+      type(controls_t), intent(in) :: controls
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: u(:, :)
@@ -40,9 +38,9 @@ contains
       if (.not. is_ok(status)) return
       results%scene%near_elements = data%assembled%is_near
       call start_phase('iterate')
-      call build_constraint_rows(data%fem, data%rows, data%line, rows)
-      call solve_by_multipliers(data%assembled, rows, data%line, controls, FREE_MOTION, reporter, solution, x, &
-                                results%factorisations, status)
+      call build_constraint_rows(data%fem, data%rows, data%line, .false., rows)
+      call solve_by_multipliers(data%assembled, rows, data%line, controls, data%reporter, solution, x, status)
+      results%factorisations = solution%factorisations
       call stop_phase('iterate')
       if (data%assembled%matrix%failed > 0) call name_failure(data, status)
       if (.not. allocated(x)) return

@@ -15,6 +15,7 @@ module atrito_weak_forces
       real(wp), allocatable :: force(:)          !< (points) [F]
       integer(ip), allocatable :: pair(:)        !< (points) contact pair of each
       real(wp), allocatable :: motion(:)         !< (bodies) [L]
+      type(contact_rows_t) :: rows               !< of the points
    end type contact_sizes_t
 
    real(wp), parameter :: FORCE_TOLERANCE = 5.0e-8_wp !< of the largest force of the pair, of the body
@@ -25,24 +26,23 @@ contains
 
    !> Whether the residual of every node is small beside the forces of its body and pairs. Its round-off is asked for where
    !> it is not.
-   function weak_parts_hold(fem, u, f, contact, held, residual, rows, sizes) result(holds)
+   function weak_parts_hold(fem, u, f, contact, held, residual, sizes) result(holds)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)            !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :), contact(:, :) !< loads and B'q (2, n_nodes) [F]
       logical, intent(in) :: held(:, :)
       real(wp), intent(in) :: residual(:, :)     !< (2, n_nodes) K u_e - f + B'q; at held dofs the reaction [F]
-      type(contact_rows_t), intent(in) :: rows
       type(contact_sizes_t), intent(in) :: sizes
       logical :: holds
       real(wp), allocatable :: round_off(:, :)
 
       allocate (round_off(2, 1), source=0.0_wp)
-      holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, rows, sizes, round_off)
+      holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
       if (holds) return
       deallocate (round_off)
       allocate (round_off(2, fem%mesh%n_nodes))
       call internal_force_sizes(fem, uncertain_part(fem, u, sizes%motion), round_off)
-      holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, rows, sizes, round_off)
+      holds = bodies_hold(fem, f, contact, held, residual, round_off) .and. pairs_hold(f, held, residual, sizes, round_off)
    end function weak_parts_hold
 
    !> What round-off, and the printing of small displacements, may do to the displacements [L].
@@ -91,25 +91,24 @@ contains
    end function bodies_hold
 
    !> The nodes of each pair by its largest force, or by their own load.
-   pure logical function pairs_hold(f, held, residual, rows, sizes, round_off) result(holds)
+   pure logical function pairs_hold(f, held, residual, sizes, round_off) result(holds)
       real(wp), intent(in) :: f(:, :), residual(:, :)
       logical, intent(in) :: held(:, :)
-      type(contact_rows_t), intent(in) :: rows
       type(contact_sizes_t), intent(in) :: sizes
       real(wp), intent(in) :: round_off(:, :)
       real(wp) :: largest(maxval([sizes%pair, 0_ip])), excess
       integer(ip) :: j, k, dof
 
       largest = 0.0_wp
-      do j = 1, rows%n
+      do j = 1, sizes%rows%n
          largest(sizes%pair(j)) = max(largest(sizes%pair(j)), sizes%force(j))
       end do
       holds = .true.
-      do j = 1, rows%n
+      do j = 1, sizes%rows%n
          ! a pair without any force asks for nothing
          if (largest(sizes%pair(j)) <= 0.0_wp) cycle
-         do k = 1, rows%entries(j)
-            associate (node => rows%node(k, j), other => min(rows%node(k, j), size(round_off, 2, kind=ip)))
+         do k = 1, sizes%rows%entries(j)
+            associate (node => sizes%rows%node(k, j), other => min(sizes%rows%node(k, j), size(round_off, 2, kind=ip)))
                do dof = 1, 2
                   if (held(dof, node)) cycle
                   excess = abs(residual(dof, node)) - round_off(dof, other)

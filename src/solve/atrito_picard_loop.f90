@@ -1,0 +1,196 @@
+!> The Picard loop on the weighted normal stress, with the accelerator that it is given.
+module atrito_picard_loop
+   use atrito_accelerator, only: accelerator_t
+   use atrito_box_problem, only: box_problem_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, solve_with_bound, judge_condition, has_settled, &
+                                      may_be_round_off, relative_residual
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_model, only: controls_t, METHOD_PICARD
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_solve_history, only: solve_history_t, begin_outer, end_outer
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: line_task_t, iterate, is_too_much
+
+   !> What is to be solved, how, and who is told of it.
+   type :: line_task_t
+      type(box_problem_t), pointer :: problem => null()
+      type(contact_line_t), pointer :: line => null()
+      type(controls_t) :: controls
+      type(reporter_t) :: reporter
+   end type line_task_t
+
+   integer(ip), parameter :: MOST_STEPS_BACK = 6
+   integer(ip), parameter :: LONGEST_CYCLE = 6
+   integer(ip), parameter :: STALE = 10                   !< iterations in which the residual is not halved
+   real(wp), parameter :: STALE_RESIDUAL = 1.0e-8_wp      !< that is accepted then
+   integer(ip), parameter :: LEAST_SOLVES = 200           !< before it is given up
+
+   !> What the loop remembers of its bounds.
+   type :: loop_t
+      real(wp), allocatable :: good(:), good_image(:)      !< (n) the last bound that held all bodies; not allocated: none so far
+      real(wp), allocatable :: visited(:, :)               !< (n, LONGEST_CYCLE) newest first; -1: none
+      real(wp) :: last_residual = -1.0_wp                  !< < 0: none
+      real(wp) :: best_residual = HUGE_REAL
+      integer(ip) :: best_outer = 0
+      integer(ip) :: steps_back = 0
+   end type loop_t
+
+contains
+
+   subroutine iterate(task, accelerator, tau, solution, status)
+      type(line_task_t), intent(in) :: task
+      class(accelerator_t), intent(inout) :: accelerator
+      real(wp), intent(inout) :: tau(:)
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(out) :: status
+      type(loop_t) :: loop
+      real(wp) :: image(size(tau))
+      integer(ip) :: outer
+      logical :: cycles
+
+      solution%converged = .false.
+      solution%contraction = 0.0_wp
+      allocate (loop%visited(size(tau), LONGEST_CYCLE), source=-1.0_wp)
+      call accelerator%reset()
+      do outer = 1, task%controls%max_iterations
+         call begin_outer(solution%history)
+         call solve_with_bound(task%problem, task%line, tau, solution, image, status)
+         if (.not. is_ok(status)) return
+         if (solution%inner%moves) then
+            call step_back(loop, accelerator, tau, status)
+            if (.not. is_ok(status)) return
+            cycle
+         end if
+         if (.not. solution%inner%solved .or. is_too_much(task, solution%history)) exit
+         solution%residual = relative_residual(task%line, tau, image)
+         call end_outer(solution%history, solution%residual)
+         call tell(task%reporter, outer, solution)
+         call judge_step(task%line, task%controls%tolerance, outer, tau, image, loop, solution)
+         if (solution%converged) return
+         loop%good = tau
+         loop%good_image = image
+         call accelerator%update(loop%good, image, tau)
+         call look_for_cycle(task%line, task%controls%method, tau, loop, solution, cycles)
+         if (cycles) return
+      end do
+      solution%verdict = 'the outer loop did not converge in '//to_text(task%controls%max_iterations)//' iterations (residual ' &
+                         //to_text(solution%residual, 3)//')'
+      if (is_too_much(task, solution%history)) solution%verdict = 'the loop was given up after ' &
+                                                                               //to_text(solution%history%n)//' linear solves'
+      if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
+   end subroutine iterate
+
+   pure logical function is_too_much(task, history)
+      type(line_task_t), intent(in) :: task
+      type(solve_history_t), intent(in) :: history
+
+      is_too_much = history%n > LEAST_SOLVES .and. real(history%n, wp)*real(task%problem%m, wp)**2 > task%controls%most_entries
+   end function is_too_much
+
+   subroutine step_back(loop, accelerator, tau, status)
+      type(loop_t), intent(inout) :: loop
+      class(accelerator_t), intent(inout) :: accelerator
+      real(wp), intent(inout) :: tau(:)
+      type(status_t), intent(out) :: status
+
+      if (loop%steps_back == MOST_STEPS_BACK) then
+         call set_status(status, STATUS_SINGULAR, FREE_MOTION)
+         return
+      end if
+      loop%steps_back = loop%steps_back + 1
+      call accelerator%reset()
+      if (allocated(loop%good)) then
+         tau = 0.5_wp*(tau + loop%good)
+      else
+         tau = 2*tau
+      end if
+   end subroutine step_back
+
+   subroutine judge_step(line, tolerance, outer, tau, image, loop, solution)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tolerance
+      integer(ip), intent(in) :: outer
+      real(wp), intent(in) :: tau(:), image(:)
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+
+      if (allocated(loop%good) .and. maxval(tau) > 0.0_wp) then
+         call measure_rate(line%weight/maxval(line%weight), (tau - loop%good)/maxval(tau), (image - loop%good_image)/maxval(tau), &
+                           solution%contraction)
+      end if
+      if (may_be_round_off(loop%last_residual, solution%residual)) call judge_condition(solution)
+      solution%converged = has_settled(tolerance, solution%inner%condition, loop%last_residual, solution%residual)
+      loop%last_residual = solution%residual
+      if (solution%residual < 0.5_wp*loop%best_residual) then
+         loop%best_residual = solution%residual
+         loop%best_outer = outer
+      end if
+      ! round-off that the matrix does not tell: displacements far below the initial gaps
+      if (outer - loop%best_outer < STALE .or. solution%converged) return
+      solution%converged = relative_residual(line, tau, image, beside_noise=.true.) <= STALE_RESIDUAL
+      if (solution%converged) solution%residual = min(solution%residual, STALE_RESIDUAL)
+   end subroutine judge_step
+
+   subroutine look_for_cycle(line, method, tau, loop, solution, cycles)
+      type(contact_line_t), intent(in) :: line
+      integer, intent(in) :: method
+      real(wp), intent(in) :: tau(:)
+      type(loop_t), intent(inout) :: loop
+      type(contact_solution_t), intent(inout) :: solution
+      logical, intent(out) :: cycles
+      integer(ip) :: length
+
+      call find_cycle(line, loop%visited, tau, solution%residual, length)
+      cycles = length > 1 .and. loop%steps_back == 0
+      if (.not. cycles) return
+      solution%verdict = 'the loop cycles between '//to_text(length)//' states'
+      if (method == METHOD_PICARD) solution%verdict = solution%verdict//'; METHOD=ANDERSON may find the solution'
+   end subroutine look_for_cycle
+
+   pure subroutine measure_rate(weight, step, answer, rate)
+      real(wp), intent(in) :: weight(:)             !< relative to the largest
+      real(wp), intent(in) :: step(:), answer(:)    !< relative to the largest bound
+      real(wp), intent(inout) :: rate
+      real(wp), parameter :: LEAST_STEP = 1.0e-6_wp !< below it round-off is measured
+
+      if (maxval(abs(step)) <= LEAST_STEP) return
+      rate = max(rate, norm2(sqrt(weight)*answer)/norm2(sqrt(weight)*step))
+   end subroutine measure_rate
+
+   subroutine tell(reporter, outer, solution)
+      type(reporter_t), intent(in) :: reporter
+      integer(ip), intent(in) :: outer
+      type(contact_solution_t), intent(in) :: solution
+
+      associate (record => solution%history%records(solution%history%n))
+         call report_progress(reporter, 'outer '//to_text(outer)//'  solves '//to_text(record%inner) &
+                              //'  open '//to_text(record%open)//'  stick '//to_text(record%stick) &
+                              //'  slip '//to_text(record%slip)//'  residual '//to_text(solution%residual, 3))
+      end associate
+   end subroutine tell
+
+   pure subroutine find_cycle(line, visited, tau, residual, length)
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(inout) :: visited(:, :)        !< newest first
+      real(wp), intent(in) :: tau(:), residual
+      integer(ip), intent(out) :: length              !< 0: none
+      real(wp), parameter :: SAME = 1.0e-6_wp         !< of the residual
+      integer(ip) :: k
+
+      length = 0
+      do k = 2, LONGEST_CYCLE
+         if (any(visited(:, k) < 0.0_wp)) exit
+         if (relative_residual(line, visited(:, k), tau) < SAME*residual) then
+            length = k
+            exit
+         end if
+      end do
+      visited(:, 2:) = visited(:, :LONGEST_CYCLE - 1)
+      visited(:, 1) = tau
+   end subroutine find_cycle
+
+end module atrito_picard_loop

@@ -1,0 +1,177 @@
+!> The rows of the unknown contact forces by their entries: over the displacements of the bodies, and over their rigid motions.
+module atrito_row_entries
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: bodies_t, body_t, mode_at
+   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: build_constraint_rows, motions_of_row, first_motions, direction_of, work_on_motion
+
+   integer(ip), parameter :: MOST_MOTIONS = 6_ip !< of a row: it touches two bodies at most
+   real(wp), parameter :: ROUND_OFF = 1.0e-13_wp !< motions are of size one: what is below rounding of that is no motion
+
+contains
+
+   !> B by rows, its columns the displacements of one body after the other, then the rigid motions of all bodies if they are asked
+   !> for.
+   pure subroutine build_constraint_rows(fem, rows, line, with_motions, constraints)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      logical, intent(in) :: with_motions
+      type(constraint_rows_t), intent(out) :: constraints
+      integer(ip) :: before(fem%bodies%n + 1), first_motion(fem%bodies%n + 1), b, i, at, n
+
+      before(1) = 0
+      do b = 1, fem%bodies%n
+         before(b + 1) = before(b) + fem%bodies%list(b)%n
+      end do
+      first_motion = first_motions(fem%bodies) + before(fem%bodies%n + 1)
+      constraints%n = size(line%point, kind=ip)
+      constraints%n_columns = before(fem%bodies%n + 1)
+      if (with_motions) constraints%n_columns = first_motion(fem%bodies%n + 1) - 1
+      constraints%point = line%point
+      n = 2*sum(rows%entries(line%point)) + merge(MOST_MOTIONS*constraints%n, 0_ip, with_motions)
+      allocate (constraints%first(constraints%n + 1), constraints%column(n), constraints%value(n))
+      constraints%first(1) = 1
+      do i = 1, constraints%n
+         at = constraints%first(i)
+         call displacements_of_row(fem, rows, line, i, before, n, constraints%column(at:), constraints%value(at:))
+         at = at + n
+         n = 0
+         if (with_motions) call motions_of_row(fem, rows, line, i, first_motion, n, constraints%column(at:), constraints%value(at:))
+         constraints%first(i + 1) = at + n
+      end do
+      n = constraints%first(constraints%n + 1) - 1
+      constraints%column = constraints%column(:n)
+      constraints%value = constraints%value(:n)
+   end subroutine build_constraint_rows
+
+   pure subroutine displacements_of_row(fem, rows, line, i, before, n, column, value)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: i               !< unknown force
+      integer(ip), intent(in) :: before(:)       !< (bodies) columns of the bodies before
+      integer(ip), intent(out) :: n              !< entries
+      integer(ip), intent(inout) :: column(:)
+      real(wp), intent(inout) :: value(:)
+      real(wp) :: direction(2)
+      integer(ip) :: k, dof, node
+
+      direction = direction_of(rows, line, i)
+      n = 0
+      do k = 1, rows%entries(line%point(i))
+         node = rows%node(k, line%point(i))
+         do dof = 1, 2
+            if (direction(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) == 0) cycle
+            n = n + 1
+            column(n) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
+            value(n) = rows%coefficient(k, line%point(i))*direction(dof)
+         end do
+      end do
+   end subroutine displacements_of_row
+
+   !> The direction of an unknown at the nodes of its point, moved by the rigid motions of their bodies.
+   pure subroutine motions_of_row(fem, rows, line, i, first_motion, n, motion, value)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: i               !< unknown force
+      integer(ip), intent(in) :: first_motion(:) !< (bodies) number of the first motion of each
+      integer(ip), intent(out) :: n              !< entries
+      integer(ip), intent(inout) :: motion(:)
+      real(wp), intent(inout) :: value(:)
+      real(wp) :: direction(2)
+      integer(ip) :: k, node, b, mode, e, kept
+
+      direction = direction_of(rows, line, i)
+      n = 0
+      do k = 1, rows%entries(line%point(i))
+         node = rows%node(k, line%point(i))
+         b = fem%bodies%of_node(node)
+         if (b == 0) cycle
+         do mode = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
+            do e = 1, n
+               if (motion(e) == first_motion(b) + mode - 1) exit
+            end do
+            if (e > n) then
+               n = e
+               motion(e) = first_motion(b) + mode - 1
+               value(e) = 0.0_wp
+            end if
+            value(e) = value(e) + rows%coefficient(k, line%point(i))*along_motion(fem, fem%bodies%list(b), mode, node, direction)
+         end do
+      end do
+      kept = 0
+      do e = 1, n
+         if (abs(value(e)) < ROUND_OFF) cycle
+         kept = kept + 1
+         motion(kept) = motion(e)
+         value(kept) = value(e)
+      end do
+      n = kept
+   end subroutine motions_of_row
+
+   !> The displacement of a node along a direction in a rigid motion; 0 where the node is held.
+   pure real(wp) function along_motion(fem, body, mode, node, direction) result(z)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      integer(ip), intent(in) :: mode, node
+      real(wp), intent(in) :: direction(2)
+      integer(ip) :: dof
+
+      z = 0.0_wp
+      do dof = 1, 2
+         if (fem%bodies%equation(dof, node) == 0) cycle
+         z = z + direction(dof)*mode_at(body, body%modes(:, mode), fem%mesh%x(:, node), dof)
+      end do
+   end function along_motion
+
+   !> The first rigid motion of each body when they are counted from 1 on, and one more than there are.
+   pure function first_motions(bodies) result(first)
+      type(bodies_t), intent(in) :: bodies
+      integer(ip) :: first(bodies%n + 1), b
+
+      first(1) = 1
+      do b = 1, bodies%n
+         first(b + 1) = first(b) + size(bodies%list(b)%modes, 2, kind=ip)
+      end do
+   end function first_motions
+
+   pure function direction_of(rows, line, i) result(d)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: i               !< unknown force
+      real(wp) :: d(2)
+
+      d = rows%tangent(:, line%point(i))
+      if (line%normal(line%point(i)) == i) d = rows%normal(:, line%point(i))
+   end function direction_of
+
+   !> What forces work on a rigid motion, over the free dofs; and the size of what that is the sum of.
+   pure subroutine work_on_motion(fem, body, mode, f, work, work_size)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      integer(ip), intent(in) :: mode
+      real(wp), intent(in) :: f(:, :)            !< (2, n_nodes) [F]
+      real(wp), intent(out) :: work, work_size   !< [F]
+      real(wp) :: term
+      integer(ip) :: i, dof
+
+      work = 0.0_wp
+      work_size = 0.0_wp
+      do i = 1, size(body%nodes, kind=ip)
+         do dof = 1, 2
+            if (fem%bodies%equation(dof, body%nodes(i)) == 0) cycle
+            term = f(dof, body%nodes(i))*mode_at(body, body%modes(:, mode), fem%mesh%x(:, body%nodes(i)), dof)
+            work = work + term
+            work_size = work_size + abs(term)
+         end do
+      end do
+   end subroutine work_on_motion
+
+end module atrito_row_entries
