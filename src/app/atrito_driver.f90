@@ -3,7 +3,7 @@ module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use atrito_blas_info, only: set_blas_threads
    use atrito_body_store, only: body_store_t
-   use atrito_check_report, only: compose_check
+   use atrito_screen, only: compose_check
    use atrito_command_line, only: command_t, parse_command, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, &
                                   TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
@@ -47,13 +47,7 @@ contains
       type(body_store_t) :: store
       logical :: ok
 
-      call keep_freed_memory()
-      call guard_interrupts()
-      call ignore_broken_pipe()
-      call set_blas_threads(1_ip)
-      call set_threads(1_ip)
-      call clear_messages()
-      call reset_timers()
+      call begin_program()
       call fetch_arguments(arguments)
       call parse_command(arguments, command, ok, error)
       code = STATUS_USAGE
@@ -90,6 +84,17 @@ contains
          call print_page(page, error_unit)
       end select
    end subroutine run_program
+
+   !> What is to be so before anything else is done.
+   subroutine begin_program()
+      call keep_freed_memory()
+      call guard_interrupts()
+      call ignore_broken_pipe()
+      call set_blas_threads(1_ip)
+      call set_threads(1_ip)
+      call clear_messages()
+      call reset_timers()
+   end subroutine begin_program
 
    !> Tells what a deck needs; solves nothing, writes no file.
    subroutine check_deck(command, code)

@@ -10,8 +10,8 @@ module atrito_listing
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
    use atrito_results, only: chatter_t, results_t, scene_t, balance_t, iteration_t
-   use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, &
-                          left, right, number, bytes, plural
+   use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
+                          number, bytes
    use atrito_model_report, only: describe_model
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields, &

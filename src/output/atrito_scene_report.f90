@@ -2,6 +2,7 @@
 module atrito_scene_report
    use atrito_kinds, only: ip
    use atrito_strings, only: to_text
+   use atrito_summary, only: body_count
    use atrito_results, only: scene_t, body_result_t, pair_scene_t
    use atrito_page, only: page_t, add_line, add_blank, add_entry, add_paragraph, left, right, number, bytes, plural
    implicit none (type, external)
@@ -42,13 +43,6 @@ contains
          call add_paragraph(page, '- '//scene%left_out(i)%s, 3)
       end do
    end subroutine describe_needs
-
-   pure integer(ip) function body_count(scene)
-      type(scene_t), intent(in) :: scene
-
-      body_count = 0
-      if (allocated(scene%bodies)) body_count = size(scene%bodies, kind=ip)
-   end function body_count
 
    !> A row a body: its size, storage and why.
    subroutine describe_bodies(page, scene, factored, some)

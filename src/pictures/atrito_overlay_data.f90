@@ -7,7 +7,8 @@ module atrito_overlay_data
    use atrito_plot_text, only: range_t, cover
    implicit none (type, external)
    private
-   public :: overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, N_FIELDS, FIELD_COLUMN, N_QUANTITIES, LONGEST_LABEL
+   public :: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, N_FIELDS, FIELD_COLUMN, N_QUANTITIES, &
+             LONGEST_LABEL
    public :: FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP
 
    integer, parameter :: LONGEST_LABEL = 40          !< characters of a run's or a parameter's name
@@ -45,6 +46,15 @@ module atrito_overlay_data
       logical :: has_weighted = .false.            !< it differs from the pressure in one run at least
    end type overlay_pair_t
 
+   !> What is laid over one another.
+   type :: overlay_t
+      character(len=:), allocatable :: title       !< heading of the deck; empty where there is none
+      logical :: by_value = .false.                !< one parameter varies
+      character(len=:), allocatable :: parameter   !< its name, as it can be drawn
+      type(overlay_run_t), allocatable :: runs(:)
+      type(overlay_pair_t), allocatable :: pairs(:)
+   end type overlay_t
+
 contains
 
    !> Positive values that span more than two decades.
@@ -59,25 +69,25 @@ contains
    end function is_logarithmic
 
    !> Reads the tables of all runs. Those of a run that failed are missing, which is no failure here.
-   subroutine read_runs(runs, pairs, heading)
-      type(overlay_run_t), intent(inout) :: runs(:)             !< label, path and value are given
-      type(overlay_pair_t), allocatable, intent(out) :: pairs(:)
-      character(len=:), allocatable, intent(out) :: heading     !< of the deck; empty where there is none
+   subroutine read_runs(overlay)
+      type(overlay_t), intent(inout) :: overlay    !< label, path and value of the runs are given
       type(table_file_t) :: table
       type(status_t) :: status
       integer :: i
 
-      allocate (pairs(0))
-      heading = ''
-      do i = 1, size(runs)
-         call read_table(runs(i)%path//'/contact.tab', table, status)
-         runs(i)%has_tables = is_ok(status)
-         if (.not. is_ok(status)) cycle
-         runs(i)%not_converged = table%not_converged
-         if (len(heading) == 0) heading = heading_of(table%text)
-         call cover_run(table, pairs)
-         call read_table(runs(i)%path//'/summary.tab', table, status)
-         if (is_ok(status)) call take_quantities(table, runs(i))
+      allocate (overlay%pairs(0))
+      overlay%title = ''
+      do i = 1, size(overlay%runs)
+         associate (run => overlay%runs(i))
+            call read_table(run%path//'/contact.tab', table, status)
+            run%has_tables = is_ok(status)
+            if (.not. is_ok(status)) cycle
+            run%not_converged = table%not_converged
+            if (len(overlay%title) == 0) overlay%title = heading_of(table%text)
+            call cover_run(table, overlay%pairs)
+            call read_table(run%path//'/summary.tab', table, status)
+            if (is_ok(status)) call take_quantities(table, run)
+         end associate
       end do
    end subroutine read_runs
 

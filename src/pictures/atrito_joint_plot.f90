@@ -7,13 +7,14 @@ module atrito_joint_plot
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
-   use atrito_mesh_plot, only: outline_t, find_outline, put_place
+   use atrito_mesh_lines, only: drawing_t, put_place, put_frame, is_drawn_rigid, LINE_INNER
+   use atrito_mesh_plot, only: draw_mesh, put_heading
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
-   use atrito_results, only: results_t, joint_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_results, only: results_t, joint_t, contact_result_t, POINT_OPEN
    use atrito_table, only: origin_t
    use atrito_plot_files, only: JOINT_PLOT, MESH_PLOT
-   use atrito_plot_text, only: padded, range_text, quoted, picture_title, put_top, put_terminal, COLOUR, TIMES, LOOP_END
+   use atrito_plot_text, only: quoted, picture_title, begin_script, end_script, put_plot, COLOUR
    implicit none (type, external)
    private
    public :: write_joint_plot, has_joint_plot
@@ -25,13 +26,6 @@ module atrito_joint_plot
    real(wp), parameter :: LEAST_SHARE = 1.0e-3_wp   !< of the largest n; a joint with less is not on the line of thrust
    real(wp), parameter :: MANY_JOINTS = 40.0_wp     !< from here on markers and lines are smaller
    integer, parameter :: DIGITS = 7
-
-   !> What joints.dat holds: a block a state, a block a width, and one of places, those that are there.
-   type :: blocks_t
-      logical :: state(0:N_STATES - 1) = .false.
-      logical :: width(N_WIDTHS) = .false.
-      logical :: places = .false.
-   end type blocks_t
 
 contains
 
@@ -54,18 +48,19 @@ contains
       type(origin_t), intent(in) :: origin
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
-      type(blocks_t) :: blocks
-      type(outline_t) :: outline
+      type(string_t), allocatable :: curves(:)      !< of joints.dat, one a block
+      type(drawing_t) :: drawing
 
-      call find_outline(model, results, outline)
+      call draw_mesh(model, results, drawing)
       call open_text(set, JOINT_PLOT//'.dat', file)
       call put_line(file, '# joints by state, the line of thrust by width, places of the resultants; columns: '// &
                     'x [L]  y [L]  u1 [L]  u2 [L], and n over the largest n of the places')
-      call put_states(file, results, blocks)
-      call put_thrust(file, results, blocks)
-      call put_places(file, results%joints, blocks)
+      allocate (curves(0))
+      call put_states(file, results, curves)
+      call put_thrust(file, results, curves)
+      call put_places(file, results%joints, curves)
       call close_text(file, status)
-      if (status%code == 0) call write_script(set, results, origin, outline, blocks, status)
+      if (status%code == 0) call write_script(set, model, results, origin, drawing, curves, status)
    end subroutine write_joint_plot
 
    !> The state of a point; a closed one of a pair without friction neither sticks nor slips.
@@ -78,24 +73,28 @@ contains
    end function state_of
 
    !> A block a state: what its points have of the joints, from middle to middle between the points.
-   subroutine put_states(file, results, blocks)
+   subroutine put_states(file, results, curves)
       type(text_file_t), intent(inout) :: file
       type(results_t), intent(in) :: results
-      type(blocks_t), intent(inout) :: blocks
+      type(string_t), allocatable, intent(inout) :: curves(:)
       integer(ip) :: state, i, j
+      logical :: begun
 
       do state = 0, N_STATES - 1
+         begun = .false.
          do i = 1, size(results%contact, kind=ip)
             associate (contact => results%contact(i))
                do j = 1, contact%n
                   if (state_of(contact%status(j), contact%has_friction) /= state) cycle
-                  if (.not. blocks%state(state)) call put_line(file, '# '//trim(STATE_WORD(state)))
-                  blocks%state(state) = .true.
+                  if (.not. begun) call begin_block(file, trim(STATE_WORD(state)), ' using @moved with lines lt 1 lw'// &
+                                                    ' joint_width lc rgb "'//COLOUR(STATE_COLOUR(state))//'" title "'// &
+                                                    trim(STATE_WORD(state))//'"', curves)
+                  begun = .true.
                   call put_share(file, contact, j)
                end do
             end associate
          end do
-         if (blocks%state(state)) call put_line(file, '')
+         if (begun) call put_line(file, '')
       end do
    end subroutine put_states
 
@@ -121,31 +120,34 @@ contains
    end function at_point
 
    !> A block a width: pieces from the places of a body's joints to their mean.
-   subroutine put_thrust(file, results, blocks)
+   subroutine put_thrust(file, results, curves)
       type(text_file_t), intent(inout) :: file
       type(results_t), intent(in) :: results
-      type(blocks_t), intent(inout) :: blocks
+      type(string_t), allocatable, intent(inout) :: curves(:)
       real(wp), allocatable :: mean(:, :)
       integer(ip), allocatable :: held_by(:)
       integer(ip) :: width, i, side
+      logical :: begun
 
       call find_means(results%joints, mean, held_by)
       do width = 1, N_WIDTHS
+         begun = .false.
          do i = 1, size(results%joints, kind=ip)
             if (width_of(results%joints, i) /= width) cycle
             do side = 1, 2
                associate (body => results%joints(i)%bodies(side))
                   if (body == 0) cycle
                   if (held_by(body) < 2) cycle
-                  if (.not. blocks%width(width)) call put_line(file, '# line of thrust, width '//to_text(width))
-                  blocks%width(width) = .true.
+                  if (.not. begun) call begin_block(file, 'line of thrust, width '//to_text(width), ' using @moved with lines'// &
+                                                    ' lt 1 lw '//to_text(width)//'*thrust_width lc rgb "black"', curves)
+                  begun = .true.
                   call put_place(file, at_joint(results%joints(i)))
                   call put_place(file, mean(:, body))
                   call put_line(file, '')
                end associate
             end do
          end do
-         if (blocks%width(width)) call put_line(file, '')
+         if (begun) call put_line(file, '')
       end do
    end subroutine put_thrust
 
@@ -217,56 +219,47 @@ contains
    end function largest_n
 
    !> The last block: places of the resultants, with n over the largest n.
-   subroutine put_places(file, joints, blocks)
+   subroutine put_places(file, joints, curves)
       type(text_file_t), intent(inout) :: file
       type(joint_t), intent(in) :: joints(:)
-      type(blocks_t), intent(inout) :: blocks
+      type(string_t), allocatable, intent(inout) :: curves(:)
       integer(ip) :: i
+      logical :: begun
 
+      begun = .false.
       do i = 1, size(joints, kind=ip)
          if (width_of(joints, i) == 0) cycle
-         if (.not. blocks%places) call put_line(file, '# places of the resultants')
-         blocks%places = .true.
+         if (.not. begun) call begin_block(file, 'places of the resultants', ' using @moved:(marker*(0.15 + 0.85*sqrt($5)))'// &
+                                           ' with points pt 7 ps variable lc rgb "black" title "line of thrust, n up to '// &
+                                           to_text(largest_n(joints), 4)//' [F]"', curves)
+         begun = .true.
          call put_place(file, at_joint(joints(i)), trimmed_real(share_of(joints, i), DIGITS))
       end do
    end subroutine put_places
 
-   subroutine write_script(set, results, origin, outline, blocks, status)
+   subroutine write_script(set, model, results, origin, drawing, curves, status)
       type(file_set_t), intent(inout) :: set
+      type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(origin_t), intent(in) :: origin
-      type(outline_t), intent(in) :: outline
-      type(blocks_t), intent(in) :: blocks
+      type(drawing_t), intent(in) :: drawing
+      type(string_t), intent(in) :: curves(:)
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
 
-      call open_text(set, JOINT_PLOT//'.gp', file)
-      call put_top(file, JOINT_PLOT, 'the joints and the line of thrust')
+      call begin_script(set, JOINT_PLOT, 'the joints and the line of thrust', file)
       call put_line(file, '# Columns of '//MESH_PLOT//'.dat and '//JOINT_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; '// &
                     '5 n over the largest n')
-      call put_line(file, 'scale = '//to_text(outline%scale)//'   # of the displacements; change it here')
+      call put_line(file, 'scale = '//to_text(drawing%scale)//'   # of the displacements; change it here')
       call put_line(file, 'moved = "($1 + scale*$3):($2 + scale*$4)"')
       call put_line(file, 'heading = '//quoted(picture_title(origin)))
-      call put_line(file, 'set xrange '//range_text(padded(outline%window(1))))
-      call put_line(file, 'set yrange '//range_text(padded(outline%window(2))))
-      call put_line(file, 'height = '//outline%height)
-      call put_terminal(file, JOINT_PLOT, '1000,height')
-      call put_line(file, 'set size ratio -1')
-      call put_line(file, 'set border lt 1 lw 1 lc rgb "#A0A0A0"')
-      call put_line(file, 'set tics nomirror out scale 0.6 textcolor rgb "black" format "%h"')
-      call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7')
-      call put_line(file, 'set xlabel "x [L]"')
-      call put_line(file, 'set ylabel "y [L]"')
-      call put_line(file, 'set tmargin 4')
-      call put_line(file, 'set label 1 heading.sprintf("\ndisplacements drawn %g '//TIMES//', the largest is %g [L]", scale, '// &
-                    to_text(outline%largest, 4)//') at screen 0.5, screen 1 - 22.0/height center noenhanced')
+      call put_frame(file, JOINT_PLOT, drawing%window)
+      call put_heading(file, drawing)
       call put_line(file, 'marker = '//to_text(2.0_wp*size_share(results%joints), 3)//'*dot')
       call put_line(file, 'thrust_width = '//to_text(0.8_wp*size_share(results%joints), 3))
       call put_line(file, 'joint_width = '//to_text(2.0_wp + 2.0_wp*size_share(results%joints), 3))
-      call put_curves(file, results, outline, blocks)
-      call put_line(file, LOOP_END)
-      call put_line(file, 'set output')
-      call close_text(file, status)
+      call put_curves(file, model, drawing, curves)
+      call end_script(file, status)
    end subroutine write_script
 
    !> Markers and joints are drawn smaller where there are many.
@@ -277,54 +270,33 @@ contains
    end function size_share
 
    !> One plot: outlines, undeformed and deformed, rigid surfaces, joints by state, the line of thrust and its places.
-   subroutine put_curves(file, results, outline, blocks)
+   subroutine put_curves(file, model, drawing, joint_curves)
       type(text_file_t), intent(inout) :: file
-      type(results_t), intent(in) :: results
-      type(outline_t), intent(in) :: outline
-      type(blocks_t), intent(in) :: blocks
+      type(model_t), intent(in) :: model
+      type(drawing_t), intent(in) :: drawing
+      type(string_t), intent(in) :: joint_curves(:)
       type(string_t), allocatable :: curves(:)
       character(len=:), allocatable :: outlines
-      integer(ip) :: k
+      integer(ip) :: i, n, n_rigid
 
-      outlines = '"'//MESH_PLOT//'.dat" index '//to_text(outline%first)//':'//to_text(outline%last)
+      n = drawing%lines%n_runs
+      n_rigid = count([(is_drawn_rigid(model, i), i=1, size(model%surfaces, kind=ip))], kind=ip)
+      outlines = '"'//MESH_PLOT//'.dat" index '//to_text(count(drawing%lines%kind(:n) == LINE_INNER, kind=ip))//':'//to_text(n - 1)
       call append_string(curves, 'plot '//outlines//' using 1:2 with lines lt 1 lw 1 lc rgb "#C8C8C8" title "undeformed"')
       call append_string(curves, '   '//outlines//' using @moved with lines lt 1 lw 1 lc rgb "#707070"')
-      if (outline%n_rigid > 0) then
-         call append_string(curves, '   "'//MESH_PLOT//'.dat" index '//to_text(outline%last + 1)//':'// &
-                            to_text(outline%last + outline%n_rigid)//' using 1:2 with lines lt 1 lw 4 lc rgb "#404040"')
-      end if
-      call add_joint_curves(results, blocks, curves)
-      do k = 1, size(curves, kind=ip) - 1
-         call put_line(file, curves(k)%s//', \')
-      end do
-      call put_line(file, curves(size(curves))%s)
+      if (n_rigid > 0) call append_string(curves, '   "'//MESH_PLOT//'.dat" index '//to_text(n)//':'//to_text(n + n_rigid - 1)// &
+                                          ' using 1:2 with lines lt 1 lw 4 lc rgb "#404040"')
+      call put_plot(file, [curves, joint_curves])
    end subroutine put_curves
 
-   !> The curves of joints.dat, block by block.
-   subroutine add_joint_curves(results, blocks, curves)
-      type(results_t), intent(in) :: results
-      type(blocks_t), intent(in) :: blocks
+   !> Begins a block of joints.dat, and adds the curve that it is.
+   subroutine begin_block(file, what, curve, curves)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: what, curve
       type(string_t), allocatable, intent(inout) :: curves(:)
-      character(len=*), parameter :: BLOCK_OF = '   "'//JOINT_PLOT//'.dat" index '
-      integer(ip) :: k, block
 
-      block = 0
-      do k = 0, N_STATES - 1
-         if (.not. blocks%state(k)) cycle
-         call append_string(curves, BLOCK_OF//to_text(block)//' using @moved with lines lt 1 lw joint_width lc rgb "'// &
-                            COLOUR(STATE_COLOUR(k))//'" title "'//trim(STATE_WORD(k))//'"')
-         block = block + 1
-      end do
-      do k = 1, N_WIDTHS
-         if (.not. blocks%width(k)) cycle
-         call append_string(curves, BLOCK_OF//to_text(block)//' using @moved with lines lt 1 lw '// &
-                            to_text(k)//'*thrust_width lc rgb "black"')
-         block = block + 1
-      end do
-      if (.not. blocks%places) return
-      call append_string(curves, BLOCK_OF//to_text(block)//' using @moved:(marker*(0.15 + 0.85*sqrt($5))) with points pt 7 '// &
-                         'ps variable lc rgb "black" title "line of thrust, n up to '// &
-                         to_text(largest_n(results%joints), 4)//' [F]"')
-   end subroutine add_joint_curves
+      call put_line(file, '# '//what)
+      call append_string(curves, '   "'//JOINT_PLOT//'.dat" index '//to_text(size(curves, kind=ip))//curve)
+   end subroutine begin_block
 
 end module atrito_joint_plot

@@ -5,15 +5,17 @@
 module atrito_plot_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: to_text
+   use atrito_strings, only: string_t, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
-   use atrito_files, only: text_file_t, put_line
+   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_status, only: status_t
    use atrito_table, only: origin_t
    implicit none (type, external)
    private
    public :: range_t, cover, padded, range_text, span
-   public :: quoted, cleaned, picture_title, put_top, put_terminal, put_frame, put_panel, engineering_exponent
-   public :: COLOUR, N_COLOURS, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES, LOOP_END
+   public :: quoted, cleaned, picture_title, begin_script, end_script, put_terminal, put_plot, put_frame, put_panel, &
+             engineering_exponent
+   public :: COLOUR, N_COLOURS, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES
 
    !> The palette of Okabe and Ito, made for colour-blind readers, without its yellow, which is too pale for lines.
    integer, parameter :: N_COLOURS = 7
@@ -26,7 +28,6 @@ module atrito_plot_text
 
    integer, parameter :: LONGEST_TITLE = 100        !< characters that fit on a picture's width
    real(wp), parameter :: PADDING = 0.06_wp         !< share of a range that is left free on each side
-   character(len=*), parameter :: LOOP_END = '}'
    real(wp), parameter :: LEAST_PLAIN = 0.05_wp, MOST_PLAIN = 1.0e5_wp   !< largest values told without a power of ten
 
    !> What an axis shall cover. Empty: low > high.
@@ -166,20 +167,44 @@ contains
       title = cleaned(title, LONGEST_TITLE)
    end function picture_title
 
-   !> The first lines of a script: what it is and how to use it.
-   subroutine put_top(file, name, what)
-      type(text_file_t), intent(inout) :: file
+   !> Opens a script in a set of files and writes its first lines: what it is and how to use it.
+   subroutine begin_script(set, name, what, file)
+      type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name          !< of the script, without .gp
       character(len=*), intent(in) :: what
+      type(text_file_t), intent(out) :: file
 
+      call open_text(set, name//'.gp', file)
       call put_line(file, '# '//PROGRAM_NAME//' '//PROGRAM_VERSION//': '//what)
       call put_line(file, '# In this folder: gnuplot '//name//'.gp draws '//name//'.png and '//name//'.svg again.')
       call put_line(file, '# The next run removes this file: to keep changes, copy it under another name.')
       call put_line(file, 'reset')
       call put_line(file, 'set encoding utf8')
-   end subroutine put_top
+   end subroutine begin_script
 
-   !> The loop over both kinds of picture; what is drawn follows, then LOOP_END.
+   !> Ends the loop over both kinds of picture, and the script. status: STATUS_FILE when it could not be written.
+   subroutine end_script(file, status)
+      type(text_file_t), intent(inout) :: file
+      type(status_t), intent(out) :: status
+
+      call put_line(file, '}')
+      call put_line(file, 'set output')
+      call close_text(file, status)
+   end subroutine end_script
+
+   !> A command of several lines: curves with commas between them.
+   subroutine put_plot(file, curves)
+      type(text_file_t), intent(inout) :: file
+      type(string_t), intent(in) :: curves(:)
+      integer :: i
+
+      do i = 1, size(curves) - 1
+         call put_line(file, curves(i)%s//', \')
+      end do
+      call put_line(file, curves(size(curves))%s)
+   end subroutine put_plot
+
+   !> The loop over both kinds of picture; what is drawn follows, then end_script.
    subroutine put_terminal(file, name, size_text)
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: name          !< of the pictures, without ending

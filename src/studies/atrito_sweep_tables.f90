@@ -1,17 +1,14 @@
 !> What a sweep writes beside the folders of its runs: sweep.tab, runs.tab, and the closing lines on the screen.
 module atrito_sweep_tables
-   use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_kinds, only: ip, wp
-   use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, plural
-   use atrito_plot_files, only: plot_folder
+   use atrito_page, only: page_t, begin_report, add_item, add_files, add_line, add_rule, left, right, number, plural
    use atrito_read_table, only: table_file_t, read_table, find_column, item_text
-   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, append_string, join, to_text
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table
-   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set
    implicit none (type, external)
    private
-   public :: sweep_run_t, read_summary, write_sweep, compose_sweep
+   public :: sweep_run_t, read_summary, row_of_quantity, write_sweep, compose_sweep
 
    !> One run of a sweep.
    type :: sweep_run_t
@@ -21,12 +18,9 @@ module atrito_sweep_tables
       real(wp), allocatable :: values(:)
       integer :: code = STATUS_OK                      !< exit code of the run
       integer(ip) :: factorisations = 0
-      integer(ip), allocatable :: steps(:), pairs(:)   !< summary.tab, a row an entry
-      type(string_t), allocatable :: quantities(:), amounts(:)
-      real(wp), allocatable :: numbers(:)              !< the amounts
+      type(table_file_t) :: summary                    !< summary.tab; without rows where there is none
    end type sweep_run_t
 
-   integer, parameter :: WIDTH = 79                    !< columns; a terminal of 80 does not wrap
    integer(ip), parameter :: MOST_ROWS = 12              !< runs on the screen; all are in runs.tab
    integer, parameter :: DIGITS = 5
    integer, parameter :: VALUE_WIDTH = 13
@@ -43,21 +37,21 @@ contains
       character(len=*), intent(in) :: folder           !< of the run
       type(sweep_run_t), intent(inout) :: run
       type(status_t), intent(out) :: status
-      type(table_file_t) :: table
-      integer(ip) :: i
 
-      allocate (run%quantities(0), run%amounts(0), run%steps(0), run%pairs(0), run%numbers(0))
-      if (run%code /= STATUS_OK .and. run%code /= STATUS_NOT_CONVERGED) return
-      call read_table(folder//'/summary.tab', table, status)
-      if (.not. is_ok(status)) return
-      run%steps = nint(table%value(find_column(table, 'step'), :), ip)
-      run%pairs = nint(table%value(find_column(table, 'pair'), :), ip)
-      run%numbers = table%value(find_column(table, 'value'), :)
-      do i = 1, table%n_rows
-         call append_string(run%quantities, item_text(table, find_column(table, 'quantity'), i))
-         call append_string(run%amounts, item_text(table, find_column(table, 'value'), i))
-      end do
+      if (run%code == STATUS_OK .or. run%code == STATUS_NOT_CONVERGED) &
+         call read_table(folder//'/summary.tab', run%summary, status)
    end subroutine read_summary
+
+   !> The row of a quantity of the first pair, or of the step; 0 where the summary has none.
+   pure integer(ip) function row_of_quantity(summary, quantity) result(row)
+      type(table_file_t), intent(in) :: summary
+      character(len=*), intent(in) :: quantity
+
+      do row = 1, summary%n_rows
+         if (item_text(summary, find_column(summary, 'quantity'), row) == quantity) return
+      end do
+      row = 0
+   end function row_of_quantity
 
    !> Writes sweep.tab and runs.tab. status: STATUS_FILE.
    subroutine write_sweep(folder, origin, names, runs, digits_of_tables, status)
@@ -67,18 +61,11 @@ contains
       type(sweep_run_t), intent(in) :: runs(:)
       integer, intent(in) :: digits_of_tables
       type(status_t), intent(out) :: status
-      type(file_set_t) :: set
-      type(table_t) :: table
+      type(table_t) :: tables(2)
 
-      call begin_files(set, folder, status)
-      if (.not. is_ok(status)) return
-      call build_sweep(names, runs, table)
-      call write_table(set, table, origin, digits_of_tables, status)
-      if (is_ok(status)) then
-         call build_runs(names, runs, table)
-         call write_table(set, table, origin, digits_of_tables, status)
-      end if
-      call end_files(set, status)
+      call build_sweep(names, runs, tables(1))
+      call build_runs(names, runs, tables(2))
+      call write_table_set(folder, tables, origin, digits_of_tables, status)
    end subroutine write_sweep
 
    !> The parameters, then the columns of summary.tab.
@@ -86,28 +73,31 @@ contains
       type(string_t), intent(in) :: names(:)
       type(sweep_run_t), intent(in) :: runs(:)
       type(table_t), intent(out) :: table
-      integer(ip), allocatable :: of_row(:), place(:)
+      integer(ip), allocatable :: of_row(:), step(:), pair(:)
       type(string_t), allocatable :: quantities(:), amounts(:)
       integer(ip) :: i, j, n
 
-      n = sum([(size(runs(i)%quantities, kind=ip), i=1, size(runs, kind=ip))])
-      allocate (of_row(n), place(n), quantities(n), amounts(n))
+      n = sum(runs%summary%n_rows)
+      allocate (of_row(n), step(n), pair(n), quantities(n), amounts(n))
       n = 0
       do i = 1, size(runs, kind=ip)
-         do j = 1, size(runs(i)%quantities, kind=ip)
-            n = n + 1
-            of_row(n) = i
-            place(n) = j
-            quantities(n) = runs(i)%quantities(j)
-            amounts(n) = runs(i)%amounts(j)
-         end do
+         associate (summary => runs(i)%summary)
+            do j = 1, summary%n_rows
+               n = n + 1
+               of_row(n) = i
+               step(n) = nint(summary%value(find_column(summary, 'step'), j), ip)
+               pair(n) = nint(summary%value(find_column(summary, 'pair'), j), ip)
+               quantities(n)%s = item_text(summary, find_column(summary, 'quantity'), j)
+               amounts(n)%s = item_text(summary, find_column(summary, 'value'), j)
+            end do
+         end associate
       end do
       call begin_table(table, 'sweep', 'a row a quantity of a run: the parameters, then the columns of summary', n)
       do i = 1, size(names, kind=ip)
          call add_reals(table, names(i)%s, '-', [(runs(of_row(j))%values(i), j=1, n)], 0.0_wp)
       end do
-      call add_integers(table, 'step', [(runs(of_row(j))%steps(place(j)), j=1, n)])
-      call add_integers(table, 'pair', [(runs(of_row(j))%pairs(place(j)), j=1, n)])
+      call add_integers(table, 'step', step)
+      call add_integers(table, 'pair', pair)
       call add_words(table, 'quantity', '-', quantities, on_the_left=.true.)
       call add_words(table, 'value', 'mixed', amounts, on_the_left=.false.)
       do i = 1, size(runs, kind=ip)
@@ -145,31 +135,22 @@ contains
       type(sweep_run_t), intent(in) :: runs(:)
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
       type(page_t), intent(out) :: page
-      type(string_t), intent(in), optional :: pictures(:) !< that were drawn, names without folder and ending
+      type(string_t), intent(in) :: pictures(:) !< that were drawn, names without folder and ending
       integer(ip) :: i, n
 
       n = size(runs, kind=ip)
-      call begin_page(page, WIDTH)
-      call add_rule(page, '=')
-      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION//'   sweep of '//deck, WIDTH))
+      call begin_report(page, '   sweep of '//deck)
       call add_rule(page, '-')
-      call add_line(page, row_of(joined(names), 'outer', HEADINGS, 'exit'))
+      call add_line(page, row_of(join(names, ', '), 'outer', HEADINGS, 'exit'))
       do i = 1, min(n, MOST_ROWS)
          call add_line(page, row_of_run(runs(i)))
       end do
       if (n > MOST_ROWS) call add_line(page, '... and '//plural(n - MOST_ROWS, 'run', 'runs')//' more in sweep.tab')
       call add_rule(page, '-')
-      call add_line(page, left('runs', 13)//to_text(n)//', '//to_text(count(runs%code == STATUS_OK, kind=ip)) &
-                    //' of them solved and checked; '//plural(sum(runs%factorisations), 'factorisation', &
-                                                              'factorisations'))
-      call add_line(page, left('time', 13)//number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
-      call add_line(page, left(left('tables in', 13)//folder, WIDTH))
-      call add_line(page, left('', 13)//'sweep runs, and a folder a run')
-      if (present(pictures)) then
-         if (size(pictures) > 0) call add_line(page, left(left('plots in', 13)//plot_folder(folder)//': '// &
-                                                          join(pictures, ' '), WIDTH))
-      end if
-      call add_rule(page, '=')
+      call add_item(page, 'runs', to_text(n)//', '//to_text(count(runs%code == STATUS_OK, kind=ip))// &
+                    ' of them solved and checked; '//plural(sum(runs%factorisations), 'factorisation', 'factorisations'))
+      call add_item(page, 'time', number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
+      call add_files(page, folder, 'sweep runs, and a folder a run', pictures)
    end subroutine compose_sweep
 
    function row_of_run(run) result(text)
@@ -179,9 +160,9 @@ contains
       integer :: i
 
       do i = 1, size(SHOWN)
-         amounts(i) = amount(run, 1_ip, trim(SHOWN(i)), DIGITS)
+         amounts(i) = amount(run, trim(SHOWN(i)))
       end do
-      text = row_of(joined(run%texts), trim(amount(run, 0_ip, 'picard_iterations', DIGITS)), amounts, &
+      text = row_of(join(run%texts, ', '), trim(amount(run, 'picard_iterations')), amounts, &
                     to_text(int(run%code, ip)))
    end function row_of_run
 
@@ -198,31 +179,16 @@ contains
       text = text//right(code, 5)
    end function row_of
 
-   pure function joined(parts) result(text)
-      type(string_t), intent(in) :: parts(:)
-      character(len=:), allocatable :: text
-      integer :: i
-
-      text = ''
-      do i = 1, size(parts)
-         if (i > 1) text = text//', '
-         text = text//parts(i)%s
-      end do
-   end function joined
-
    !> A value of the summary as text of a few digits; '-' where there is none.
-   pure function amount(run, pair, quantity, digits_shown) result(text)
+   pure function amount(run, quantity) result(text)
       type(sweep_run_t), intent(in) :: run
-      integer(ip), intent(in) :: pair
       character(len=*), intent(in) :: quantity
-      integer, intent(in) :: digits_shown
       character(len=VALUE_WIDTH) :: text
-      integer :: i
+      integer(ip) :: row
 
+      row = row_of_quantity(run%summary, quantity)
       text = '-'
-      do i = 1, size(run%quantities)
-         if (run%pairs(i) == pair .and. run%quantities(i)%s == quantity) text = number(run%numbers(i), digits_shown)
-      end do
+      if (row > 0) text = number(run%summary%value(find_column(run%summary, 'value'), row), DIGITS)
    end function amount
 
 end module atrito_sweep_tables

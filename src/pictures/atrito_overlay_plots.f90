@@ -6,15 +6,14 @@ module atrito_overlay_plots
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
-   use atrito_messages, only: add_warning
+   use atrito_files, only: file_set_t, text_file_t, begin_files, put_line, end_files
    use atrito_number_text, only: trimmed_real
-   use atrito_gnuplot, only: draw_pictures
-   use atrito_plot_files, only: plot_folder, remove_plots, OVERLAY_PLOT, OVERLAY_SUMMARY
-   use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, put_top, put_terminal, put_frame, &
-                               put_panel, COLOUR, N_COLOURS, LOOP_END
-   use atrito_overlay_data, only: overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, FIELD_COLUMN, N_FIELDS, LONGEST_LABEL, &
-                                  FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP
+   use atrito_gnuplot, only: draw_written
+   use atrito_plot_files, only: plot_folder, OVERLAY_PLOT, OVERLAY_SUMMARY
+   use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, begin_script, end_script, put_terminal, &
+                               put_frame, put_panel, COLOUR, N_COLOURS
+   use atrito_overlay_data, only: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, FIELD_COLUMN, N_FIELDS, &
+                                  LONGEST_LABEL, FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP
    use atrito_overlay_summary, only: write_summary_plot
    implicit none (type, external)
    private
@@ -28,7 +27,7 @@ module atrito_overlay_plots
 
 contains
 
-   !> Draws the overlays of a sweep into <folder>/plots, and removes those of an earlier one.
+   !> Draws the overlays of a sweep into <folder>/plots.
    subroutine write_overlay_plots(folder, title, labels, runs, parameter_name, values, drawn)
       character(len=*), intent(in) :: folder        !< of the sweep
       character(len=*), intent(in) :: title         !< where the tables have no heading
@@ -40,14 +39,8 @@ contains
       type(string_t), allocatable :: names(:)
       type(status_t) :: status
 
-      call remove_plots(folder)
       call write_overlay_scripts(folder, title, labels, runs, parameter_name, values, names, status)
-      if (is_ok(status)) then
-         call draw_pictures(plot_folder(folder), names, drawn)
-      else
-         allocate (drawn(0))
-         call add_warning('W-PLOT', 'no plots are written: '//status%text)
-      end if
+      call draw_written(folder, names, status, drawn)
    end subroutine write_overlay_plots
 
    !> The scripts and data of write_overlay_plots, which appear together or not at all. names is empty where there is nothing to
@@ -60,27 +53,27 @@ contains
       real(wp), intent(in) :: values(:)
       type(string_t), allocatable, intent(out) :: names(:)   !< without .gp
       type(status_t), intent(out) :: status
-      type(overlay_run_t), allocatable :: list(:)
-      type(overlay_pair_t), allocatable :: pairs(:)
-      character(len=:), allocatable :: heading
+      type(overlay_t) :: overlay
       type(file_set_t) :: set
       integer(ip) :: i
 
       allocate (names(0))
-      list = collect_runs(folder, labels, runs, values)
-      call read_runs(list, pairs, heading)
-      if (len(heading) == 0) heading = title
-      list = pack(list, list%has_tables)
-      if (size(list) == 0 .or. size(pairs) == 0) return
+      overlay%by_value = size(values) > 0
+      overlay%parameter = cleaned(parameter_name, LONGEST_LABEL)
+      overlay%runs = collect_runs(folder, labels, runs, values)
+      call read_runs(overlay)
+      if (len(overlay%title) == 0) overlay%title = title
+      overlay%title = cleaned(overlay%title, LONGEST_TITLE)
+      overlay%runs = pack(overlay%runs, overlay%runs%has_tables)
+      if (size(overlay%runs) == 0 .or. size(overlay%pairs) == 0) return
       call begin_files(set, plot_folder(folder), status)
-      if (.not. is_ok(status)) return
-      do i = 1, size(pairs, kind=ip)
-         if (pairs(i)%most_points == 0 .or. .not. is_ok(status)) cycle
-         call write_overlay(set, heading, list, pairs(i), i, parameter_name, size(values) > 0, status)
+      do i = 1, size(overlay%pairs, kind=ip)
+         if (overlay%pairs(i)%most_points == 0 .or. .not. is_ok(status)) cycle
+         call write_overlay(set, overlay, i, status)
          call append_string(names, OVERLAY_PLOT//to_text(i))
       end do
-      if (is_ok(status) .and. size(values) > 0 .and. has_summaries(list)) then
-         call write_summary_plot(set, heading, list, size(pairs, kind=ip), parameter_name, status)
+      if (is_ok(status) .and. overlay%by_value .and. has_summaries(overlay%runs)) then
+         call write_summary_plot(set, overlay, status)
          call append_string(names, OVERLAY_SUMMARY)
       end if
       call end_files(set, status)
@@ -131,43 +124,38 @@ contains
    end function has_summaries
 
    !> The script of a pair: a panel a field, a curve a run.
-   subroutine write_overlay(set, title, list, pair, number, parameter_name, by_value, status)
+   subroutine write_overlay(set, overlay, number, status)
       type(file_set_t), intent(inout) :: set
-      character(len=*), intent(in) :: title, parameter_name
-      type(overlay_run_t), intent(in) :: list(:)
-      type(overlay_pair_t), intent(in) :: pair
+      type(overlay_t), intent(in) :: overlay
       integer(ip), intent(in) :: number             !< of the pair
-      logical, intent(in) :: by_value               !< one parameter varies
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
       character(len=:), allocatable :: name
       integer, allocatable :: fields(:)
-      integer :: i
+      integer :: i, label_width
 
       name = OVERLAY_PLOT//to_text(number)
-      fields = shown_fields(pair)
-      call open_text(set, name//'.gp', file)
-      call put_top(file, name, 'contact pair '//to_text(number)//' of several runs along s')
+      label_width = maxval([(len(overlay%runs(i)%label), i=1, size(overlay%runs))])
+      fields = shown_fields(overlay%pairs(number))
+      call begin_script(set, name, 'contact pair '//to_text(number)//' of several runs along s', file)
       call put_line(file, '# Columns of contact.tab: 2 pair, 4 s [L], 7 gap [L], 8 pressure [F/L^2], 9 weighted pressure [F/L^2],')
       call put_line(file, '# 10 shear [F/L^2], 11 slip [L]')
       call put_line(file, 'pair = '//to_text(number))
       call put_line(file, 'col(c) = column(2) == pair ? column(c)/unit : NaN')
-      call put_runs(file, list)
-      call put_line(file, 'heading = '//quoted(cleaned(title, LONGEST_TITLE)))
-      call put_line(file, 'pair_line = '//quoted('pair '//to_text(number)//doubt_text(list)))
-      call put_frame(file, size(fields), pair_range(pair), '"s [L]"')
-      call put_line(file, 'right = '//to_text(min(WIDEST, 0.925_wp - 0.009_wp*real(label_width(list), wp)), 3)// &
+      call put_runs(file, overlay%runs)
+      call put_line(file, 'heading = '//quoted(overlay%title))
+      call put_line(file, 'pair_line = '//quoted('pair '//to_text(number)//doubt_text(overlay%runs)))
+      call put_frame(file, size(fields), pair_range(overlay%pairs(number)), '"s [L]"')
+      call put_line(file, 'right = '//to_text(min(WIDEST, 0.925_wp - 0.009_wp*real(label_width, wp)), 3)// &
                     '   # leaves room for the names')
       call put_terminal(file, name, '1000,height')
       call put_line(file, 'set multiplot title heading."\n".pair_line noenhanced')
-      call put_looks(file, list, pair, parameter_name, by_value)
+      call put_looks(file, overlay, overlay%pairs(number)%most_points <= MOST_MARKED)
       do i = 1, size(fields)
-         call put_field(file, i, fields(i), pair, size(list))
+         call put_field(file, i, fields(i), overlay%pairs(number), size(overlay%runs))
       end do
       call put_line(file, 'unset multiplot')
-      call put_line(file, LOOP_END)
-      call put_line(file, 'set output')
-      call close_text(file, status)
+      call end_script(file, status)
    end subroutine write_overlay
 
    !> No shear and slip where no run has friction, no weighted pressure where it is the pressure.
@@ -205,16 +193,6 @@ contains
       text = cleaned(text, LONGEST_TITLE)
    end function doubt_text
 
-   pure integer function label_width(list) result(longest)
-      type(overlay_run_t), intent(in) :: list(:)
-      integer :: i
-
-      longest = 0
-      do i = 1, size(list)
-         longest = max(longest, len(list(i)%label))
-      end do
-   end function label_width
-
    !> Folder, name and value of each run.
    subroutine put_runs(file, list)
       type(text_file_t), intent(inout) :: file
@@ -233,35 +211,31 @@ contains
    end subroutine put_runs
 
    !> Colours: a line style a run as long as the legend holds them, else a palette with a bar.
-   subroutine put_looks(file, list, pair, parameter_name, by_value)
+   subroutine put_looks(file, overlay, is_marked)
       type(text_file_t), intent(inout) :: file
-      type(overlay_run_t), intent(in) :: list(:)
-      type(overlay_pair_t), intent(in) :: pair
-      character(len=*), intent(in) :: parameter_name
-      logical, intent(in) :: by_value
+      type(overlay_t), intent(in) :: overlay
+      logical, intent(in) :: is_marked
       integer, parameter :: MARK(MOST_IN_LEGEND) = [7, 5, 9, 11, 13, 6, 4, 8, 10, 12]
       character(len=9), parameter :: DASH(0:1) = ['dt 1     ', 'dt (8,4) ']
       character(len=:), allocatable :: points
       integer(ip) :: i
 
-      if (size(list) > MOST_IN_LEGEND) then
-         call put_palette(file, list, parameter_name, by_value)
+      if (size(overlay%runs) > MOST_IN_LEGEND) then
+         call put_palette(file, overlay)
          return
       end if
-      do i = 1, size(list, kind=ip)
+      do i = 1, size(overlay%runs, kind=ip)
          points = ' ps 0'
-         if (pair%most_points <= MOST_MARKED) points = ' pt '//to_text(int(MARK(i), ip))//' ps 0.8*dot'
+         if (is_marked) points = ' pt '//to_text(int(MARK(i), ip))//' ps 0.8*dot'
          call put_line(file, 'set style line '//to_text(i)//' lw 1.8 lc rgb "'//COLOUR(mod(i - 1, int(N_COLOURS, ip)) + 1)// &
                        '" '//DASH((i - 1)/N_COLOURS)//points)
       end do
    end subroutine put_looks
 
    !> The palette viridis without its palest end, and the bar to the right of the panels.
-   subroutine put_palette(file, list, parameter_name, by_value)
+   subroutine put_palette(file, overlay)
       type(text_file_t), intent(inout) :: file
-      type(overlay_run_t), intent(in) :: list(:)
-      character(len=*), intent(in) :: parameter_name
-      logical, intent(in) :: by_value
+      type(overlay_t), intent(in) :: overlay
       character(len=:), allocatable :: names
       type(range_t) :: range
       integer(ip) :: i
@@ -270,18 +244,18 @@ contains
                     '5 "#27ad81", 6 "#5cc863", 7 "#aadc32")')
       call put_line(file, 'set colorbox user origin screen right + 0.03, screen bottom(panels) '// &
                     'size screen 0.02, screen top(1) - bottom(panels)')
-      call cover(range, list%value)
+      call cover(range, overlay%runs%value)
       if (span(range) <= 0.0_wp) range = padded(range)
       call put_line(file, 'set cbrange '//range_text(range))
-      if (by_value) then
-         call put_line(file, 'set cblabel '//quoted(cleaned(parameter_name, LONGEST_LABEL))//' noenhanced')
+      if (overlay%by_value) then
+         call put_line(file, 'set cblabel '//quoted(overlay%parameter)//' noenhanced')
          call put_line(file, 'set format cb "%h"')
-         if (is_logarithmic(list%value)) call put_line(file, 'set logscale cb; set format cb "10^{%T}"')
-      else if (size(list) <= MOST_NAMED) then
+         if (is_logarithmic(overlay%runs%value)) call put_line(file, 'set logscale cb; set format cb "10^{%T}"')
+      else if (size(overlay%runs) <= MOST_NAMED) then
          names = ''
-         do i = 1, size(list, kind=ip)
+         do i = 1, size(overlay%runs, kind=ip)
             if (i > 1) names = names//', '
-            names = names//quoted(list(i)%label)//' '//trimmed_real(list(i)%value, 12)
+            names = names//quoted(overlay%runs(i)%label)//' '//trimmed_real(overlay%runs(i)%value, 12)
          end do
          call put_line(file, 'set cbtics noenhanced ('//names//')')
       else

@@ -3,21 +3,36 @@
 !> Pictures are an extra: whatever goes wrong here is a warning, W-PLOT, never a failed run.
 module atrito_gnuplot
    use atrito_interrupts, only: note_file, forget_file
-   use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_exists, read_file, remove_file
    use atrito_messages, only: add_warning
-   use atrito_plot_files, only: LOG_NAME
+   use atrito_plot_files, only: plot_folder, LOG_NAME
    use atrito_processes, only: run_command
    implicit none (type, external)
    private
-   public :: draw_pictures, shell_quoted, plot_command, first_complaint
+   public :: draw_written, draw_pictures, shell_quoted, plot_command, first_complaint
 
    integer, parameter :: NOT_FOUND = 127            !< the shell's code for a program that is not there
+   character(len=4), parameter :: ENDINGS(2) = ['.png', '.svg']
    integer, parameter :: LONGEST_COMPLAINT = 200
 
 contains
+
+   !> Draws the pictures below the folder of the tables whose scripts were written; those that were not are a warning.
+   subroutine draw_written(folder, names, status, drawn)
+      character(len=*), intent(in) :: folder                    !< of the tables
+      type(string_t), intent(in) :: names(:)
+      type(status_t), intent(in) :: status                      !< of the scripts
+      type(string_t), allocatable, intent(out) :: drawn(:)
+
+      if (is_ok(status)) then
+         call draw_pictures(plot_folder(folder), names, drawn)
+      else
+         allocate (drawn(0))
+         call add_warning('W-PLOT', 'no plots are written: '//status%text)
+      end if
+   end subroutine draw_written
 
    !> Draws <name>.png and <name>.svg from each <name>.gp of a folder. What gnuplot says stays in gnuplot.log beside them; a
    !> failure is one warning. Interrupted, none of these pictures is left.
@@ -25,31 +40,27 @@ contains
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
       type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
-      integer :: i, exit_code
+      integer :: i, k, exit_code
 
       allocate (drawn(0))
       if (size(names) == 0) return
       call note_file(folder//'/'//LOG_NAME)
       do i = 1, size(names)
-         call begin_picture(folder//'/'//names(i)%s//'.png')
-         call begin_picture(folder//'/'//names(i)%s//'.svg')
+         do k = 1, size(ENDINGS)
+            call remove_file(folder//'/'//names(i)%s//ENDINGS(k))
+            call note_file(folder//'/'//names(i)%s//ENDINGS(k))
+         end do
       end do
       call run_command(plot_command(folder, names), exit_code)
       do i = 1, size(names)
          if (has_pictures(folder//'/'//names(i)%s)) call append_string(drawn, names(i)%s)
-         call forget_file(folder//'/'//names(i)%s//'.png')
-         call forget_file(folder//'/'//names(i)%s//'.svg')
+         do k = 1, size(ENDINGS)
+            call forget_file(folder//'/'//names(i)%s//ENDINGS(k))
+         end do
       end do
       call forget_file(folder//'/'//LOG_NAME)
       call judge_outcome(folder, exit_code, size(drawn) == size(names))
    end subroutine draw_pictures
-
-   subroutine begin_picture(path)
-      character(len=*), intent(in) :: path
-
-      call remove_file(path)
-      call note_file(path)
-   end subroutine begin_picture
 
    logical function has_pictures(path)
       character(len=*), intent(in) :: path          !< without ending

@@ -1,20 +1,15 @@
 !> What `atrito limit` writes: limit.tab, mechanism.tab, and the closing lines on the screen.
 module atrito_stability_tables
-   use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_kinds, only: ip, wp
-   use atrito_page, only: page_t, begin_page, add_line, add_rule, left, number, plural, add_paragraph
-   use atrito_plot_files, only: plot_folder
+   use atrito_page, only: page_t, begin_report, add_item, add_files, add_rule, number, plural, add_paragraph
    use atrito_stability_result, only: stability_t, CODE_NOT_RUN
-   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, append_string, join, to_text
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table
-   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set, one_word
    implicit none (type, external)
    private
    public :: write_stability, compose_stability
 
-   integer, parameter :: WIDTH = 79                    !< columns; a terminal of 80 does not wrap
-   integer, parameter :: LABEL = 13
    integer, parameter :: DIGITS = 10
 
 contains
@@ -26,18 +21,11 @@ contains
       type(stability_t), intent(in) :: limit
       integer, intent(in) :: digits_of_tables
       type(status_t), intent(out) :: status
-      type(file_set_t) :: set
-      type(table_t) :: table
+      type(table_t) :: tables(2)
 
-      call begin_files(set, folder, status)
-      if (.not. is_ok(status)) return
-      call build_values(limit, table)
-      call write_table(set, table, origin, digits_of_tables, status)
-      if (is_ok(status)) then
-         call build_mechanism(limit, table)
-         call write_table(set, table, origin, digits_of_tables, status)
-      end if
-      call end_files(set, status)
+      call build_values(limit, tables(1))
+      call build_mechanism(limit, tables(2))
+      call write_table_set(folder, tables, origin, digits_of_tables, status)
    end subroutine write_stability
 
    pure subroutine build_values(limit, table)
@@ -67,7 +55,7 @@ contains
       integer :: i
 
       do i = 1, size(words)                            ! a name with blanks would be several items
-         words(i)%s = underscored(limit%collapse%names(i)%s)
+         words(i)%s = one_word(limit%collapse%names(i)%s)
       end do
       associate (bodies => limit%collapse%bodies, centre => limit%collapse%centre, motion => limit%collapse%motion)
          call begin_table(table, 'mechanism', 'a row a body that moves at '//limit%parameter//' = '//to_text(limit%falls, 17), &
@@ -83,17 +71,6 @@ contains
       end associate
    end subroutine build_mechanism
 
-   pure function underscored(text) result(word)
-      character(len=*), intent(in) :: text
-      character(len=len(text)) :: word
-      integer :: i
-
-      word = text
-      do i = 1, len(text)
-         if (text(i:i) == ' ') word(i:i) = '_'
-      end do
-   end function underscored
-
    !> The closing lines.
    subroutine compose_stability(deck, folder, limit, seconds, page, pictures)
       character(len=*), intent(in) :: deck, folder
@@ -102,32 +79,20 @@ contains
       type(page_t), intent(out) :: page
       type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
 
-      call begin_page(page, WIDTH)
-      call add_rule(page, '=')
-      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION//'   limit of '//limit%parameter//' in '//deck, WIDTH))
+      call begin_report(page, '   limit of '//limit%parameter//' in '//deck)
       call add_rule(page, '-')
-      call add_entry(page, 'stands at', limit%parameter//' = '//number(limit%stands, DIGITS)//': solved and checked')
-      call add_entry(page, 'falls at', limit%parameter//' = '//number(limit%falls, DIGITS)//': proved')
-      call add_entry(page, 'limit', limit_text(limit))
+      call add_item(page, 'stands at', limit%parameter//' = '//number(limit%stands, DIGITS)//': solved and checked')
+      call add_item(page, 'falls at', limit%parameter//' = '//number(limit%falls, DIGITS)//': proved')
+      call add_item(page, 'limit', limit_text(limit))
       call add_undecided(limit, page)
-      call add_entry(page, 'displacement', displacement_text(limit))
-      call add_entry(page, 'values', values_text(limit))
+      call add_item(page, 'displacement', displacement_text(limit))
+      call add_item(page, 'values', values_text(limit))
       call add_rule(page, '-')
       call add_paragraph(page, 'mechanism: '//limit%collapse%text, 0)
       call add_rule(page, '-')
-      call add_entry(page, 'time', number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
-      call add_entry(page, 'tables in', folder)
-      call add_entry(page, '', 'limit mechanism')
-      if (size(pictures) > 0) call add_entry(page, 'plots in', plot_folder(folder)//': '//join(pictures, ' '))
-      call add_rule(page, '=')
+      call add_item(page, 'time', number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
+      call add_files(page, folder, 'limit mechanism', pictures)
    end subroutine compose_stability
-
-   pure subroutine add_entry(page, name, text)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: name, text
-
-      call add_line(page, left(left(name, LABEL)//text, WIDTH))
-   end subroutine add_entry
 
    function limit_text(limit) result(text)
       type(stability_t), intent(in) :: limit
@@ -151,10 +116,10 @@ contains
 
       runs = count(limit%values%code == STATUS_NOT_CONVERGED, kind=ip)
       proofs = count(limit%values%excess /= limit%values%excess .and. limit%values%code == CODE_NOT_RUN, kind=ip)
-      if (runs > 0) call add_entry(page, 'undecided', 'at '//plural(runs, 'value', 'values')// &
+      if (runs > 0) call add_item(page, 'undecided', 'at '//plural(runs, 'value', 'values')// &
                                    ' neither a solution nor a proof was found (exit 3)')
-      if (runs > 0) call add_entry(page, '', 'although the loads can be balanced up to '//number(limit%balanced, DIGITS))
-      if (proofs > 0) call add_entry(page, 'undecided', plural(proofs, 'value is', 'values are')// &
+      if (runs > 0) call add_item(page, '', 'although the loads can be balanced up to '//number(limit%balanced, DIGITS))
+      if (proofs > 0) call add_item(page, 'undecided', plural(proofs, 'value is', 'values are')// &
                                      ' too near the limit for a proof')
    end subroutine add_undecided
 

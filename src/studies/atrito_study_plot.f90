@@ -2,14 +2,13 @@
 !> logarithmic axes, a curve an element type, its last slope in the legend.
 module atrito_study_plot
    use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
-   use atrito_gnuplot, only: draw_pictures
+   use atrito_gnuplot, only: draw_written
    use atrito_kinds, only: ip, wp, is_nan
-   use atrito_messages, only: add_warning
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_files, only: plot_folder, remove_plots, STUDY_PLOT
-   use atrito_plot_text, only: quoted, cleaned, put_top, put_terminal, COLOUR, N_COLOURS, LOOP_END
+   use atrito_plot_files, only: plot_folder, STUDY_PLOT
+   use atrito_plot_text, only: quoted, cleaned, begin_script, end_script, put_terminal, COLOUR, N_COLOURS
    use atrito_status, only: status_t, is_ok
-   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_strings, only: string_t, to_text
    use atrito_study_errors, only: study_t
    implicit none (type, external)
    private
@@ -25,52 +24,20 @@ contains
       character(len=*), intent(in) :: title
       type(study_t), intent(in) :: study
       type(string_t), allocatable, intent(out) :: drawn(:)
+      type(file_set_t) :: set
       type(status_t) :: status
 
-      call remove_plots(folder)
-      call write_study_script(folder, title, study, status)
-      if (is_ok(status)) then
-         call draw_pictures(plot_folder(folder), [string_t(STUDY_PLOT)], drawn)
-      else
-         allocate (drawn(0))
-         call add_warning('W-PLOT', 'no plots are written: '//status%text)
-      end if
+      call begin_files(set, plot_folder(folder), status)
+      if (is_ok(status)) call write_data(set, study, status)
+      if (is_ok(status)) call write_script(set, title, study, status)
+      call end_files(set, status)
+      call draw_written(folder, [string_t(STUDY_PLOT)], status, drawn)
    end subroutine write_study_plot
 
-   subroutine write_study_script(folder, title, study, status)
-      character(len=*), intent(in) :: folder, title
-      type(study_t), intent(in) :: study
-      type(status_t), intent(out) :: status
-      type(file_set_t) :: set
-      type(string_t), allocatable :: elements(:)
-
-      call begin_files(set, plot_folder(folder), status)
-      if (.not. is_ok(status)) return
-      call list_elements(study, elements)
-      call write_data(set, study, elements, status)
-      if (is_ok(status)) call write_script(set, title, study, elements, status)
-      call end_files(set, status)
-   end subroutine write_study_script
-
-   pure subroutine list_elements(study, elements)
-      type(study_t), intent(in) :: study
-      type(string_t), allocatable, intent(out) :: elements(:)
-      integer :: k
-
-      allocate (elements(0))
-      do k = 1, size(study%rows)
-         if (k > 1) then
-            if (study%rows(k)%element == study%rows(k - 1)%element) cycle
-         end if
-         call append_string(elements, study%rows(k)%element)
-      end do
-   end subroutine list_elements
-
    !> A block an element: dofs, seconds, estimate, then the error of each quantity [%].
-   subroutine write_data(set, study, elements, status)
+   subroutine write_data(set, study, status)
       type(file_set_t), intent(inout) :: set
       type(study_t), intent(in) :: study
-      type(string_t), intent(in) :: elements(:)
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
       character(len=:), allocatable :: line
@@ -79,10 +46,10 @@ contains
       call open_text(set, STUDY_PLOT//'.dat', file)
       call put_line(file, '# a block an element; columns: dofs, processor seconds, estimated error [%], errors of the '// &
                     'quantities [%]')
-      do i = 1, size(elements)
+      do i = 1, size(study%elements)
          do k = 1, size(study%rows)
             associate (row => study%rows(k))
-               if (row%element /= elements(i)%s) cycle
+               if (row%element /= study%elements(i)%s) cycle
                line = to_text(row%n_dofs)//' '//trimmed_real(sum(row%phases%cpu), 6)//' '//trimmed_real(row%estimate, 6)
                do j = 1, size(study%quantities)
                   line = line//' '//trimmed_real(100*study%quantities(j)%error(k), 6)
@@ -96,21 +63,19 @@ contains
       call close_text(file, status)
    end subroutine write_data
 
-   subroutine write_script(set, title, study, elements, status)
+   subroutine write_script(set, title, study, status)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: title
       type(study_t), intent(in) :: study
-      type(string_t), intent(in) :: elements(:)
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
       integer :: j, panels
 
       panels = 2
       do j = 1, size(study%quantities)
-         if (has_panel(study, elements, j)) panels = panels + 1
+         if (has_panel(study, j)) panels = panels + 1
       end do
-      call open_text(set, STUDY_PLOT//'.gp', file)
-      call put_top(file, STUDY_PLOT, 'error against run time, and run time against size')
+      call begin_script(set, STUDY_PLOT, 'error against run time, and run time against size', file)
       call put_line(file, '# Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
                     'quantities [%]')
       call put_line(file, 'set logscale xy; set format x "%g"; set format y "%g"; set grid lt 1 lw 1 lc rgb "#E0E0E0"')
@@ -122,31 +87,28 @@ contains
       call put_line(file, 'set multiplot layout '//to_text(int(panels, ip))//',1 title '// &
                     quoted(cleaned(title, LONGEST_TITLE)//'   (slopes are those of the last two levels)')//' noenhanced')
       do j = 1, size(study%quantities)
-         if (.not. has_panel(study, elements, j)) cycle
+         if (.not. has_panel(study, j)) cycle
          call put_labels(file, 'processor time [s]', 'error of '//study%quantities(j)%name//' [%]')
-         call put_curves(file, study, elements, 2, 3 + j)
+         call put_curves(file, study, 2, 3 + j)
       end do
       call put_labels(file, 'processor time [s]', 'estimated error, energy norm [%]')
-      call put_curves(file, study, elements, 2, 3)
+      call put_curves(file, study, 2, 3)
       call put_labels(file, 'displacements', 'processor time [s]')
-      call put_curves(file, study, elements, 1, 2)
+      call put_curves(file, study, 1, 2)
       call put_line(file, 'unset multiplot')
-      call put_line(file, LOOP_END)
-      call put_line(file, 'set output')
-      call close_text(file, status)
+      call end_script(file, status)
    end subroutine write_script
 
    !> A quantity without a reference has no errors to show, one that is held has nothing but rounding.
-   pure logical function has_panel(study, elements, j)
+   pure logical function has_panel(study, j)
       type(study_t), intent(in) :: study
-      type(string_t), intent(in) :: elements(:)
       integer, intent(in) :: j                      !< quantity
       integer :: i
 
       has_panel = .false.
       if (study%quantities(j)%is_held) return
-      do i = 1, size(elements)
-         has_panel = has_panel .or. has_points(study, elements(i)%s, 2, 3 + j)
+      do i = 1, size(study%elements)
+         has_panel = has_panel .or. has_points(study, study%elements(i)%s, 2, 3 + j)
       end do
    end function has_panel
 
@@ -160,21 +122,21 @@ contains
    end subroutine put_labels
 
    !> One panel: column y against column x. Where no number can be drawn the panel is left empty.
-   subroutine put_curves(file, study, elements, x, y)
+   subroutine put_curves(file, study, x, y)
       type(text_file_t), intent(inout) :: file
       type(study_t), intent(in) :: study
-      type(string_t), intent(in) :: elements(:)
       integer, intent(in) :: x, y
       character(len=:), allocatable :: line
       integer :: i
 
       line = ''
-      do i = 1, size(elements)
-         if (.not. has_points(study, elements(i)%s, x, y)) cycle
+      do i = 1, size(study%elements)
+         if (.not. has_points(study, study%elements(i)%s, x, y)) cycle
          if (len(line) > 0) line = line//', '
          line = line//'"study.dat" index '//to_text(int(i - 1, ip))//' using '//to_text(int(x, ip))//':'//to_text(int(y, ip)) &
                 //' with linespoints lt 1 lw 1.8 pt '//to_text(int(5 + 2*mod(i, 4), ip))//' ps 0.9*dot lc rgb "' &
-                //COLOUR(mod(i - 1, N_COLOURS) + 1)//'" title '//quoted(elements(i)%s//slope_text(study, elements(i)%s, x, y))
+                //COLOUR(mod(i - 1, N_COLOURS) + 1)//'" title '// &
+                quoted(study%elements(i)%s//slope_text(study, study%elements(i)%s, x, y))
       end do
       if (len(line) == 0) then
          call put_line(file, 'set multiplot next')

@@ -1,20 +1,17 @@
 !> Error against run time: study.tab and its closing lines.
 module atrito_study_table
-   use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_kinds, only: ip, wp, is_nan
-   use atrito_page, only: page_t, begin_page, add_line, add_rule, add_paragraph, left, right, number
-   use atrito_status, only: status_t, is_ok
+   use atrito_page, only: page_t, begin_page, begin_report, add_files, add_line, add_rule, add_paragraph, left, right, number
+   use atrito_status, only: status_t
    use atrito_strings, only: string_t, to_text
    use atrito_study_errors, only: study_t, phase_seconds, total_seconds, WALL, PROCESSOR
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table
-   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set
    implicit none (type, external)
    private
    public :: write_study, compose_study
 
    character(len=8), parameter :: PHASES(10) = [character(len=8) :: 'read', 'mesh', 'order', 'assemble', 'factor', 'iterate', &
                                                                                             'recover', 'estimate', 'check', 'write']
-   integer, parameter :: WIDTH = 79
    integer, parameter :: LONGEST_NAME = 18           !< of a quantity, on the screen
 
 contains
@@ -26,14 +23,10 @@ contains
       type(study_t), intent(in) :: study
       integer, intent(in) :: digits
       type(status_t), intent(out) :: status
-      type(file_set_t) :: set
-      type(table_t) :: table
+      type(table_t) :: tables(1)
 
-      call begin_files(set, folder, status)
-      if (.not. is_ok(status)) return
-      call build_study(study, table)
-      call write_table(set, table, origin, digits, status)
-      call end_files(set, status)
+      call build_study(study, tables(1))
+      call write_table_set(folder, tables, origin, digits, status)
    end subroutine write_study
 
    subroutine build_study(study, table)
@@ -82,9 +75,7 @@ contains
       type(page_t), intent(out) :: page
       integer :: k
 
-      call begin_page(page, WIDTH)
-      call add_rule(page, '=')
-      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION//'   study of '//deck, WIDTH))
+      call begin_report(page, '   study of '//deck)
       call add_rule(page, '-')
       associate (quantity => study%quantities(1))
          call add_line(page, row_text('element', 'level', 'dofs', trim(left(quantity%name, LONGEST_NAME)), 'error %', 'order', &
@@ -102,9 +93,7 @@ contains
          call add_item(page, study%words(k)%s)
       end do
       call add_rule(page, '-')
-      call add_line(page, left(left('tables in', 13)//folder, WIDTH))
-      call add_line(page, left('', 13)//'study, and a folder a run')
-      call add_rule(page, '=')
+      call add_files(page, folder, 'study, and a folder a run', [string_t ::])
    end subroutine compose_study
 
    !> A paragraph with a dash before it.
@@ -114,7 +103,7 @@ contains
       type(page_t) :: part
       integer :: i
 
-      call begin_page(part, WIDTH - 2)
+      call begin_page(part, page%width - 2)
       call add_paragraph(part, text, 0)
       do i = 1, part%n
          call add_line(page, merge('- ', '  ', i == 1)//part%lines(i)%s)

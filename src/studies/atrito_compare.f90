@@ -10,7 +10,7 @@ module atrito_compare
    use atrito_column_scales, only: kind_of, columns_of_scale, largest_number, moment_scale, is_number
    use atrito_files, only: file_exists, is_folder
    use atrito_page, only: page_t, begin_page, add_line, plural
-   use atrito_read_table, only: table_file_t, read_table, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_REAL, ITEM_NAN
+   use atrito_read_table, only: table_file_t, read_table, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_NAN
    use atrito_write_tables, only: TABLE_NAMES
    implicit none (type, external)
    private
@@ -204,7 +204,7 @@ contains
 
       of_a = columns_of_scale(a, i)
       of_b = columns_of_scale(b, j)
-      exact = is_integer_column(a, i) .or. is_integer_column(b, j)
+      exact = is_integer_column(a, i, 1_ip, a%n_rows) .or. is_integer_column(b, j, 1_ip, b%n_rows)
       by_pair = is_of_pair(a, i) .and. is_of_pair(b, j)
       first = 1
       do while (first <= a%n_rows)
@@ -256,12 +256,12 @@ contains
    end function same_item
 
    !> All items are integers and not all are 0, which a column of reals may hold as well.
-   pure logical function is_integer_column(table, column)
+   pure logical function is_integer_column(table, column, first, last)
       type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: column
+      integer(ip), intent(in) :: column, first, last  !< rows
 
-      is_integer_column = all(table%kind(column, :table%n_rows) == ITEM_INTEGER)
-      if (is_integer_column) is_integer_column = any(abs(table%value(column, :table%n_rows)) > 0.0_wp)
+      is_integer_column = all(table%kind(column, first:last) == ITEM_INTEGER)
+      if (is_integer_column) is_integer_column = any(abs(table%value(column, first:last)) > 0.0_wp)
    end function is_integer_column
 
    !> Compares two items; at = [column, row].
@@ -368,20 +368,10 @@ contains
       end if
       i = find_column(a, 'value')
       j = find_column(b, 'value')
-      scale = 0.0_wp
-      if (is_number(a%kind(i, row_a))) scale = abs(a%value(i, row_a))
-      if (is_number(b%kind(j, row_b))) scale = max(scale, abs(b%value(j, row_b)))
-      exact = is_nonzero_integer(a, i, row_a) .or. is_nonzero_integer(b, j, row_b)
+      scale = max(largest_number(a, [i], row_a, row_a), largest_number(b, [j], row_b, row_b))
+      exact = is_integer_column(a, i, row_a, row_a) .or. is_integer_column(b, j, row_b, row_b)
       call compare_items(a, b, [i, row_a], [j, row_b], scale, exact, comparison)
    end subroutine compare_quantity
-
-   pure logical function is_nonzero_integer(table, column, row)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: column, row
-
-      is_nonzero_integer = table%kind(column, row) == ITEM_INTEGER
-      if (is_nonzero_integer) is_nonzero_integer = abs(table%value(column, row)) > 0.0_wp
-   end function is_nonzero_integer
 
    pure logical function is_small(table, row)
       type(table_file_t), intent(in) :: table

@@ -6,13 +6,13 @@ module atrito_contact_plot
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    use atrito_status, only: status_t
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_files, only: file_set_t, text_file_t, put_line
    use atrito_model, only: model_t, interaction_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_table, only: origin_t
    use atrito_plot_files, only: CONTACT_PLOT
-   use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, picture_title, put_top, put_terminal, &
-                               put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, LOOP_END
+   use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, picture_title, begin_script, end_script, put_terminal, &
+                               put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
    implicit none (type, external)
    private
    public :: write_contact_plot, contact_plot_name, law_text, put_contact_columns, shows_slip_bound, shear_range
@@ -51,8 +51,7 @@ contains
       name = contact_plot_name(pair)
       law = model%interactions(model%pairs(pair)%interaction)
       friction = results%contact(pair)%has_friction .and. law%friction /= FRICTION_NONE
-      call open_text(set, name//'.gp', file)
-      call put_top(file, name, 'contact pair '//to_text(pair)//' along s')
+      call begin_script(set, name, 'contact pair '//to_text(pair)//' along s', file)
       call put_contact_columns(file, pair)
       call put_line(file, 'table = "../contact.tab"')
       call put_line(file, 'heading = '//quoted(picture_title(origin)))
@@ -65,9 +64,7 @@ contains
       call put_line(file, 'set multiplot title heading."\n".pair_line noenhanced')
       call put_panels(file, results%contact(pair), law, friction)
       call put_line(file, 'unset multiplot')
-      call put_line(file, LOOP_END)
-      call put_line(file, 'set output')
-      call close_text(file, status)
+      call end_script(file, status)
    end subroutine write_contact_plot
 
    !> What the columns of contact.tab are, and functions that take those of one pair.

@@ -1,7 +1,7 @@
 !> What a study says of its errors: how soon they are below 1 %, whether they still fall, and what stops them.
 module atrito_study_words
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_kinds, only: ip, wp, is_nan
+   use atrito_kinds, only: wp, is_nan
    use atrito_strings, only: append_string, to_text
    use atrito_study_errors, only: study_t, study_row_t, study_probe_t, find_errors, is_last, total_seconds, PROCESSOR
    implicit none (type, external)

@@ -1,17 +1,16 @@
 !> The pictures of `atrito limit`: what is watched against the parameter, up to the limit; and the mechanism.
 module atrito_stability_plot
    use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
-   use atrito_gnuplot, only: draw_pictures
-   use atrito_kinds, only: wp
+   use atrito_gnuplot, only: draw_written
    use atrito_mechanism_plot, only: write_mechanism_plot
-   use atrito_messages, only: add_warning
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: plot_folder, LIMIT_PLOT, MECHANISM_PLOT
-   use atrito_plot_text, only: range_t, cover, padded, range_text, quoted, cleaned, put_top, put_terminal, COLOUR, LOOP_END
+   use atrito_plot_text, only: range_t, cover, padded, range_text, quoted, cleaned, begin_script, end_script, put_terminal, COLOUR
    use atrito_stability_result, only: stability_t
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, to_text
+   use atrito_kinds, only: wp
    implicit none (type, external)
    private
    public :: write_stability_plots
@@ -32,18 +31,11 @@ contains
       type(status_t) :: status
 
       call begin_files(set, plot_folder(folder), status)
-      if (is_ok(status)) then
-         call write_data(set, limit, status)
-         if (is_ok(status)) call write_script(set, title, limit, status)
-         if (is_ok(status)) call write_mechanism_plot(set, model, limit, title, status)
-         call end_files(set, status)
-      end if
-      if (is_ok(status)) then
-         call draw_pictures(plot_folder(folder), [string_t(LIMIT_PLOT), string_t(MECHANISM_PLOT)], drawn)
-      else
-         allocate (drawn(0))
-         call add_warning('W-PLOT', 'no plots are written: '//status%text)
-      end if
+      if (is_ok(status)) call write_data(set, limit, status)
+      if (is_ok(status)) call write_script(set, title, limit, status)
+      if (is_ok(status)) call write_mechanism_plot(set, model, limit, title, status)
+      call end_files(set, status)
+      call draw_written(folder, [string_t(LIMIT_PLOT), string_t(MECHANISM_PLOT)], status, drawn)
    end subroutine write_stability_plots
 
    !> Blocks: values that stand, values without a decision.
@@ -92,8 +84,7 @@ contains
          call cover(across, [limit%values(i)%value])
          call cover(up, [limit%values(i)%displacement])
       end do
-      call open_text(set, LIMIT_PLOT//'.gp', file)
-      call put_top(file, LIMIT_PLOT, 'a displacement up to the limit of '//limit%parameter)
+      call begin_script(set, LIMIT_PLOT, 'a displacement up to the limit of '//limit%parameter, file)
       call put_line(file, '# Columns of limit.dat: 1 '//limit%parameter//', 2 displacement [L]')
       call put_line(file, 'set border 3 lt 1 lw 1 lc rgb "#404040"; set tics nomirror out scale 0.6 textcolor rgb "black"')
       call put_line(file, 'set grid lt 1 lw 1 lc rgb "#E0E0E0"; set format x "%h"; set format y "%h"')
@@ -106,9 +97,7 @@ contains
                     ' noenhanced')
       call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2.5')
       call put_curves(file, limit)
-      call put_line(file, LOOP_END)
-      call put_line(file, 'set output')
-      call close_text(file, status)
+      call end_script(file, status)
    end subroutine write_script
 
    !> The part beyond the limit is shaded.

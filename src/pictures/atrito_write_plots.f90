@@ -6,17 +6,17 @@ module atrito_write_plots
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t, begin_files, end_files
-   use atrito_messages, only: add_warning
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
    use atrito_results, only: results_t
+   use atrito_summary, only: pair_count
    use atrito_table, only: origin_t
    use atrito_write_tables, only: origin_of
    use atrito_plot_files, only: plot_folder, MESH_PLOT, JOINT_PLOT
    use atrito_mesh_plot, only: write_mesh_plot
    use atrito_contact_plot, only: write_contact_plot, contact_plot_name
    use atrito_joint_plot, only: write_joint_plot, has_joint_plot
-   use atrito_gnuplot, only: draw_pictures
+   use atrito_gnuplot, only: draw_written
    implicit none (type, external)
    private
    public :: write_plots, write_plot_scripts, plot_names
@@ -36,12 +36,7 @@ contains
 
       call start_phase('plot')
       call write_plot_scripts(model, results, plot_folder(folder), status)
-      if (is_ok(status)) then
-         call draw_pictures(plot_folder(folder), plot_names(model, results), drawn)
-      else
-         allocate (drawn(0))
-         call add_warning('W-PLOT', 'no plots are written: '//status%text)
-      end if
+      call draw_written(folder, plot_names(model, results), status, drawn)
       call stop_phase('plot')
    end subroutine write_plots
 
@@ -64,8 +59,7 @@ contains
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
 
-      n = 0
-      if (allocated(results%contact)) n = size(results%contact, kind=ip)
+      n = pair_count(results)
       if (n > MANY_PAIRS .and. has_joint_plot(model, results)) n = 0
    end function plotted_pairs
 

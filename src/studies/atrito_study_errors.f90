@@ -10,25 +10,29 @@ module atrito_study_errors
    use atrito_timers, only: phase_time_t
    implicit none (type, external)
    private
-   public :: study_t, study_row_t, study_quantity_t, study_probe_t
+   public :: run_facts_t, study_t, study_row_t, study_quantity_t, study_probe_t
    public :: find_errors, richardson_limit, is_last, total_seconds, phase_seconds, WALL, PROCESSOR
 
    integer, parameter :: WALL = 1, PROCESSOR = 2     !< clocks
 
+   !> What a study wants to know of a run besides its tables.
+   type :: run_facts_t
+      integer(ip) :: n_dofs = 0, n_points = 0
+      real(wp) :: h = 0.0_wp                         !< [L] side of a square of the mean area of the elements
+      integer(ip) :: degree = 0                      !< of the elements' shape functions, 1 or 2; 0: both, or unknown
+      real(wp) :: peak(2) = 0.0_wp                   !< [L] place of the largest pressure of the first pair
+      logical :: peak_is_end = .false.               !< the first or last point of the slave surface
+      logical :: has_delta = .false., has_eps = .false., has_stick_slope = .false.   !< regularisations of contact and friction
+   end type run_facts_t
+
    !> A run of the study.
-   type :: study_row_t
+   type, extends(run_facts_t) :: study_row_t
       character(len=:), allocatable :: element       !< cpe4, ..., or deck
       integer(ip) :: level = 0
       integer(ip) :: code = 0                        !< exit code of the run
-      integer(ip) :: degree = 0                      !< of the elements' shape functions, 1 or 2; 0: both, or unknown
-      real(wp) :: h = 0.0_wp                         !< [L] side of a square of the mean area of the elements
-      integer(ip) :: n_dofs = 0, n_points = 0
       real(wp), allocatable :: values(:)             !< one a quantity; nan where the run has none
       real(wp) :: estimate = 0.0_wp                  !< error_estimate_percent
       real(wp) :: penetration = 0.0_wp, pressure = 0.0_wp   !< largest ones of pair 1
-      real(wp) :: peak(2) = 0.0_wp                   !< [L] place of the largest pressure
-      logical :: peak_is_end = .false.               !< the first or last point of the slave surface
-      logical :: has_delta = .false., has_eps = .false., has_stick_slope = .false.   !< regularisations of contact and friction
       type(phase_time_t), allocatable :: phases(:)
    end type study_row_t
 
@@ -55,6 +59,7 @@ module atrito_study_errors
 
    type :: study_t
       type(study_row_t), allocatable :: rows(:)      !< by element, then level
+      type(string_t), allocatable :: elements(:)     !< each once
       type(study_quantity_t), allocatable :: quantities(:)
       type(study_probe_t), allocatable :: probes(:)
       real(wp) :: rounding = 1.0e-12_wp              !< a relative error up to this is none
