@@ -13,7 +13,7 @@ module atrito_command_line
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
-   public :: command_t, parse_command, fetch_arguments, output_folder
+   public :: command_t, parse_command, wrong, fetch_arguments, output_folder
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
              TASK_VERSION
    public :: SOLVERS
@@ -22,9 +22,9 @@ module atrito_command_line
    integer, parameter :: TASK_OF(0:6) = [TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_STUDY, TASK_SWEEP, TASK_LIMIT, TASK_HELP]
    !> Of the tasks that have one deck.
    character(len=90), parameter :: FORMS(TASK_LIMIT) = [character(len=90) :: 'atrito DECK.inp [options]', 'atrito check DECK.inp', &
-         '', '', 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]', &
-         'atrito study DECK.inp --levels N [--elements cpe4,cpe9] [--reference QUANTITY=VALUE]', &
-         'atrito limit DECK.inp --vary NAME=a:b [--tolerance T] [--watch NODE,DOF]']
+                                                                  '', '', 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]', &
+                                           'atrito study DECK.inp --levels N [--elements cpe4,cpe9] [--reference QUANTITY=VALUE]', &
+                                                         'atrito limit DECK.inp --vary NAME=a:b [--tolerance T] [--watch NODE,DOF]']
    real(wp), parameter :: LEAST_TOLERANCE = 1.0e-8_wp, MOST_TOLERANCE = 0.1_wp   !< the proof is good for 1e-9
 
    !> What the user asks for.
@@ -256,11 +256,14 @@ contains
          command%folder = without_slash(given%value)
          ok = len(command%folder) > 0
       case ('--set')
-         call take_text(given%value, index(given%value, '=') > 1, command%settings, ok)
+         call append_string(command%settings, given%value)
+         ok = index(given%value, '=') > 1
       case ('--vary')
-         call take_text(given%value, index(given%value, '=') > 1, command%vary, ok)
+         call append_string(command%vary, given%value)
+         ok = index(given%value, '=') > 1
       case ('--reference')
-         call take_text(given%value, len_trim(given%value) > 0 .and. index(given%value, '=') /= 1, command%references, ok)
+         call append_string(command%references, given%value)
+         ok = len_trim(given%value) > 0 .and. index(given%value, '=') /= 1
       case ('--watch')
          call take_watched(given%value, command%watched, ok)
       case ('--elements')
@@ -306,16 +309,6 @@ contains
          ok = .true.                                ! of --help and --version
       end select
    end subroutine take_number
-
-   subroutine take_text(value, is_possible, list, ok)
-      character(len=*), intent(in) :: value
-      logical, intent(in) :: is_possible
-      type(string_t), allocatable, intent(inout) :: list(:)
-      logical, intent(out) :: ok
-
-      call append_string(list, value)
-      ok = is_possible
-   end subroutine take_text
 
    !> NODE,DOF
    subroutine take_watched(value, watched, ok)

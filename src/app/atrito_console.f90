@@ -56,7 +56,7 @@ contains
       integer, intent(in) :: code
       character(len=:), allocatable :: id
       character(len=15), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
-                                                                                                'E-SINGULAR', 'E-FILE']
+                                                                                                             'E-SINGULAR', 'E-FILE']
 
       id = 'E-INTERNAL'
       if (code <= STATUS_FILE) id = trim(IDS(code))

@@ -4,8 +4,8 @@ module atrito_driver
    use atrito_blas_info, only: set_blas_threads
    use atrito_body_store, only: body_store_t
    use atrito_screen, only: compose_check
-   use atrito_command_line, only: command_t, parse_command, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, &
-                                  TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
+   use atrito_command_line, only: command_t, parse_command, wrong, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, &
+                                  TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_lines, print_messages, print_status
    use atrito_files, only: ignore_broken_pipe
@@ -52,8 +52,7 @@ contains
       call parse_command(arguments, command, ok, error)
       code = STATUS_USAGE
       if (.not. ok) then
-         call print_lines(format_message(error), error_unit)
-         call print_lines([string_t('    see:      atrito --help')], error_unit)
+         call print_wrong(error, 'atrito --help')
          return
       end if
       if (command%threads > 1 .and. any(command%task == [TASK_RUN, TASK_STUDY, TASK_LIMIT])) call sleep_soon(command%threads)
@@ -166,20 +165,17 @@ contains
          call print_lines(lines, output_unit)
       else
          code = STATUS_USAGE
-         call print_unknown_keyword(keyword)
+         call print_wrong(wrong('there is no keyword '//keyword, nearest=nearest_names(keyword, &
+                                                                                 keyword_names(keyword_table()), 3)), 'atrito help')
       end if
    end subroutine print_help
 
-   subroutine print_unknown_keyword(keyword)
-      character(len=*), intent(in) :: keyword
-      type(message_t) :: error
+   !> Tells what is wrong with the command line, and which command tells more.
+   subroutine print_wrong(error, see)
+      type(message_t), intent(in) :: error
+      character(len=*), intent(in) :: see
 
-      error%id = 'E-COMMAND'
-      error%file = PROGRAM_NAME
-      error%text = 'there is no keyword '//keyword
-      error%nearest = nearest_names(keyword, keyword_names(keyword_table()), 3)
-      call print_lines(format_message(error), error_unit)
-      call print_lines([string_t('    see:      atrito help')], error_unit)
-   end subroutine print_unknown_keyword
+      call print_lines([format_message(error), string_t('    see:      '//see)], error_unit)
+   end subroutine print_wrong
 
 end module atrito_driver

@@ -62,10 +62,7 @@ contains
    pure integer function find_option(name) result(i)
       character(len=*), intent(in) :: name
 
-      do i = 1, size(OPTIONS)
-         if (OPTIONS(i)%name == name) return
-      end do
-      i = 0
+      i = findloc(OPTIONS%name == name, .true., dim=1)
    end function find_option
 
    pure function option_names() result(names)

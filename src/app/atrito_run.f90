@@ -177,31 +177,25 @@ contains
       call read_deck(command%names(1)%s, command%settings, deck, status)
       call stop_phase('read')
       told = 0
+      code = STATUS_DECK
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('mesh')
          call build_model(deck, model, command%refine, shape=command%shape)
          if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('mesh')
+         call sort_messages()
+         silent = .false.
+         if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
+         if (.not. silent) call print_messages(command%quiet, 1_ip)
+         told = count_messages()
+         if (count_messages(SEVERITY_ERROR) > 0) return
+         if (is_ok(status) .and. .not. has_state(model, command%element)) then
+            call set_status(status, STATUS_USAGE, '--elements '//command%element// &
+                            ': the deck has elements of the other plane state')
+         end if
       end if
       code = status%code
-      if (.not. is_ok(status) .and. code /= STATUS_DECK) then
-         call print_status(status, command%names(1)%s)
-         return
-      end if
-      call sort_messages()
-      silent = .false.
-      if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
-      if (.not. silent) call print_messages(command%quiet, 1_ip)
-      told = count_messages()
-      if (count_messages(SEVERITY_ERROR) > 0) then
-         code = STATUS_DECK
-      else if (is_ok(status) .and. .not. has_state(model, command%element)) then
-         call set_status(status, STATUS_USAGE, '--elements '//command%element//': the deck has elements of the other plane state')
-         call print_status(status, command%names(1)%s)
-         code = status%code
-      else if (.not. is_ok(status)) then
-         call print_status(status, command%names(1)%s)
-      end if
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
    end subroutine load_model
 
    !> cpe is plane strain, cps plane stress; nothing asked is always there.

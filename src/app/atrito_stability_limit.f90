@@ -167,7 +167,7 @@ contains
       type(model_t) :: model
       type(results_t) :: results
       type(reporter_t) :: reporter
-      type(status_t) :: status
+      type(status_t) :: status, error
       integer(ip) :: told
       logical :: first
 
@@ -183,8 +183,12 @@ contains
          return
       end if
       if (first) call print_messages(command%quiet, told + 1)
-      call watch(model, results, command%watched, one%displacement, status=code)
-      if (code /= STATUS_OK) return
+      call watch(model, results, command%watched, one%displacement, error)
+      code = error%code
+      if (code /= STATUS_OK) then
+         call print_status(error, model%deck_path)
+         return
+      end if
       one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, is_ok(status))
       one%iterations = results%outer_iterations
       one%solves = results%linear_solves
@@ -192,28 +196,24 @@ contains
       call record_solution(search, one%value, merge(STANDS, UNDECIDED, is_ok(status)))
    end subroutine ask_solution
 
-   !> The displacement of the curve. status: STATUS_USAGE where there is no such node; told.
+   !> The displacement of the curve. status: STATUS_USAGE where there is no such node.
    subroutine watch(model, results, watched, displacement, status)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       integer(ip), intent(in) :: watched(2)          !< node and dof; 0: the largest displacement
       real(wp), intent(out) :: displacement          !< [L]
-      integer, intent(out) :: status
-      type(status_t) :: error
+      type(status_t), intent(inout) :: status
       integer(ip) :: node
 
-      status = STATUS_OK
       displacement = maxval(norm2(results%u, dim=1))
       if (watched(1) == 0) return
       node = find_node(model%mesh, watched(1))
       if (node > 0) then
          displacement = results%u(watched(2), node)
-         return
+      else
+         call set_status(status, STATUS_USAGE, '--watch '//to_text(watched(1))//','//to_text(watched(2)) &
+                         //': the deck has no node '//to_text(watched(1)))
       end if
-      status = STATUS_USAGE
-      call set_status(error, STATUS_USAGE, '--watch '//to_text(watched(1))//','//to_text(watched(2))//': the deck has no node ' &
-                      //to_text(watched(1)))
-      call print_status(error, model%deck_path)
    end subroutine watch
 
    pure function watched_text(watched) result(text)
@@ -336,7 +336,7 @@ contains
       type(page_t) :: page
       type(string_t), allocatable :: pictures(:)
 
-      origin = series_origin(command, .not. limit%is_close)
+      origin = series_origin(command,.not. limit%is_close)
       call write_stability(output_folder(command), origin, limit, int(command%digits), status)
       if (.not. is_ok(status)) return
       call begin_pictures(command)

@@ -15,7 +15,7 @@ module atrito_plot_files
    character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study', &
                                   LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints'
    character(len=15), parameter :: PICTURES(6) = [character(len=15) :: MESH_PLOT, OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, &
-                                                                                                  MECHANISM_PLOT, JOINT_PLOT]
+                                                                                                         MECHANISM_PLOT, JOINT_PLOT]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
    character(len=3), parameter :: ENDINGS(4) = ['gp ', 'dat', 'png', 'svg']

@@ -27,6 +27,7 @@ module atrito_read_table
    end type table_file_t
 
    character(len=1), parameter :: LINE_FEED = achar(10), CARRIAGE_RETURN = achar(13), TAB = achar(9)
+   character(len=*), parameter :: BLANKS = ' '//TAB//CARRIAGE_RETURN
 
 contains
 
@@ -91,7 +92,7 @@ contains
       character(len=*), intent(in) :: line
       integer :: i
 
-      i = verify(line, ' '//TAB//CARRIAGE_RETURN)
+      i = verify(line, BLANKS)
       is_row = i > 0
       if (is_row) is_row = line(i:i) /= '#'
    end function is_row
@@ -133,25 +134,13 @@ contains
       character(len=*), intent(in) :: line
       integer, intent(inout) :: last
       integer, intent(out) :: first
+      integer :: n
 
-      first = last + 1
-      do while (first <= len(line))
-         if (.not. is_blank(line(first:first))) exit
-         first = first + 1
-      end do
-      last = first
-      do while (last <= len(line))
-         if (is_blank(line(last:last))) exit
-         last = last + 1
-      end do
-      last = last - 1
+      n = verify(line(last + 1:), BLANKS)
+      first = merge(last + n, len(line) + 1, n > 0)
+      n = scan(line(first:), BLANKS)
+      last = merge(first + n - 2, len(line), n > 0)
    end subroutine next_item
-
-   elemental logical function is_blank(c)
-      character(len=1), intent(in) :: c
-
-      is_blank = c == ' ' .or. c == TAB .or. c == CARRIAGE_RETURN
-   end function is_blank
 
    subroutine read_row(table, begins, ends, line, status)
       type(table_file_t), intent(inout) :: table

@@ -32,7 +32,6 @@ contains
       character(len=*), intent(in) :: what          !< was done, with a blank before it; empty for a run
 
       call begin_report(page, what//'   '//model%deck_path)
-      if (.not. allocated(model%heading)) return
       if (size(model%heading) > 0) call add_line(page, left(model%heading(1)%s, page%width))
    end subroutine begin_deck_report
 
@@ -146,7 +145,6 @@ contains
       character(len=:), allocatable :: text
 
       text = ', '//plural(int(results%linear_solves, ip), 'linear solve', 'linear solves')
-      if (.not. allocated(model%pairs)) return
       if (size(model%pairs) == 0) return
       if (is_sparse_form(results%scene)) then
          text = ', multipliers: '//plural(int(results%outer_iterations, ip), 'step', 'steps')//text

@@ -44,8 +44,7 @@ contains
       type(origin_t) :: origin
 
       origin%deck = model%deck_path(index(model%deck_path, '/', back=.true.) + 1:)
-      allocate (origin%heading(0))
-      if (allocated(model%heading)) origin%heading = model%heading
+      origin%heading = model%heading
       origin%not_converged = .not. (results%converged .and. results%law_holds)
    end function origin_of
 
@@ -107,7 +106,7 @@ contains
       real(wp), allocatable :: field(:, :)
       integer(ip) :: first, last, n, i, j
       character(len=17), parameter :: NAMES(8) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', 'weighted_pressure', &
-                                                                                                   'shear', 'slip']
+                                                                                                                   'shear', 'slip']
       character(len=5), parameter :: DIMENSIONS(8) = ['L    ', 'L    ', 'L    ', 'L    ', 'F/L^2', 'F/L^2', 'F/L^2', 'L    ']
 
       n = sum(results%contact%n)

@@ -8,20 +8,24 @@ module atrito_contact_plot
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, put_line
    use atrito_model, only: model_t, interaction_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL
-   use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
-   use atrito_table, only: origin_t
+   use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_SLIP
+   use atrito_write_tables, only: origin_of
    use atrito_plot_files, only: CONTACT_PLOT
    use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, picture_title, begin_script, end_script, put_terminal, &
                                put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
    implicit none (type, external)
    private
-   public :: write_contact_plot, contact_plot_name, law_text, put_contact_columns, shows_slip_bound, shear_range
+   public :: write_contact_plot, contact_plot_name, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
+             N_STATES, STATE_WORD
 
    !> The bound of the shear is shown whole up to so many times the largest shear; a greater one would hide the shear itself.
    real(wp), parameter :: MOST_BOUND = 4.0_wp
    !> The lines +-eps are shown where eps over the largest slip lies between these: else they are one line, or hide the slip.
    real(wp), parameter :: LEAST_EPS = 0.02_wp, MOST_EPS = 4.0_wp
    integer, parameter :: LONGEST_NAME = 30          !< characters of a surface's name
+
+   integer(ip), parameter :: N_STATES = 4, STATE_CLOSED = 3 !< closed: without friction
+   character(len=6), parameter :: STATE_WORD(0:N_STATES - 1) = ['open  ', 'stick ', 'slip  ', 'closed']
 
 contains
 
@@ -36,11 +40,10 @@ contains
    !> Writes the script of a pair into the set of the plots' folder.
    !>
    !> status: STATUS_FILE when it could not be written.
-   subroutine write_contact_plot(set, model, results, origin, pair, status)
+   subroutine write_contact_plot(set, model, results, pair, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      type(origin_t), intent(in) :: origin
       integer(ip), intent(in) :: pair               !< with at least one point
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
@@ -52,9 +55,10 @@ contains
       law = model%interactions(model%pairs(pair)%interaction)
       friction = results%contact(pair)%has_friction .and. law%friction /= FRICTION_NONE
       call begin_script(set, name, 'contact pair '//to_text(pair)//' along s', file)
-      call put_contact_columns(file, pair)
+      call put_contact_columns(file, pair, ', 12 status (0 open, 1 stick, 2 slip)')
+      call put_line(file, 'marked(c, status) = column(12) == status ? col(c) : NaN')
       call put_line(file, 'table = "../contact.tab"')
-      call put_line(file, 'heading = '//quoted(picture_title(origin)))
+      call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
       call put_line(file, 'pair_line = '//quoted(pair_title(results, pair)//law_text(law)))
       call put_frame(file, merge(4, 2, friction), slave_range(results%contact(pair)), '"s [L]"')
       if (friction) call put_line(file, 'nu = '//to_text(law%nu, 12))
@@ -67,16 +71,16 @@ contains
       call end_script(file, status)
    end subroutine write_contact_plot
 
-   !> What the columns of contact.tab are, and functions that take those of one pair.
-   subroutine put_contact_columns(file, pair)
+   !> What the columns of contact.tab are, and a function that takes those of one pair.
+   subroutine put_contact_columns(file, pair, and_status)
       type(text_file_t), intent(inout) :: file
       integer(ip), intent(in) :: pair
+      character(len=*), intent(in) :: and_status    !< what is said of the status; empty where it is not drawn
 
       call put_line(file, '# Columns of contact.tab: 2 pair, 4 s [L], 7 gap [L], 8 pressure [F/L^2], 9 weighted pressure [F/L^2],')
-      call put_line(file, '# 10 shear [F/L^2], 11 slip [L], 12 status (0 open, 1 stick, 2 slip)')
+      call put_line(file, '# 10 shear [F/L^2], 11 slip [L]'//and_status)
       call put_line(file, 'pair = '//to_text(pair))
       call put_line(file, 'col(c) = column(2) == pair ? column(c)/unit : NaN')
-      call put_line(file, 'marked(c, status) = column(12) == status ? col(c) : NaN')
    end subroutine put_contact_columns
 
    pure function pair_title(results, pair) result(text)
@@ -234,35 +238,25 @@ contains
       logical, intent(in) :: with_legend            !< of the points
       character(len=:), allocatable :: line, c
       integer(ip) :: k
+      integer(ip), parameter :: STYLE(0:N_STATES - 1) = [4_ip, 5_ip, 6_ip, 5_ip]
 
       c = to_text(int(column, ip))
       line = 'plot table using 4:(col('//c//')) with lines ls 1 title "'//title//'"'//more
       do k = POINT_OPEN, POINT_SLIP
          if (all(contact%status(:contact%n) /= k)) cycle
-         line = line//', table using 4:(marked('//c//','//to_text(k)//')) with points ls '//to_text(status_style(k, friction))
-         if (with_legend) line = line//' title "'//status_word(k, friction)//'"'
+         line = line//', table using 4:(marked('//c//','//to_text(k)//')) with points ls '//to_text(STYLE(state_of(k, friction)))
+         if (with_legend) line = line//' title "'//trim(STATE_WORD(state_of(k, friction)))//'"'
       end do
       call put_line(file, line)
    end subroutine put_curve
 
-   !> The closed points of a pair without friction look like those that stick.
-   pure integer(ip) function status_style(point_status, friction) result(style)
-      integer(ip), intent(in) :: point_status
-      logical, intent(in) :: friction
+   !> The state of a point; a closed one of a pair without friction neither sticks nor slips.
+   elemental integer(ip) function state_of(status, has_friction) result(state)
+      integer(ip), intent(in) :: status             !< POINT_*
+      logical, intent(in) :: has_friction
 
-      style = 4_ip + point_status
-      if (point_status == POINT_SLIP .and. .not. friction) style = 4_ip + POINT_STICK
-   end function status_style
-
-   pure function status_word(point_status, friction) result(word)
-      integer(ip), intent(in) :: point_status
-      logical, intent(in) :: friction
-      character(len=:), allocatable :: word
-
-      word = 'open'
-      if (point_status == POINT_STICK) word = 'stick'
-      if (point_status == POINT_SLIP) word = 'slip'
-      if (point_status /= POINT_OPEN .and. .not. friction) word = 'closed'
-   end function status_word
+      state = status
+      if (status /= POINT_OPEN .and. .not. has_friction) state = STATE_CLOSED
+   end function state_of
 
 end module atrito_contact_plot

@@ -8,6 +8,7 @@ module atrito_gnuplot
    use atrito_files, only: file_exists, read_file, remove_file
    use atrito_messages, only: add_warning
    use atrito_plot_files, only: plot_folder, LOG_NAME
+   use atrito_plot_text, only: quoted
    use atrito_processes, only: run_command
    implicit none (type, external)
    private
@@ -98,17 +99,8 @@ contains
    pure function shell_quoted(text) result(word)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: word
-      integer :: i
 
-      word = ''''
-      do i = 1, len(text)
-         if (text(i:i) == '''') then
-            word = word//'''\'''''
-         else
-            word = word//text(i:i)
-         end if
-      end do
-      word = word//''''
+      word = quoted(text, '''\''''')
    end function shell_quoted
 
    subroutine judge_outcome(folder, exit_code, complete)

@@ -6,21 +6,20 @@ module atrito_joint_plot
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t
+   use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
    use atrito_mesh_lines, only: drawing_t, put_place, put_frame, is_drawn_rigid, LINE_INNER
    use atrito_mesh_plot, only: draw_mesh, put_heading
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
-   use atrito_results, only: results_t, joint_t, contact_result_t, POINT_OPEN
-   use atrito_table, only: origin_t
+   use atrito_results, only: results_t, joint_t, contact_result_t
+   use atrito_write_tables, only: origin_of
    use atrito_plot_files, only: JOINT_PLOT, MESH_PLOT
    use atrito_plot_text, only: quoted, picture_title, begin_script, end_script, put_plot, COLOUR
    implicit none (type, external)
    private
    public :: write_joint_plot, has_joint_plot
 
-   integer(ip), parameter :: N_STATES = 4, STATE_CLOSED = 3 !< closed: without friction
-   character(len=6), parameter :: STATE_WORD(0:N_STATES - 1) = ['open  ', 'stick ', 'slip  ', 'closed']
    integer, parameter :: STATE_COLOUR(0:N_STATES - 1) = [5, 3, 2, 6]
    integer(ip), parameter :: N_WIDTHS = 5           !< of the line of thrust
    real(wp), parameter :: LEAST_SHARE = 1.0e-3_wp   !< of the largest n; a joint with less is not on the line of thrust
@@ -41,11 +40,10 @@ contains
    !> Writes joints.dat and joints.gp into the set of the plots' folder, which has mesh.dat.
    !>
    !> status: STATUS_FILE when one could not be written.
-   subroutine write_joint_plot(set, model, results, origin, status)
+   subroutine write_joint_plot(set, model, results, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results        !< with joints
-      type(origin_t), intent(in) :: origin
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
       type(string_t), allocatable :: curves(:)      !< of joints.dat, one a block
@@ -60,17 +58,8 @@ contains
       call put_thrust(file, results, curves)
       call put_places(file, results%joints, curves)
       call close_text(file, status)
-      if (status%code == 0) call write_script(set, model, results, origin, drawing, curves, status)
+      if (status%code == 0) call write_script(set, model, results, drawing, curves, status)
    end subroutine write_joint_plot
-
-   !> The state of a point; a closed one of a pair without friction neither sticks nor slips.
-   elemental integer(ip) function state_of(status, has_friction) result(state)
-      integer(ip), intent(in) :: status             !< POINT_*
-      logical, intent(in) :: has_friction
-
-      state = status
-      if (status /= POINT_OPEN .and. .not. has_friction) state = STATE_CLOSED
-   end function state_of
 
    !> A block a state: what its points have of the joints, from middle to middle between the points.
    subroutine put_states(file, results, curves)
@@ -210,12 +199,8 @@ contains
 
    pure real(wp) function largest_n(joints) result(largest)
       type(joint_t), intent(in) :: joints(:)
-      integer(ip) :: i
 
-      largest = 0.0_wp
-      do i = 1, size(joints, kind=ip)
-         if (.not. is_nan(joints(i)%n)) largest = max(largest, joints(i)%n)
-      end do
+      largest = max(0.0_wp, maxval(joints%n, mask=.not. is_nan(joints%n)))
    end function largest_n
 
    !> The last block: places of the resultants, with n over the largest n.
@@ -237,11 +222,10 @@ contains
       end do
    end subroutine put_places
 
-   subroutine write_script(set, model, results, origin, drawing, curves, status)
+   subroutine write_script(set, model, results, drawing, curves, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      type(origin_t), intent(in) :: origin
       type(drawing_t), intent(in) :: drawing
       type(string_t), intent(in) :: curves(:)
       type(status_t), intent(out) :: status
@@ -252,7 +236,7 @@ contains
                     '5 n over the largest n')
       call put_line(file, 'scale = '//to_text(drawing%scale)//'   # of the displacements; change it here')
       call put_line(file, 'moved = "($1 + scale*$3):($2 + scale*$4)"')
-      call put_line(file, 'heading = '//quoted(picture_title(origin)))
+      call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
       call put_frame(file, JOINT_PLOT, drawing%window)
       call put_heading(file, drawing)
       call put_line(file, 'marker = '//to_text(2.0_wp*size_share(results%joints), 3)//'*dot')

@@ -65,8 +65,6 @@ contains
       call put_line(file, '# Columns of mechanism.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body')
       call put_line(file, 'scale = '//to_text(drawing%scale)//'   # of the motion; change it here')
       call put_frame(file, MECHANISM_PLOT, drawing%window)
-      call put_line(file, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"')
-      call put_line(file, 'set style line 9 lt 1 lw 4 lc rgb "#404040"')
       call put_line(file, 'set style line 10 lt 1 lw 1.5 lc rgb "#404040"')
       do i = 1, N_COLOURS
          call put_line(file, 'set style line '//to_text(i)//' lt 1 lw 2.5 lc rgb "'//COLOUR(i)//'"')

@@ -330,6 +330,9 @@ contains
       call put_line(file, 'set key noautotitle outside bottom center horizontal Left reverse samplen 2 height 0.7')
       call put_line(file, 'set xlabel "x [L]"')
       call put_line(file, 'set ylabel "y [L]"')
+      if (name == JOINT_PLOT) return
+      call put_line(file, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"')
+      call put_line(file, 'set style line 9 lt 1 lw 4 lc rgb "#404040"')
    end subroutine put_frame
 
    !> The plot: where the bodies were (lines of style 8), where they go, each run of edges in its style, and rigid surfaces (9).

@@ -13,7 +13,7 @@ module atrito_mesh_plot
    use atrito_results, only: results_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text
-   use atrito_table, only: origin_t
+   use atrito_write_tables, only: origin_of
    implicit none (type, external)
    private
    public :: write_mesh_plot, draw_mesh, put_heading
@@ -42,11 +42,10 @@ contains
    !> Writes mesh.dat and mesh.gp into the set of the plots' folder.
    !>
    !> status: STATUS_FILE when one could not be written.
-   subroutine write_mesh_plot(set, model, results, origin, status)
+   subroutine write_mesh_plot(set, model, results, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      type(origin_t), intent(in) :: origin
       type(status_t), intent(out) :: status
       type(drawing_t) :: drawing
 
@@ -54,14 +53,13 @@ contains
       call write_lines(set, MESH_PLOT, '# edges of the elements as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L]', &
                        [character(len=40) :: ', edges inside', ', outline and lines between sections'], model, results%u, &
                        drawing, status)
-      if (is_ok(status)) call write_script(set, model, results, origin, drawing, status)
+      if (is_ok(status)) call write_script(set, model, results, drawing, status)
    end subroutine write_mesh_plot
 
-   subroutine write_script(set, model, results, origin, drawing, status)
+   subroutine write_script(set, model, results, drawing, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
-      type(origin_t), intent(in) :: origin
       type(drawing_t), intent(in) :: drawing
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
@@ -71,10 +69,8 @@ contains
       call begin_script(set, MESH_PLOT, 'the deformed mesh over the undeformed one', file)
       call put_line(file, '# Columns of mesh.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body and kind of line')
       call put_line(file, 'scale = '//to_text(drawing%scale)//'   # of the displacements; change it here')
-      call put_line(file, 'heading = '//quoted(picture_title(origin)))
+      call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
       call put_frame(file, MESH_PLOT, drawing%window)
-      call put_line(file, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"')
-      call put_line(file, 'set style line 9 lt 1 lw 4 lc rgb "#404040"')
       do i = 1, N_COLOURS
          call put_line(file, 'set style line '//to_text(i)//' lt 1 lc rgb "'//COLOUR(i)//'"')
       end do

@@ -110,7 +110,7 @@ contains
    subroutine cover_run(table, pairs)
       type(table_file_t), intent(in) :: table
       type(overlay_pair_t), allocatable, intent(inout) :: pairs(:)
-      integer(ip) :: pair, c(N_FIELDS), c_pair, c_s, row, i
+      integer(ip) :: pair, c(N_FIELDS), c_pair, c_s, row, i, n
       integer(ip), allocatable :: n_points(:)
 
       c_pair = find_column(table, 'pair')
@@ -119,7 +119,8 @@ contains
          c(i) = find_column(table, trim(FIELD_NAME(i)))
       end do
       if (min(c_pair, c_s, minval(c)) == 0 .or. table%n_rows == 0) return
-      call grow(pairs, maxval(nint(table%value(c_pair, :), ip)))
+      n = maxval(nint(table%value(c_pair, :), ip))
+      if (n > size(pairs)) pairs = [pairs, spread(overlay_pair_t(), 1, n - size(pairs))]
       allocate (n_points(size(pairs)), source=0_ip)
       do row = 1, table%n_rows
          pair = nint(table%value(c_pair, row), ip)
@@ -142,17 +143,6 @@ contains
       pair%has_shear = pair%has_shear .or. abs(values(FIELD_SHEAR)) > 0.0_wp
       pair%has_weighted = pair%has_weighted .or. abs(values(FIELD_WEIGHTED) - values(FIELD_PRESSURE)) > 0.0_wp
    end subroutine cover_point
-
-   pure subroutine grow(pairs, n)
-      type(overlay_pair_t), allocatable, intent(inout) :: pairs(:)
-      integer(ip), intent(in) :: n
-      type(overlay_pair_t), allocatable :: longer(:)
-
-      if (n <= size(pairs)) return
-      allocate (longer(n))
-      longer(:size(pairs)) = pairs
-      call move_alloc(longer, pairs)
-   end subroutine grow
 
    subroutine take_quantities(table, run)
       type(table_file_t), intent(in) :: table

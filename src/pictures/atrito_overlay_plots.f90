@@ -12,6 +12,7 @@ module atrito_overlay_plots
    use atrito_plot_files, only: plot_folder, OVERLAY_PLOT, OVERLAY_SUMMARY
    use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, begin_script, end_script, put_terminal, &
                                put_frame, put_panel, COLOUR, N_COLOURS
+   use atrito_contact_plot, only: put_contact_columns
    use atrito_overlay_data, only: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, FIELD_COLUMN, N_FIELDS, &
                                   LONGEST_LABEL, FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP
    use atrito_overlay_summary, only: write_summary_plot
@@ -138,10 +139,7 @@ contains
       label_width = maxval([(len(overlay%runs(i)%label), i=1, size(overlay%runs))])
       fields = shown_fields(overlay%pairs(number))
       call begin_script(set, name, 'contact pair '//to_text(number)//' of several runs along s', file)
-      call put_line(file, '# Columns of contact.tab: 2 pair, 4 s [L], 7 gap [L], 8 pressure [F/L^2], 9 weighted pressure [F/L^2],')
-      call put_line(file, '# 10 shear [F/L^2], 11 slip [L]')
-      call put_line(file, 'pair = '//to_text(number))
-      call put_line(file, 'col(c) = column(2) == pair ? column(c)/unit : NaN')
+      call put_contact_columns(file, number, '')
       call put_runs(file, overlay%runs)
       call put_line(file, 'heading = '//quoted(overlay%title))
       call put_line(file, 'pair_line = '//quoted('pair '//to_text(number)//doubt_text(overlay%runs)))

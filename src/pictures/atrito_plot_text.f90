@@ -80,16 +80,22 @@ contains
       text = '['//to_text(range%low, 8)//':'//to_text(range%high, 8)//']'
    end function range_text
 
-   !> What a user wrote as a string of gnuplot.
-   pure function quoted(text) result(string)
+   !> What a user wrote as a string of gnuplot, or of the shell.
+   pure function quoted(text, quote) result(string)
       character(len=*), intent(in) :: text
+      character(len=*), intent(in), optional :: quote   !< what stands for a quote within it; default: two of them
       character(len=:), allocatable :: string
       integer :: i
 
       string = ''''
       do i = 1, len(text)
-         string = string//text(i:i)
-         if (text(i:i) == '''') string = string//''''
+         if (text(i:i) /= '''') then
+            string = string//text(i:i)
+         else if (present(quote)) then
+            string = string//quote
+         else
+            string = string//''''''
+         end if
       end do
       string = string//''''
    end function quoted

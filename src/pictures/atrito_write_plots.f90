@@ -10,8 +10,6 @@ module atrito_write_plots
    use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_summary, only: pair_count
-   use atrito_table, only: origin_t
-   use atrito_write_tables, only: origin_of
    use atrito_plot_files, only: plot_folder, MESH_PLOT, JOINT_PLOT
    use atrito_mesh_plot, only: write_mesh_plot
    use atrito_contact_plot, only: write_contact_plot, contact_plot_name
@@ -72,16 +70,14 @@ contains
       character(len=*), intent(in) :: folder                !< of the plots
       type(status_t), intent(out) :: status
       type(file_set_t) :: set
-      type(origin_t) :: origin
       integer(ip) :: i
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
-      origin = origin_of(model, results)
-      call write_mesh_plot(set, model, results, origin, status)
-      if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, origin, status)
+      call write_mesh_plot(set, model, results, status)
+      if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, status)
       do i = 1, plotted_pairs(model, results)
-         if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, origin, i, status)
+         if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, i, status)
       end do
       call end_files(set, status)
    end subroutine write_plot_scripts

@@ -117,10 +117,10 @@ contains
       runs = count(limit%values%code == STATUS_NOT_CONVERGED, kind=ip)
       proofs = count(limit%values%excess /= limit%values%excess .and. limit%values%code == CODE_NOT_RUN, kind=ip)
       if (runs > 0) call add_item(page, 'undecided', 'at '//plural(runs, 'value', 'values')// &
-                                   ' neither a solution nor a proof was found (exit 3)')
+                                  ' neither a solution nor a proof was found (exit 3)')
       if (runs > 0) call add_item(page, '', 'although the loads can be balanced up to '//number(limit%balanced, DIGITS))
       if (proofs > 0) call add_item(page, 'undecided', plural(proofs, 'value is', 'values are')// &
-                                     ' too near the limit for a proof')
+                                    ' too near the limit for a proof')
    end subroutine add_undecided
 
    !> What is watched, at the value that stands.

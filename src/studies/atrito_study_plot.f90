@@ -71,10 +71,7 @@ contains
       type(text_file_t) :: file
       integer :: j, panels
 
-      panels = 2
-      do j = 1, size(study%quantities)
-         if (has_panel(study, j)) panels = panels + 1
-      end do
+      panels = 2 + count([(has_panel(study, j), j=1, size(study%quantities))])
       call begin_script(set, STUDY_PLOT, 'error against run time, and run time against size', file)
       call put_line(file, '# Columns of study.dat: 1 dofs, 2 processor seconds, 3 estimated error [%], 4 ... errors of the '// &
                     'quantities [%]')

@@ -80,11 +80,13 @@ contains
       character(len=:), allocatable :: text
       logical, allocatable :: told(:)
       character(len=:), allocatable :: failed
+      real(wp) :: seconds(size(study%rows))
       integer :: k, n, next, before
 
       allocate (told(size(study%rows)))
       told = .true.
       before = 0
+      seconds = [(total_seconds(study%rows(k), PROCESSOR), k=1, size(study%rows))]
       failed = ''
       do k = 1, size(study%rows)
          if (.not. is_last(study%rows, k)) cycle
@@ -103,7 +105,7 @@ contains
       end if
       text = text//' soonest: '
       do while (.not. all(told))
-         next = fastest(study%rows, told)
+         next = minloc(seconds, dim=1, mask=.not. told)
          told(next) = .true.
          if (before > 0) text = text//conjunction(study%rows(before), study%rows(next))
          before = next
@@ -146,19 +148,6 @@ contains
          n = k
       end do
    end function first_good
-
-   pure integer function fastest(rows, told) result(k)
-      type(study_row_t), intent(in) :: rows(:)
-      logical, intent(in) :: told(:)                 !< rows that are not asked for
-      integer :: i
-
-      k = 0
-      do i = 1, size(rows)
-         if (told(i)) cycle
-         if (k == 0) k = i
-         if (total_seconds(rows(i), PROCESSOR) < total_seconds(rows(k), PROCESSOR)) k = i
-      end do
-   end function fastest
 
    !> Whether the error still falls at the finest level of an element, and if not the reason.
    subroutine speak_of_last_error(study, i, k)
@@ -251,7 +240,7 @@ contains
          if (is_nan(moved) .or. study%quantities(i)%is_held) cycle
          if (len(text) > 0) text = text//', '
          text = text//study%quantities(i)%name//' by '//percent(moved)
-         is_felt = is_felt .or. 2*moved >= SHARE*least_error(study%quantities(i)%error)
+         is_felt = is_felt .or. 2*moved >= SHARE*minval(study%quantities(i)%error, mask=.not. is_nan(study%quantities(i)%error))
       end do
       if (len(text) == 0) return
       text = probe%what//' moves '//text//' ('//study%rows(probe%row)%element//', level '// &
@@ -263,17 +252,6 @@ contains
       end if
       call append_string(study%words, text)
    end subroutine speak_of_probe
-
-   pure real(wp) function least_error(errors) result(least)
-      real(wp), intent(in) :: errors(:)              !< nan: none
-      integer :: k
-
-      least = huge(1.0_wp)
-      do k = 1, size(errors)
-         if (is_nan(errors(k))) cycle
-         least = min(least, errors(k))
-      end do
-   end function least_error
 
    !> The order of the estimate is that of the elements where the solution is smooth, and that of the worst singularity elsewhere.
    subroutine speak_of_estimate(study)

@@ -38,8 +38,8 @@ contains
       type(sweep_run_t), intent(inout) :: run
       type(status_t), intent(out) :: status
 
-      if (run%code == STATUS_OK .or. run%code == STATUS_NOT_CONVERGED) &
-         call read_table(folder//'/summary.tab', run%summary, status)
+      if (run%code /= STATUS_OK .and. run%code /= STATUS_NOT_CONVERGED) return
+      call read_table(folder//'/summary.tab', run%summary, status)
    end subroutine read_summary
 
    !> The row of a quantity of the first pair, or of the step; 0 where the summary has none.
