@@ -13,17 +13,18 @@ module atrito_command_line
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
-   public :: command_t, parse_command, fetch_arguments, output_folder
+   public :: command_t, parse_command, wrong, fetch_arguments, output_folder
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
              TASK_VERSION
    public :: SOLVERS
 
    character(len=7), parameter :: COMMANDS(6) = ['check  ', 'compare', 'study  ', 'sweep  ', 'limit  ', 'help   ']
-   character(len=*), parameter :: SWEEP_FORM = 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]'
-   character(len=*), parameter :: STUDY_FORM = 'atrito study DECK.inp --levels N [--elements cpe4,cpe9] '// &
-                                  '[--reference QUANTITY=VALUE]'
-
-   character(len=*), parameter :: LIMIT_FORM = 'atrito limit DECK.inp --vary NAME=a:b [--tolerance T] [--watch NODE,DOF]'
+   integer, parameter :: TASK_OF(0:6) = [TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_STUDY, TASK_SWEEP, TASK_LIMIT, TASK_HELP]
+   !> Of the tasks that have one deck.
+   character(len=90), parameter :: FORMS(TASK_LIMIT) = [character(len=90) :: 'atrito DECK.inp [options]', 'atrito check DECK.inp', &
+                                                                  '', '', 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]', &
+                                           'atrito study DECK.inp --levels N [--elements cpe4,cpe9] [--reference QUANTITY=VALUE]', &
+                                                         'atrito limit DECK.inp --vary NAME=a:b [--tolerance T] [--watch NODE,DOF]']
    real(wp), parameter :: LEAST_TOLERANCE = 1.0e-8_wp, MOST_TOLERANCE = 0.1_wp   !< the proof is good for 1e-9
 
    !> What the user asks for.
@@ -94,11 +95,11 @@ contains
       if (.not. ok) return
       ok = .false.
       if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
-         error = wrong('a sweep needs the parameter that it varies', expected=SWEEP_FORM)
+         error = wrong('a sweep needs the parameter that it varies', expected=trim(FORMS(TASK_SWEEP)))
       else if (command%task == TASK_STUDY .and. command%levels == 0) then
-         error = wrong('a study needs the number of its levels', expected=STUDY_FORM)
+         error = wrong('a study needs the number of its levels', expected=trim(FORMS(TASK_STUDY)))
       else if (command%task == TASK_LIMIT .and. size(command%vary) /= 1) then
-         error = wrong('a limit needs the one parameter that it varies', expected=LIMIT_FORM)
+         error = wrong('a limit needs the one parameter that it varies', expected=trim(FORMS(TASK_LIMIT)))
       else
          ok = .true.
       end if
@@ -191,52 +192,23 @@ contains
 
       ok = .false.
       if (size(names) == 0) then
-         error = wrong('there is no deck', expected='atrito DECK.inp [options]')
+         error = wrong('there is no deck', expected=trim(FORMS(TASK_RUN)))
          return
       end if
-      task = task_of(names(1)%s)
+      task = TASK_OF(findloc(COMMANDS == names(1)%s, .true., dim=1))
       command%task = task
       command%names = names(merge(1, 2, task == TASK_RUN):)
       select case (task)
-      case (TASK_RUN)
-         call check_deck(command%names, 'atrito DECK.inp [options]', ok, error)
-      case (TASK_CHECK)
-         call check_deck(command%names, 'atrito check DECK.inp', ok, error)
-      case (TASK_SWEEP)
-         call check_deck(command%names, SWEEP_FORM, ok, error)
-      case (TASK_STUDY)
-         call check_deck(command%names, STUDY_FORM, ok, error)
-      case (TASK_LIMIT)
-         call check_deck(command%names, LIMIT_FORM, ok, error)
       case (TASK_COMPARE)
          ok = size(command%names) == 2
          if (.not. ok) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
                                      expected='atrito compare A B [--rtol R] [--atol A]')
       case (TASK_HELP)
          ok = .true.
+      case default
+         call check_deck(command%names, trim(FORMS(task)), ok, error)
       end select
    end subroutine find_task
-
-   pure integer function task_of(name) result(task)
-      character(len=*), intent(in) :: name
-
-      select case (name)
-      case ('check')
-         task = TASK_CHECK
-      case ('compare')
-         task = TASK_COMPARE
-      case ('help')
-         task = TASK_HELP
-      case ('sweep')
-         task = TASK_SWEEP
-      case ('study')
-         task = TASK_STUDY
-      case ('limit')
-         task = TASK_LIMIT
-      case default
-         task = TASK_RUN
-      end select
-   end function task_of
 
    !> One deck; a word that is no file but nearly a command is a misspelt command.
    subroutine check_deck(names, expected, ok, error)
@@ -289,41 +261,54 @@ contains
       case ('--vary')
          call append_string(command%vary, given%value)
          ok = index(given%value, '=') > 1
-      case ('--tolerance')
-         call take_real(given%value, MOST_TOLERANCE, command%limit_tolerance, ok)
-         ok = ok .and. command%limit_tolerance >= LEAST_TOLERANCE
-      case ('--watch')
-         call take_watched(given%value, command%watched, ok)
-      case ('--refine')
-         call take_integer(given%value, 0, MOST_LEVELS, command%refine, ok)
-      case ('--levels')
-         call take_integer(given%value, 1, MOST_LEVELS, command%levels, ok)
-      case ('--elements')
-         call take_elements(given%value, command%elements, ok)
       case ('--reference')
          call append_string(command%references, given%value)
          ok = len_trim(given%value) > 0 .and. index(given%value, '=') /= 1
+      case ('--watch')
+         call take_watched(given%value, command%watched, ok)
+      case ('--elements')
+         call take_elements(given%value, command%elements, ok)
       case ('--solver')
          call take_solver(given%value, command, ok, error)
-         return
+         if (.not. ok) return
       case ('--contact')
          ok = any(CONTACT_FORMS == given%value)
          if (ok) command%contact = given%value
-      case ('--threads')
-         call take_integer(given%value, 1, MOST_THREADS, command%threads, ok)
-      case ('--digits')
-         call take_integer(given%value, LEAST_DIGITS, MOST_DIGITS, command%digits, ok)
-      case ('--rtol')
-         call take_real(given%value, 1.0_wp, command%rtol, ok)
-      case ('--atol')
-         call take_real(given%value, huge(1.0_wp), command%atol, ok)
       case ('--plot')
          command%plot = .true.
       case ('--quiet')
          command%quiet = .true.
+      case default
+         call take_number(name, given%value, command, ok)
       end select
       if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(name))
    end subroutine take_option
+
+   !> The options whose value is a number.
+   subroutine take_number(name, value, command, ok)
+      character(len=*), intent(in) :: name, value
+      type(command_t), intent(inout) :: command
+      logical, intent(out) :: ok
+
+      select case (name)
+      case ('--refine')
+         call take_integer(value, 0, MOST_LEVELS, command%refine, ok)
+      case ('--levels')
+         call take_integer(value, 1, MOST_LEVELS, command%levels, ok)
+      case ('--threads')
+         call take_integer(value, 1, MOST_THREADS, command%threads, ok)
+      case ('--digits')
+         call take_integer(value, LEAST_DIGITS, MOST_DIGITS, command%digits, ok)
+      case ('--tolerance')
+         call take_real(value, LEAST_TOLERANCE, MOST_TOLERANCE, command%limit_tolerance, ok)
+      case ('--rtol')
+         call take_real(value, 0.0_wp, 1.0_wp, command%rtol, ok)
+      case ('--atol')
+         call take_real(value, 0.0_wp, huge(1.0_wp), command%atol, ok)
+      case default
+         ok = .true.                                ! of --help and --version
+      end select
+   end subroutine take_number
 
    !> NODE,DOF
    subroutine take_watched(value, watched, ok)
@@ -365,26 +350,21 @@ contains
       type(command_t), intent(inout) :: command
       logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
+      logical :: is_there
 
       ok = .false.
+      is_there = .true.
+      if (value == 'mumps') is_there = has_mumps()   ! a library, which is looked for when it is asked for
       if (.not. any(SOLVERS == value)) then
          error = wrong('unknown solver '//value, expected=value_text('--solver'), &
                        nearest=nearest_names(value, string_list(SOLVERS), 2))
-      else if (.not. is_there(value)) then
+      else if (.not. is_there) then
          error = wrong('--solver mumps needs MUMPS, and '//mumps_trouble(), expected='auto, skyline, banded or sparse')
       else
          command%solver = value
          ok = .true.
       end if
    end subroutine take_solver
-
-   !> MUMPS is a library, which is looked for when it is asked for.
-   logical function is_there(solver)
-      character(len=*), intent(in) :: solver
-
-      is_there = .true.
-      if (solver == 'mumps') is_there = has_mumps()
-   end function is_there
 
    subroutine take_integer(text, least, most, value, ok)
       character(len=*), intent(in) :: text
@@ -399,16 +379,16 @@ contains
       if (ok) value = found
    end subroutine take_integer
 
-   subroutine take_real(text, most, value, ok)
+   subroutine take_real(text, least, most, value, ok)
       character(len=*), intent(in) :: text
-      real(wp), intent(in) :: most
+      real(wp), intent(in) :: least, most
       real(wp), intent(inout) :: value
       logical, intent(out) :: ok
       real(wp) :: found
       integer :: outcome
 
       call read_real(text, found, outcome)
-      ok = outcome == NUMBER_OK .and. found >= 0.0_wp .and. found <= most
+      ok = outcome == NUMBER_OK .and. found >= least .and. found <= most
       if (ok) value = found
    end subroutine take_real
 

@@ -4,7 +4,7 @@ module atrito_console
    use atrito_kinds, only: ip
    use atrito_messages, only: message_t, count_messages, get_message, format_message, &
                               SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
-   use atrito_status, only: status_t, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR, STATUS_FILE
+   use atrito_status, only: status_t, STATUS_USAGE, STATUS_FILE
    use atrito_strings, only: string_t, to_text
    use atrito_version, only: PROGRAM_NAME
    implicit none (type, external)
@@ -55,21 +55,11 @@ contains
    pure function status_id(code) result(id)
       integer, intent(in) :: code
       character(len=:), allocatable :: id
+      character(len=15), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
+                                                                                                             'E-SINGULAR', 'E-FILE']
 
-      select case (code)
-      case (STATUS_USAGE)
-         id = 'E-COMMAND'
-      case (STATUS_DECK)
-         id = 'E-DECK'
-      case (STATUS_NOT_CONVERGED)
-         id = 'E-NOT-CONVERGED'
-      case (STATUS_SINGULAR)
-         id = 'E-SINGULAR'
-      case (STATUS_FILE)
-         id = 'E-FILE'
-      case default
-         id = 'E-INTERNAL'
-      end select
+      id = 'E-INTERNAL'
+      if (code <= STATUS_FILE) id = trim(IDS(code))
    end function status_id
 
    !> A failure to print is nobody's error.

@@ -3,9 +3,9 @@ module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use atrito_blas_info, only: set_blas_threads
    use atrito_body_store, only: body_store_t
-   use atrito_check_report, only: compose_check
-   use atrito_command_line, only: command_t, parse_command, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, &
-                                  TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
+   use atrito_screen, only: compose_check
+   use atrito_command_line, only: command_t, parse_command, wrong, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, &
+                                  TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_lines, print_messages, print_status
    use atrito_help, only: help_overview, help_keyword, help_manual
@@ -45,18 +45,12 @@ contains
       type(body_store_t) :: store
       logical :: ok
 
-      call keep_freed_memory()
-      call guard_interrupts(STATUS_INTERNAL)
-      call set_blas_threads(1_ip)
-      call set_threads(1_ip)
-      call clear_messages()
-      call reset_timers()
+      call begin_program()
       call fetch_arguments(arguments)
       call parse_command(arguments, command, ok, error)
       code = STATUS_USAGE
       if (.not. ok) then
-         call print_lines(format_message(error), error_unit)
-         call print_lines([string_t('    see:      atrito --help')], error_unit)
+         call print_wrong(error, 'atrito --help')
          return
       end if
       select case (command%task)
@@ -86,6 +80,16 @@ contains
          call print_page(page, error_unit)
       end select
    end subroutine run_program
+
+   !> What is to be so before anything else is done.
+   subroutine begin_program()
+      call keep_freed_memory()
+      call guard_interrupts(STATUS_INTERNAL)
+      call set_blas_threads(1_ip)
+      call set_threads(1_ip)
+      call clear_messages()
+      call reset_timers()
+   end subroutine begin_program
 
    !> Tells what a deck needs; solves nothing, writes no file.
    subroutine check_deck(command, code)
@@ -157,20 +161,17 @@ contains
          call print_lines(lines, output_unit)
       else
          code = STATUS_USAGE
-         call print_unknown_keyword(keyword)
+         call print_wrong(wrong('there is no keyword '//keyword, nearest=nearest_names(keyword, &
+                                                                                 keyword_names(keyword_table()), 3)), 'atrito help')
       end if
    end subroutine print_help
 
-   subroutine print_unknown_keyword(keyword)
-      character(len=*), intent(in) :: keyword
-      type(message_t) :: error
+   !> Tells what is wrong with the command line, and which command tells more.
+   subroutine print_wrong(error, see)
+      type(message_t), intent(in) :: error
+      character(len=*), intent(in) :: see
 
-      error%id = 'E-COMMAND'
-      error%file = PROGRAM_NAME
-      error%text = 'there is no keyword '//keyword
-      error%nearest = nearest_names(keyword, keyword_names(keyword_table()), 3)
-      call print_lines(format_message(error), error_unit)
-      call print_lines([string_t('    see:      atrito help')], error_unit)
-   end subroutine print_unknown_keyword
+      call print_lines([format_message(error), string_t('    see:      '//see)], error_unit)
+   end subroutine print_wrong
 
 end module atrito_driver

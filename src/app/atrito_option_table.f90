@@ -1,8 +1,6 @@
 !> The options of the command line: their names, the tasks that know them, and what their values may be.
 module atrito_option_table
-   use atrito_kinds, only: ip
-   use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
@@ -27,29 +25,36 @@ module atrito_option_table
       character(len=11) :: name
       logical :: has_value
       logical :: for_task(TASK_LIMIT)               !< run, check, compare, help, sweep, study, limit
+      character(len=84) :: expected                 !< what its value may be
    end type option_t
 
    logical, parameter :: Y = .true., N = .false.
    type(option_t), parameter :: OPTIONS(19) = [ &
-                                option_t('-o         ', Y, [Y, N, N, N, Y, Y, Y]), &
-                                option_t('--set      ', Y, [Y, Y, N, N, Y, Y, Y]), &
-                                option_t('--solver   ', Y, [Y, Y, N, N, Y, Y, Y]), &
-                                option_t('--contact  ', Y, [Y, Y, N, N, Y, Y, Y]), &
-                                option_t('--threads  ', Y, [Y, Y, N, N, Y, Y, Y]), &
-                                option_t('--digits   ', Y, [Y, N, N, N, Y, Y, Y]), &
-                                option_t('--quiet    ', N, [Y, Y, Y, N, Y, Y, Y]), &
-                                option_t('--rtol     ', Y, [N, N, Y, N, N, N, N]), &
-                                option_t('--atol     ', Y, [N, N, Y, N, N, N, N]), &
-                                option_t('--refine   ', Y, [Y, Y, N, N, Y, Y, Y]), &
-                                option_t('--plot     ', N, [Y, N, N, N, Y, Y, Y]), &
-                                option_t('--levels   ', Y, [N, N, N, N, N, Y, N]), &
-                                option_t('--vary     ', Y, [N, N, N, N, Y, N, Y]), &
-                                option_t('--tolerance', Y, [N, N, N, N, N, N, Y]), &
-                                option_t('--watch    ', Y, [N, N, N, N, N, N, Y]), &
-                                option_t('--elements ', Y, [N, N, N, N, N, Y, N]), &
-                                option_t('--reference', Y, [N, N, N, N, N, Y, N]), &
-                                option_t('--help     ', N, [Y, Y, Y, Y, Y, Y, Y]), &
-                                option_t('--version  ', N, [Y, Y, Y, Y, Y, Y, Y])]
+                                option_t('-o         ', Y, [Y, N, N, N, Y, Y, Y], 'a folder; it is made where it is missing'), &
+                                option_t('--set      ', Y, [Y, Y, N, N, Y, Y, Y], 'NAME=VALUE, VALUE an expression of numbers'), &
+                                option_t('--solver   ', Y, [Y, Y, N, N, Y, Y, Y], 'auto, skyline, banded, sparse or mumps'), &
+                                option_t('--contact  ', Y, [Y, Y, N, N, Y, Y, Y], 'auto, dense or sparse'), &
+                                option_t('--threads  ', Y, [Y, Y, N, N, Y, Y, Y], 'a whole number, 1 to 1024'), &
+                                option_t('--digits   ', Y, [Y, N, N, N, Y, Y, Y], 'a whole number, 6 to 17'), &
+                                option_t('--quiet    ', N, [Y, Y, Y, N, Y, Y, Y], ''), &
+                                option_t('--rtol     ', Y, [N, N, Y, N, N, N, N], 'a number, 0 to 1'), &
+                                option_t('--atol     ', Y, [N, N, Y, N, N, N, N], 'a number, not negative'), &
+                                option_t('--refine   ', Y, [Y, Y, N, N, Y, Y, Y], &
+                                         'a whole number, 0 to 12: each element into 4, so many times'), &
+                                option_t('--plot     ', N, [Y, N, N, N, Y, Y, Y], ''), &
+                                option_t('--levels   ', Y, [N, N, N, N, N, Y, N], &
+                                         'a whole number, 1 to 12: so many meshes, each with four elements for one'), &
+                                option_t('--vary     ', Y, [N, N, N, N, Y, N, Y], &
+                                         'NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'), &
+                                option_t('--tolerance', Y, [N, N, N, N, N, N, Y], &
+                                         'a number, 1e-8 to 0.1: of the interval round the limit, over the limit'), &
+                                option_t('--watch    ', Y, [N, N, N, N, N, N, Y], 'NODE,DOF: a node of the deck, and 1 or 2'), &
+                                option_t('--elements ', Y, [N, N, N, N, N, Y, N], &
+                                         'cpe4, cps4, cpe9, cps9, several with commas between them'), &
+                                option_t('--reference', Y, [N, N, N, N, N, Y, N], &
+                                         'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'), &
+                                option_t('--help     ', N, [Y, Y, Y, Y, Y, Y, Y], ''), &
+                                option_t('--version  ', N, [Y, Y, Y, Y, Y, Y, Y], '')]
 
 contains
 
@@ -57,10 +62,7 @@ contains
    pure integer function find_option(name) result(i)
       character(len=*), intent(in) :: name
 
-      do i = 1, size(OPTIONS)
-         if (OPTIONS(i)%name == name) return
-      end do
-      i = 0
+      i = findloc(OPTIONS%name == name, .true., dim=1)
    end function find_option
 
    pure function option_names() result(names)
@@ -95,40 +97,7 @@ contains
       character(len=*), intent(in) :: name
       character(len=:), allocatable :: text
 
-      select case (name)
-      case ('-o')
-         text = 'a folder; it is made where it is missing'
-      case ('--set')
-         text = 'NAME=VALUE, VALUE an expression of numbers'
-      case ('--vary')
-         text = 'NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'
-      case ('--tolerance')
-         text = 'a number, 1e-8 to 0.1: of the interval round the limit, over the limit'
-      case ('--watch')
-         text = 'NODE,DOF: a node of the deck, and 1 or 2'
-      case ('--refine')
-         text = 'a whole number, 0 to '//to_text(int(MOST_LEVELS, ip))//': each element into 4, so many times'
-      case ('--levels')
-         text = 'a whole number, 1 to '//to_text(int(MOST_LEVELS, ip))//': so many meshes, each with four elements for one'
-      case ('--elements')
-         text = 'cpe4, cps4, cpe9, cps9, several with commas between them'
-      case ('--reference')
-         text = 'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'
-      case ('--solver')
-         text = 'auto, skyline, banded, sparse or mumps'
-      case ('--contact')
-         text = 'auto, dense or sparse'
-      case ('--threads')
-         text = 'a whole number, 1 to '//to_text(int(MOST_THREADS, ip))
-      case ('--digits')
-         text = 'a whole number, '//to_text(int(LEAST_DIGITS, ip))//' to '//to_text(int(MOST_DIGITS, ip))
-      case ('--rtol')
-         text = 'a number, 0 to 1'
-      case ('--atol')
-         text = 'a number, not negative'
-      case default
-         text = 'a value'
-      end select
+      text = trim(OPTIONS(find_option(name))%expected)
    end function value_text
 
 end module atrito_option_table

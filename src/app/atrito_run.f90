@@ -14,6 +14,7 @@ module atrito_run
    use atrito_mesh, only: signed_area, PLANE_STRAIN, PLANE_STRESS, Q1_NODES, Q2_NODES
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
+   use atrito_option_table, only: SOLVERS, CONTACT_FORMS
    use atrito_page, only: page_t, print_page
    use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
@@ -25,23 +26,14 @@ module atrito_run
                            SOLVER_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t
+   use atrito_study_errors, only: run_facts_t
    use atrito_threads, only: set_threads
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
    use atrito_write_results, only: write_results
    implicit none (type, external)
    private
-   public :: run_deck, load_model, solve_options, agree_on_outcome, run_facts_t
-
-   !> What a study wants to know of a run besides its tables.
-   type :: run_facts_t
-      integer(ip) :: n_dofs = 0, n_points = 0
-      real(wp) :: h = 0.0_wp                        !< [L] side of a square of the mean area of the elements
-      integer(ip) :: degree = 0                     !< of the shape functions, 1 or 2; 0: elements of both kinds
-      real(wp) :: peak(2) = 0.0_wp                  !< [L] place of the largest pressure of the first pair
-      logical :: peak_is_end = .false.              !< it is the first or the last point of the slave surface
-      logical :: has_delta = .false., has_eps = .false., has_stick_slope = .false.   !< regularisations of contact and friction
-   end type run_facts_t
+   public :: run_deck, load_model, solve_options, agree_on_outcome
 
 contains
 
@@ -185,31 +177,25 @@ contains
       call read_deck(command%names(1)%s, command%settings, deck, status)
       call stop_phase('read')
       told = 0
+      code = STATUS_DECK
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('mesh')
          call build_model(deck, model, command%refine, shape=command%shape)
          if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('mesh')
+         call sort_messages()
+         silent = .false.
+         if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
+         if (.not. silent) call print_messages(command%quiet, 1_ip)
+         told = count_messages()
+         if (count_messages(SEVERITY_ERROR) > 0) return
+         if (is_ok(status) .and. .not. has_state(model, command%element)) then
+            call set_status(status, STATUS_USAGE, '--elements '//command%element// &
+                            ': the deck has elements of the other plane state')
+         end if
       end if
       code = status%code
-      if (.not. is_ok(status) .and. code /= STATUS_DECK) then
-         call print_status(status, command%names(1)%s)
-         return
-      end if
-      call sort_messages()
-      silent = .false.
-      if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
-      if (.not. silent) call print_messages(command%quiet, 1_ip)
-      told = count_messages()
-      if (count_messages(SEVERITY_ERROR) > 0) then
-         code = STATUS_DECK
-      else if (is_ok(status) .and. .not. has_state(model, command%element)) then
-         call set_status(status, STATUS_USAGE, '--elements '//command%element//': the deck has elements of the other plane state')
-         call print_status(status, command%names(1)%s)
-         code = status%code
-      else if (.not. is_ok(status)) then
-         call print_status(status, command%names(1)%s)
-      end if
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
    end subroutine load_model
 
    !> cpe is plane strain, cps plane stress; nothing asked is always there.
@@ -225,15 +211,11 @@ contains
    pure function solve_options(command) result(options)
       type(command_t), intent(in) :: command
       type(solve_options_t) :: options
+      integer, parameter :: KINDS(size(SOLVERS)) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS]
+      integer, parameter :: FORMS(size(CONTACT_FORMS)) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
 
-      options%storage_kind = SOLVER_AUTO
-      if (command%solver == 'skyline') options%storage_kind = SOLVER_SKYLINE
-      if (command%solver == 'banded') options%storage_kind = SOLVER_BANDED
-      if (command%solver == 'sparse') options%storage_kind = SOLVER_SPARSE
-      if (command%solver == 'mumps') options%storage_kind = SOLVER_MUMPS
-      options%contact_form = CONTACT_AUTO
-      if (command%contact == 'dense') options%contact_form = CONTACT_DENSE
-      if (command%contact == 'sparse') options%contact_form = CONTACT_SPARSE
+      options%storage_kind = KINDS(findloc(SOLVERS == command%solver, .true., dim=1))
+      options%contact_form = FORMS(findloc(CONTACT_FORMS == command%contact, .true., dim=1))
    end function solve_options
 
 end module atrito_run

@@ -4,36 +4,33 @@
 !> bodies on, so that those that the parameter leaves as they are are factored once.
 module atrito_stability_limit
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_balance_probe, only: probe_balance
    use atrito_body_store, only: body_store_t
    use atrito_clp, only: has_clp, clp_trouble
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
-   use atrito_files, only: check_folder
-   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: find_node
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
-   use atrito_page, only: page_t, print_page
-   use atrito_plot_files, only: plot_folder, remove_plots
+   use atrito_page, only: page_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: results_t
    use atrito_run, only: load_model, solve_options, agree_on_outcome
    use atrito_solve, only: solve_static
+   use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
-   use atrito_stability_range, only: read_range
+   use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
                                       falling_value, balanced_value, STEP_BALANCE, STEP_SOLVE, STEP_DONE, STANDS, FALLS, &
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
    use atrito_stability_tables, only: write_stability, compose_stability
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_table, only: origin_t
    use atrito_threads, only: set_threads
-   use atrito_system, only: processor_seconds
    implicit none (type, external)
    private
    public :: run_limit
@@ -56,15 +53,11 @@ contains
       if (is_ok(status) .and. .not. has_clp()) then
          call set_status(status, STATUS_USAGE, 'limit needs Clp, to prove that a scene falls: '//clp_trouble())
       end if
-      if (is_ok(status)) call check_folder(output_folder(command), status)
-      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
+      call claim_output(command, claim, status)
       code = status%code
-      if (is_ok(status)) then
-         call find_limit(command, limit, code)
-         call release_folder(claim)
-      else
-         call print_status(status, command%names(1)%s)
-      end if
+      if (.not. is_ok(status)) return
+      call find_limit(command, limit, code)
+      call release_folder(claim)
    end subroutine run_limit
 
    subroutine find_limit(command, limit, code)
@@ -74,11 +67,11 @@ contains
       type(search_t) :: search
       type(status_t) :: status
       type(model_t) :: model
-      integer(lp) :: began, ended, rate
+      integer(lp) :: began
       integer :: answer
       real(wp) :: excess
 
-      call system_clock(began, rate)
+      call system_clock(began)
       limit%watched = watched_text(command%watched)
       allocate (limit%values(0))
       call begin_search(limit%ends(1), limit%ends(2), limit%tolerance, search)
@@ -90,8 +83,7 @@ contains
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
-      call system_clock(ended)
-      if (is_ok(status)) call finish(command, model, limit, real(ended - began, wp)/real(rate, wp), status)
+      if (is_ok(status)) call finish(command, model, limit, seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
@@ -175,7 +167,7 @@ contains
       type(model_t) :: model
       type(results_t) :: results
       type(reporter_t) :: reporter
-      type(status_t) :: status
+      type(status_t) :: status, error
       integer(ip) :: told
       logical :: first
 
@@ -191,8 +183,12 @@ contains
          return
       end if
       if (first) call print_messages(command%quiet, told + 1)
-      call watch(model, results, command%watched, one%displacement, status=code)
-      if (code /= STATUS_OK) return
+      call watch(model, results, command%watched, one%displacement, error)
+      code = error%code
+      if (code /= STATUS_OK) then
+         call print_status(error, model%deck_path)
+         return
+      end if
       one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, is_ok(status))
       one%iterations = results%outer_iterations
       one%solves = results%linear_solves
@@ -200,28 +196,24 @@ contains
       call record_solution(search, one%value, merge(STANDS, UNDECIDED, is_ok(status)))
    end subroutine ask_solution
 
-   !> The displacement of the curve. status: STATUS_USAGE where there is no such node; told.
+   !> The displacement of the curve. status: STATUS_USAGE where there is no such node.
    subroutine watch(model, results, watched, displacement, status)
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       integer(ip), intent(in) :: watched(2)          !< node and dof; 0: the largest displacement
       real(wp), intent(out) :: displacement          !< [L]
-      integer, intent(out) :: status
-      type(status_t) :: error
+      type(status_t), intent(inout) :: status
       integer(ip) :: node
 
-      status = STATUS_OK
       displacement = maxval(norm2(results%u, dim=1))
       if (watched(1) == 0) return
       node = find_node(model%mesh, watched(1))
       if (node > 0) then
          displacement = results%u(watched(2), node)
-         return
+      else
+         call set_status(status, STATUS_USAGE, '--watch '//to_text(watched(1))//','//to_text(watched(2)) &
+                         //': the deck has no node '//to_text(watched(1)))
       end if
-      status = STATUS_USAGE
-      call set_status(error, STATUS_USAGE, '--watch '//to_text(watched(1))//','//to_text(watched(2))//': the deck has no node ' &
-                      //to_text(watched(1)))
-      call print_status(error, model%deck_path)
    end subroutine watch
 
    pure function watched_text(watched) result(text)
@@ -333,31 +325,25 @@ contains
       end select
    end function end_text
 
-   !> Tables, pictures and closing lines. Without --plot the pictures of an earlier run go, for the tables are new.
+   !> Tables, pictures and closing lines.
    subroutine finish(command, model, limit, seconds, status)
       type(command_t), intent(in) :: command
       type(model_t), intent(in) :: model            !< at the value that falls
       type(stability_t), intent(in) :: limit
-      real(wp), intent(in) :: seconds
+      real(wp), intent(in) :: seconds(2)             !< wall clock and processor
       type(status_t), intent(out) :: status
       type(origin_t) :: origin
       type(page_t) :: page
       type(string_t), allocatable :: pictures(:)
 
-      associate (deck => command%names(1)%s)
-         origin%deck = deck(index(deck, '/', back=.true.) + 1:)
-         origin%not_converged = .not. limit%is_close
-         allocate (origin%heading(0), pictures(0))
-         call write_stability(output_folder(command), origin, limit, int(command%digits), status)
-         if (.not. is_ok(status)) return
-         call clear_messages()
-         call remove_plots(output_folder(command))
-         if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, pictures)
-         call print_messages(command%quiet, 1_ip)
-         if (command%quiet) return
-         call compose_stability(deck, output_folder(command), limit, [seconds, processor_seconds()], page, pictures)
-         call print_page(page, output_unit)
-      end associate
+      origin = series_origin(command,.not. limit%is_close)
+      call write_stability(output_folder(command), origin, limit, int(command%digits), status)
+      if (.not. is_ok(status)) return
+      call begin_pictures(command)
+      allocate (pictures(0))
+      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, pictures)
+      call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
+      call tell_series(command, page)
    end subroutine finish
 
 end module atrito_stability_limit

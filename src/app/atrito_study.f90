@@ -1,29 +1,30 @@
 !> `atrito study`: one deck at several levels of refinement and with several elements; error against run time.
 module atrito_study
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_messages, print_status
-   use atrito_files, only: check_folder
-   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
-   use atrito_kinds, only: ip, wp, is_nan
+   use atrito_console, only: print_status
+   use atrito_folder_claim, only: folder_claim_t, release_folder
+   use atrito_kinds, only: ip, wp
    use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_messages, only: clear_messages
    use atrito_numbers, only: read_real, NUMBER_OK
-   use atrito_page, only: page_t, print_page
-   use atrito_plot_files, only: remove_plots
+   use atrito_page, only: page_t
+   use atrito_read_table, only: table_file_t, find_column
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_run, only: run_deck, run_facts_t
+   use atrito_run, only: run_deck, load_model, solve_options, agree_on_outcome
+   use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, append_string, join, nearest_names, to_text
-   use atrito_summary, only: quantity_names
-   use atrito_study_errors, only: study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
+   use atrito_strings, only: string_t, join, nearest_names, to_text
+   use atrito_summary, only: quantity_t, scales_t, quantity_names, pair_quantities, step_quantities, summarise_pair
+   use atrito_study_errors, only: run_facts_t, study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
    use atrito_study_plot, only: write_study_plot
-   use atrito_study_probe, only: probe_deck
+   use atrito_model, only: model_t, interaction_t
+   use atrito_results, only: results_t
+   use atrito_solve, only: solve_static
    use atrito_study_table, only: write_study, compose_study
    use atrito_study_words, only: judge_study
-   use atrito_sweep_tables, only: sweep_run_t, read_summary
+   use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
    use atrito_table, only: origin_t
    use atrito_timers, only: phase_time_t, reset_timers, get_phases
    implicit none (type, external)
@@ -50,18 +51,14 @@ contains
       ! one solver on all levels: another one from some level on would put a step into the times
       if (command%solver == 'auto') command%solver = 'sparse'
       call choose_quantities(command, study, status)
-      if (is_ok(status)) call check_folder(output_folder(command), status)
-      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
+      call claim_output(command, claim, status)
       code = status%code
-      if (is_ok(status)) then
-         call make_runs(command, study, code)
-         call release_folder(claim)
-      else
-         call print_status(status, command%names(1)%s)
-      end if
+      if (.not. is_ok(status)) return
+      call make_runs(command, study, code)
+      call release_folder(claim)
    end subroutine run_study
 
-   !> The runs and what is made of them. The folder is claimed all the time.
+   !> The runs and what is made of them.
    subroutine make_runs(command, study, code)
       type(command_t), intent(in) :: command
       type(study_t), intent(inout) :: study
@@ -71,7 +68,7 @@ contains
       integer :: k
 
       reporter%quiet = command%quiet
-      call list_runs(command, study%rows)
+      call list_runs(command, study)
       code = STATUS_OK
       do k = 1, size(study%rows)
          associate (row => study%rows(k))
@@ -131,48 +128,52 @@ contains
       end associate
    end subroutine make_probes
 
+   !> A run once more, of which nothing is written, with half of a regularisation, or half the compliance of the stick slope.
    subroutine add_probe(command, what, is_penalty, k, study)
       type(command_t), intent(in) :: command
       character(len=*), intent(in) :: what
       logical, intent(in) :: is_penalty
       integer, intent(in) :: k                      !< row
       type(study_t), intent(inout) :: study
+      type(study_probe_t) :: probe
       type(command_t) :: one
-      type(study_probe_t), allocatable :: probes(:)
-      type(string_t), allocatable :: names(:)
-      real(wp) :: factors(2)
-      integer :: i, n
+      type(body_store_t) :: store
+      type(model_t) :: model
+      type(results_t) :: results
+      type(reporter_t) :: reporter
+      type(status_t) :: status
+      integer(ip) :: told
+      integer :: code
 
-      factors = merge([0.5_wp, 1.0_wp], [1.0_wp, 0.5_wp], is_penalty)
-      n = size(study%probes) + 1
-      allocate (probes(n), names(size(study%quantities)))
-      do i = 1, n - 1
-         probes(i) = study%probes(i)
-      end do
-      do i = 1, size(names)
-         names(i)%s = study%quantities(i)%name
-      end do
-      probes(n)%what = what
-      probes(n)%is_penalty = is_penalty
-      probes(n)%row = k
-      allocate (probes(n)%values(size(names)))
+      probe = study_probe_t(what, is_penalty, k)
+      allocate (probe%values(size(study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      reporter%quiet = .true.
       call make_command(command, study%rows(k), one)
-      call probe_deck(one, factors(1), factors(2), names, probes(n)%values)
-      call move_alloc(probes, study%probes)
+      call clear_messages()
+      call load_model(one, reporter, model, told, code)
+      if (code == STATUS_OK) then
+         call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, is_penalty), merge(1.0_wp, 0.5_wp, is_penalty))
+         call solve_static(model, solve_options(one), reporter, results, status, store)
+         if (is_ok(status)) call agree_on_outcome(status, results)
+         if (is_ok(status)) call find_values(results, study, probe%values)
+      end if
+      call clear_messages()
+      study%probes = [study%probes, probe]
    end subroutine add_probe
 
    !> Every element at every level.
-   pure subroutine list_runs(command, rows)
+   pure subroutine list_runs(command, study)
       type(command_t), intent(in) :: command
-      type(study_row_t), allocatable, intent(out) :: rows(:)
+      type(study_t), intent(inout) :: study
       integer(ip) :: i, k
 
-      allocate (rows(max(1, size(command%elements))*command%levels))
-      do k = 1, size(rows, kind=ip)
+      study%elements = command%elements
+      if (size(study%elements) == 0) study%elements = [string_t(DECK_ELEMENTS)]
+      allocate (study%rows(size(study%elements)*command%levels))
+      do k = 1, size(study%rows, kind=ip)
          i = (k - 1)/command%levels + 1
-         rows(k)%level = k - 1 - (i - 1)*command%levels
-         rows(k)%element = DECK_ELEMENTS
-         if (size(command%elements) > 0) rows(k)%element = command%elements(i)%s
+         study%rows(k)%level = k - 1 - (i - 1)*command%levels
+         study%rows(k)%element = study%elements(i)%s
       end do
    end subroutine list_runs
 
@@ -236,7 +237,8 @@ contains
       type(command_t) :: one
       type(body_store_t) :: store
       type(run_facts_t) :: facts
-      type(sweep_run_t) :: summary
+      type(sweep_run_t) :: run
+      real(wp) :: nan
       integer :: i, code
 
       call make_command(command, row, one)
@@ -244,22 +246,15 @@ contains
       call reset_timers()
       call run_deck(one, store, code, facts)
       row%code = int(code, ip)
-      row%h = facts%h
-      row%n_dofs = facts%n_dofs
-      row%n_points = facts%n_points
-      row%degree = facts%degree
-      row%peak = facts%peak
-      row%peak_is_end = facts%peak_is_end
-      row%has_delta = facts%has_delta
-      row%has_eps = facts%has_eps
-      row%has_stick_slope = facts%has_stick_slope
+      row%run_facts_t = facts
       row%phases = get_phases()
-      summary%code = code
-      call read_summary(one%folder, summary, status)
-      row%values = [(amount(summary, study%quantities(i)%name), i=1, size(study%quantities))]
-      row%estimate = amount(summary, 'error_estimate_percent')
-      row%penetration = amount_or_0(summary, 'max_penetration')
-      row%pressure = amount_or_0(summary, 'max_pressure')
+      run%code = code
+      call read_summary(one%folder, run, status)
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
+      row%values = [(amount(run%summary, study%quantities(i)%name, nan), i=1, size(study%quantities))]
+      row%estimate = amount(run%summary, 'error_estimate_percent', nan)
+      row%penetration = amount(run%summary, 'max_penetration', 0.0_wp)
+      row%pressure = amount(run%summary, 'max_pressure', 0.0_wp)
    end subroutine make_run
 
    !> The command of one run.
@@ -285,25 +280,16 @@ contains
       if (index(element, '9') > 0) shape_of = Q2_NODES
    end function shape_of
 
-   !> 0 in a scene without contact.
-   pure real(wp) function amount_or_0(summary, name) result(x)
-      type(sweep_run_t), intent(in) :: summary
+   !> A quantity of the first pair, or of the step; `missing` where the summary has none.
+   pure real(wp) function amount(summary, name, missing)
+      type(table_file_t), intent(in) :: summary
       character(len=*), intent(in) :: name
+      real(wp), intent(in) :: missing
+      integer(ip) :: row
 
-      x = amount(summary, name)
-      if (is_nan(x)) x = 0.0_wp
-   end function amount_or_0
-
-   !> A quantity of the first pair, or of the step; nan where the summary has none.
-   pure real(wp) function amount(summary, name)
-      type(sweep_run_t), intent(in) :: summary
-      character(len=*), intent(in) :: name
-      integer :: i
-
-      amount = ieee_value(1.0_wp, ieee_quiet_nan)
-      do i = size(summary%quantities), 1, -1
-         if (summary%quantities(i)%s == name .and. summary%pairs(i) <= 1) amount = summary%numbers(i)
-      end do
+      row = row_of_quantity(summary, name)
+      amount = missing
+      if (row > 0) amount = summary%value(find_column(summary, 'value'), row)
    end function amount
 
    subroutine finish(command, study, status)
@@ -313,39 +299,43 @@ contains
       type(origin_t) :: origin
       type(page_t) :: page
       type(string_t), allocatable :: drawn(:)
+      character(len=:), allocatable :: title       !< the deck and what --set changed of it
 
       study%rounding = max(study%rounding, 10.0_wp**(1 - command%digits))
       call judge_study(study)
-      associate (deck => command%names(1)%s)
-         origin%deck = deck(index(deck, '/', back=.true.) + 1:)
-         origin%not_converged = any(study%rows%code == STATUS_NOT_CONVERGED)
-         allocate (origin%heading(0))
-         call write_study(output_folder(command), origin, study, int(command%digits), status)
-         if (.not. is_ok(status)) return
-         call clear_messages()
-         if (command%plot) then
-            call write_study_plot(output_folder(command), deck_title(origin%deck, command%settings), study, drawn)
-         else
-            call remove_plots(output_folder(command))
-         end if
-         call print_messages(command%quiet, 1_ip)
-         if (command%quiet) return
-         call compose_study(deck, output_folder(command), study, page)
-         call print_page(page, output_unit)
-      end associate
+      origin = series_origin(command, any(study%rows%code == STATUS_NOT_CONVERGED))
+      call write_study(output_folder(command), origin, study, int(command%digits), status)
+      if (.not. is_ok(status)) return
+      call begin_pictures(command)
+      title = origin%deck
+      if (size(command%settings) > 0) title = title//', '//join(command%settings, ', ')
+      if (command%plot) call write_study_plot(output_folder(command), title, study, drawn)
+      call compose_study(command%names(1)%s, output_folder(command), study, page)
+      call tell_series(command, page)
    end subroutine finish
 
-   !> The deck and what --set changed of it.
-   pure function deck_title(deck, settings) result(title)
-      character(len=*), intent(in) :: deck
-      type(string_t), intent(in) :: settings(:)
-      character(len=:), allocatable :: title
-      integer :: i
+   pure elemental subroutine scale_laws(law, delta_factor, eps_factor)
+      type(interaction_t), intent(inout) :: law
+      real(wp), intent(in) :: delta_factor, eps_factor
 
-      title = deck
-      do i = 1, size(settings)
-         title = title//', '//settings(i)%s
+      law%delta = delta_factor*law%delta
+      law%eps = eps_factor*law%eps
+      law%stick_slope = law%stick_slope/eps_factor
+   end subroutine scale_laws
+
+   pure subroutine find_values(results, study, values)
+      type(results_t), intent(in) :: results
+      type(study_t), intent(in) :: study
+      real(wp), intent(inout) :: values(:)
+      type(quantity_t), allocatable :: list(:)
+      integer :: i, k
+
+      list = [pair_quantities(summarise_pair(results%contact(1)), scales_t()), step_quantities(results)]
+      do i = 1, size(values)
+         do k = 1, size(list)
+            if (list(k)%name == study%quantities(i)%name) values(i) = list(k)%value
+         end do
       end do
-   end function deck_title
+   end subroutine find_values
 
 end module atrito_study

@@ -4,26 +4,25 @@
 !> copies of this process. What a worker finds stands in the files of its runs and in the integers that all share.
 module atrito_sweep
    use, intrinsic :: iso_c_binding, only: c_int
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_messages, print_status
-   use atrito_files, only: check_folder
-   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_console, only: print_status
+   use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: clear_messages
    use atrito_overlay_plots, only: write_overlay_plots
-   use atrito_page, only: page_t, print_page
-   use atrito_plot_files, only: plot_folder, remove_plots
+   use atrito_page, only: page_t
+   use atrito_plot_files, only: plot_folder
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_FILE, STATUS_INTERNAL
+   use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series, seconds_since
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
    use atrito_table, only: origin_t
-   use atrito_system, only: await_workers, processor_seconds
+   use atrito_system, only: await_workers
    use atrito_timers, only: reset_timers
    implicit none (type, external)
    private
@@ -31,150 +30,128 @@ module atrito_sweep
 
    integer(c_int), parameter :: NOT_DONE = -1_c_int
 
+   !> What is asked, and the exit codes of the runs, then their factorisations.
+   type :: sweep_t
+      type(command_t) :: command
+      type(sweep_plan_t) :: plan
+      integer(c_int), pointer :: shared(:) => null()   !< (2 n_runs)
+      type(body_store_t) :: store
+   end type sweep_t
+
 contains
 
    !> Makes all runs; code is the worst of theirs.
    subroutine run_sweep(command, code)
       type(command_t), intent(in) :: command
       integer, intent(out) :: code                  !< one of STATUS_*
-      type(sweep_plan_t) :: plan
+      type(sweep_t) :: sweep
       type(status_t) :: status
       type(folder_claim_t) :: claim
-      integer(c_int), pointer :: shared(:)
 
-      call plan_sweep(command%vary, command%settings, plan, status)
+      sweep%command = command
+      call plan_sweep(command%vary, command%settings, sweep%plan, status)
       if (is_ok(status)) then
-         call share_integers(2*plan%n_runs, shared)
-         if (.not. associated(shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
+         call share_integers(2*sweep%plan%n_runs, sweep%shared)
+         if (.not. associated(sweep%shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
       end if
-      if (is_ok(status)) call check_folder(output_folder(command), status)
-      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
+      call claim_output(command, claim, status)
       code = status%code
-      if (is_ok(status)) then
-         call make_and_collect(command, plan, shared, code)
-         call release_folder(claim)
-      else
-         call print_status(status, command%names(1)%s)
-      end if
+      if (.not. is_ok(status)) return
+      call make_and_collect(sweep, code)
+      call release_folder(claim)
    end subroutine run_sweep
 
-   !> The folder is claimed all the time: two sweeps at once would leave runs of both.
-   subroutine make_and_collect(command, plan, shared, code)
-      type(command_t), intent(in) :: command
-      type(sweep_plan_t), intent(in) :: plan
-      integer(c_int), pointer, intent(in) :: shared(:) !< (2 n_runs) exit codes, then factorisations
+   !> The runs and what is made of them.
+   subroutine make_and_collect(sweep, code)
+      type(sweep_t), intent(inout) :: sweep
       integer, intent(out) :: code
       type(sweep_run_t), allocatable :: runs(:)
       type(status_t) :: status
-      integer(lp) :: began, ended, rate
+      integer(lp) :: began
 
-      call system_clock(began, rate)
-      shared(:plan%n_runs) = NOT_DONE
-      call make_runs(command, plan, shared)
+      call system_clock(began)
+      sweep%shared(:sweep%plan%n_runs) = NOT_DONE
+      call make_runs(sweep)
       code = STATUS_USAGE
-      if (shared(1) == STATUS_USAGE) return         ! the deck has no such parameter: told by the first run
-      call collect(command, plan, shared, runs, status)
-      call system_clock(ended)
-      if (is_ok(status)) call finish(command, plan, runs, real(ended - began, wp)/real(rate, wp), status)
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      if (sweep%shared(1) == STATUS_USAGE) return         ! the deck has no such parameter: told by the first run
+      call collect(sweep, runs, status)
+      if (is_ok(status)) call finish(sweep%command, sweep%plan, runs, seconds_since(began), status)
+      if (.not. is_ok(status)) call print_status(status, sweep%command%names(1)%s)
       code = max(maxval(runs%code), status%code)
    end subroutine make_and_collect
 
-   !> The first run here, the others here or by workers.
-   subroutine make_runs(command, plan, shared)
-      type(command_t), intent(in) :: command
-      type(sweep_plan_t), intent(in) :: plan
-      integer(c_int), pointer, intent(in) :: shared(:) !< (2 n_runs) exit codes, then factorisations
-      type(body_store_t) :: store
-      integer(ip) :: n_workers, w
+   !> The first run here, the others here or by workers, which take turns.
+   subroutine make_runs(sweep)
+      type(sweep_t), intent(inout) :: sweep
+      integer(ip) :: n_workers, w, run
       logical :: is_worker, made
 
-      store%keeps = plan%n_runs > 1
-      call make_run(command, plan, 1_ip, store, shared)
-      if (shared(1) == STATUS_USAGE) return
-      n_workers = min(command%threads, plan%n_runs - 1)
-      if (n_workers <= 1) then
-         call make_share(command, plan, 1_ip, 1_ip, store, shared)
-         return
-      end if
+      sweep%store%keeps = sweep%plan%n_runs > 1
+      call make_run(sweep, 1_ip)
+      if (sweep%shared(1) == STATUS_USAGE) return
+      n_workers = max(1_ip, min(sweep%command%threads, sweep%plan%n_runs - 1))
       do w = 1, n_workers
-         call begin_worker(is_worker, made)
-         if (is_worker .or. .not. made) call make_share(command, plan, w, n_workers, store, shared)
+         is_worker = .false.
+         made = .false.
+         if (n_workers > 1) call begin_worker(is_worker, made)
+         do run = 1 + w, sweep%plan%n_runs, n_workers
+            if (is_worker .or. .not. made) call make_run(sweep, run)
+         end do
          if (is_worker) call end_worker()
       end do
-      call await_workers()
+      if (n_workers > 1) call await_workers()
    end subroutine make_runs
 
-   !> Every n_workers-th run behind the first.
-   subroutine make_share(command, plan, w, n_workers, store, shared)
-      type(command_t), intent(in) :: command
-      type(sweep_plan_t), intent(in) :: plan
-      integer(ip), intent(in) :: w, n_workers
-      type(body_store_t), intent(inout) :: store
-      integer(c_int), pointer, intent(in) :: shared(:)
-      integer(ip) :: run
-
-      do run = 1 + w, plan%n_runs, n_workers
-         call make_run(command, plan, run, store, shared)
-      end do
-   end subroutine make_share
-
-   subroutine make_run(command, plan, run, store, shared)
-      type(command_t), intent(in) :: command
-      type(sweep_plan_t), intent(in) :: plan
+   subroutine make_run(sweep, run)
+      type(sweep_t), intent(inout) :: sweep
       integer(ip), intent(in) :: run
-      type(body_store_t), intent(inout) :: store
-      integer(c_int), pointer, intent(in) :: shared(:)
       type(command_t) :: one
       type(reporter_t) :: reporter
       integer :: i, code
 
-      reporter%quiet = command%quiet
-      call report_progress(reporter, 'run '//to_text(run)//' of '//to_text(plan%n_runs)//'  '//plan%labels(run)%s)
-      one = command
+      one = sweep%command
+      reporter%quiet = one%quiet
+      call report_progress(reporter, 'run '//to_text(run)//' of '//to_text(sweep%plan%n_runs)//'  '//sweep%plan%labels(run)%s)
       one%quiet = .true.
       one%plot = .false.                            ! the pictures of a sweep lay its runs over one another
       one%threads = 1
-      one%folder = run_folder(command, plan, run)
-      do i = 1, size(plan%names)
-         call append_string(one%settings, plan%names(i)%s//'='//plan%texts(i, run)%s)
+      one%folder = run_folder(sweep, run)
+      do i = 1, size(sweep%plan%names)
+         call append_string(one%settings, sweep%plan%names(i)%s//'='//sweep%plan%texts(i, run)%s)
       end do
       call clear_messages()
       call reset_timers()
-      store%factorisations = 0
-      call run_deck(one, store, code)
-      shared(plan%n_runs + run) = int(store%factorisations, c_int)
-      shared(run) = int(code, c_int)
+      sweep%store%factorisations = 0
+      call run_deck(one, sweep%store, code)
+      sweep%shared(sweep%plan%n_runs + run) = int(sweep%store%factorisations, c_int)
+      sweep%shared(run) = int(code, c_int)
    end subroutine make_run
 
-   pure function run_folder(command, plan, run) result(folder)
-      type(command_t), intent(in) :: command
-      type(sweep_plan_t), intent(in) :: plan
+   pure function run_folder(sweep, run) result(folder)
+      type(sweep_t), intent(in) :: sweep
       integer(ip), intent(in) :: run
       character(len=:), allocatable :: folder
 
-      folder = output_folder(command)//'/'//plan%folders(run)%s
+      folder = output_folder(sweep%command)//'/'//sweep%plan%folders(run)%s
    end function run_folder
 
    !> How the runs ended, and their summaries. status: STATUS_FILE.
-   subroutine collect(command, plan, shared, runs, status)
-      type(command_t), intent(in) :: command
-      type(sweep_plan_t), intent(in) :: plan
-      integer(c_int), pointer, intent(in) :: shared(:)
+   subroutine collect(sweep, runs, status)
+      type(sweep_t), intent(in) :: sweep
       type(sweep_run_t), allocatable, intent(out) :: runs(:)
       type(status_t), intent(out) :: status
       integer(ip) :: i
 
-      allocate (runs(plan%n_runs))
-      do i = 1, plan%n_runs
-         runs(i)%label = plan%labels(i)%s
-         runs(i)%folder = plan%folders(i)%s
-         runs(i)%texts = plan%texts(:, i)
-         runs(i)%values = plan%values(:, i)
-         runs(i)%code = int(shared(i))
-         if (shared(i) == NOT_DONE) runs(i)%code = STATUS_INTERNAL
-         runs(i)%factorisations = int(shared(plan%n_runs + i), ip)
-         if (is_ok(status)) call read_summary(run_folder(command, plan, i), runs(i), status)
+      allocate (runs(sweep%plan%n_runs))
+      do i = 1, sweep%plan%n_runs
+         runs(i)%label = sweep%plan%labels(i)%s
+         runs(i)%folder = sweep%plan%folders(i)%s
+         runs(i)%texts = sweep%plan%texts(:, i)
+         runs(i)%values = sweep%plan%values(:, i)
+         runs(i)%code = int(sweep%shared(i))
+         if (sweep%shared(i) == NOT_DONE) runs(i)%code = STATUS_INTERNAL
+         runs(i)%factorisations = int(sweep%shared(sweep%plan%n_runs + i), ip)
+         if (is_ok(status)) call read_summary(run_folder(sweep, i), runs(i), status)
       end do
    end subroutine collect
 
@@ -183,52 +160,46 @@ contains
       type(command_t), intent(in) :: command
       type(sweep_plan_t), intent(in) :: plan
       type(sweep_run_t), intent(in) :: runs(:)
-      real(wp), intent(in) :: seconds
+      real(wp), intent(in) :: seconds(2)            !< wall clock and processor
       type(status_t), intent(out) :: status
-      type(origin_t) :: origin
       type(page_t) :: page
       type(string_t), allocatable :: pictures(:)
 
       if (all(runs%code /= STATUS_OK .and. runs%code /= STATUS_NOT_CONVERGED)) return
-      associate (deck => command%names(1)%s)
-         origin%deck = deck(index(deck, '/', back=.true.) + 1:)
-         origin%not_converged = any(runs%code == STATUS_NOT_CONVERGED)
-         allocate (origin%heading(0))
-         call write_sweep(output_folder(command), origin, plan%names, runs, int(command%digits), status)
-         if (.not. is_ok(status)) return
-         call plot_sweep(command, plan, runs, origin%deck, pictures)
-         if (command%quiet) return
-         call compose_sweep(deck, plan%names, runs, output_folder(command), [seconds, processor_seconds()], page, pictures)
-         call print_page(page, output_unit)
-      end associate
+      call write_sweep(output_folder(command), series_origin(command, any(runs%code == STATUS_NOT_CONVERGED)), plan%names, runs, &
+                       int(command%digits), status)
+      if (.not. is_ok(status)) return
+      call begin_pictures(command)
+      allocate (pictures(0))
+      if (command%plot) call plot_sweep(command, plan, runs, pictures)
+      call compose_sweep(command%names(1)%s, plan%names, runs, output_folder(command), seconds, page, pictures)
+      call tell_series(command, page)
    end subroutine finish
 
-   !> Lays the runs that wrote tables over one another. Without --plot the pictures of an earlier sweep go, for the tables are new.
-   subroutine plot_sweep(command, plan, runs, title, drawn)
+   !> Lays the runs that wrote tables over one another.
+   subroutine plot_sweep(command, plan, runs, drawn)
       type(command_t), intent(in) :: command
       type(sweep_plan_t), intent(in) :: plan
       type(sweep_run_t), intent(in) :: runs(:)
-      character(len=*), intent(in) :: title         !< where the deck has no heading
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(reporter_t) :: reporter
-      type(string_t), allocatable :: labels(:), folders(:)
+      type(origin_t) :: origin
+      real(wp), allocatable :: values(:)
+      character(len=:), allocatable :: name
       integer, allocatable :: order(:)
       integer :: i
 
-      call remove_plots(output_folder(command))
-      if (.not. command%plot) return
       reporter%quiet = command%quiet
       call report_progress(reporter, 'plot  '//plot_folder(output_folder(command)))
       order = pack([(i, i=1, size(runs))], runs%code == STATUS_OK .or. runs%code == STATUS_NOT_CONVERGED)
-      labels = plan%labels(order)
-      folders = plan%folders(order)
-      call clear_messages()
+      name = ''
+      allocate (values(0))
       if (size(plan%names) == 1) then
-         call write_overlay_plots(output_folder(command), title, labels, folders, plan%names(1)%s, plan%values(1, order), drawn)
-      else
-         call write_overlay_plots(output_folder(command), title, labels, folders, '', [real(wp) ::], drawn)
+         name = plan%names(1)%s
+         values = plan%values(1, order)
       end if
-      call print_messages(command%quiet, 1_ip)
+      origin = series_origin(command, .false.)
+      call write_overlay_plots(output_folder(command), origin%deck, plan%labels(order), plan%folders(order), name, values, drawn)
    end subroutine plot_sweep
 
 end module atrito_sweep

@@ -1,4 +1,4 @@
-!> The runs of a sweep: every combination of the values of --vary, the last parameter changing fastest.
+!> The --vary of a sweep and of a limit. The runs of a sweep: every combination of the values, the last parameter changing fastest.
 module atrito_sweep_plan
    use atrito_kinds, only: ip, wp
    use atrito_parameters, only: settings_t, read_settings
@@ -6,7 +6,7 @@ module atrito_sweep_plan
    use atrito_strings, only: string_t, append_string, same_name, to_text
    implicit none (type, external)
    private
-   public :: sweep_plan_t, plan_sweep
+   public :: sweep_plan_t, plan_sweep, read_range
 
    integer(ip), parameter :: MOST_RUNS = 10000_ip
 
@@ -58,7 +58,6 @@ contains
       character(len=*), intent(in) :: text
       type(variation_t), intent(out) :: variation
       type(status_t), intent(out) :: status
-      type(settings_t) :: setting
       integer :: i, j, equals
 
       equals = index(text, '=')
@@ -66,15 +65,11 @@ contains
       variation%texts = split_at_commas(text(equals + 1:))
       allocate (variation%values(size(variation%texts)))
       do i = 1, size(variation%texts)
-         call read_settings([string_t(variation%name//'='//variation%texts(i)%s)], setting, status)
-         if (.not. is_ok(status)) then
-            call set_status(status, STATUS_USAGE, '--vary '//text//': '//status%text)
-            return
-         end if
-         variation%values(i) = setting%values(1)
+         call read_value(text, variation%name, variation%texts(i)%s, variation%values(i), status)
+         if (.not. is_ok(status)) return
          do j = 1, i - 1
             if (variation%values(j) /= variation%values(i)) cycle
-            call set_status(status, STATUS_USAGE, '--vary '//text//': '//variation%texts(i)%s//' is given twice')
+            call complain(text, variation%texts(i)%s//' is given twice', status)
             return
          end do
       end do
@@ -87,11 +82,11 @@ contains
       integer :: i
 
       do i = 1, size(names)
-         if (same_name(names(i)%s, name)) call set_status(status, STATUS_USAGE, '--vary '//text//': '//name//' varies already')
+         if (same_name(names(i)%s, name)) call complain(text, name//' varies already', status)
       end do
       do i = 1, size(settings)
          if (.not. same_name(trim(adjustl(settings(i)%s(:index(settings(i)%s, '=') - 1))), name)) cycle
-         call set_status(status, STATUS_USAGE, '--vary '//text//': '//name//' is given by --set '//settings(i)%s)
+         call complain(text, name//' is given by --set '//settings(i)%s, status)
       end do
    end subroutine check_name
 
@@ -169,5 +164,52 @@ contains
          if (scan(text(i:i), HARMLESS) == 0) name(i:i) = '_'
       end do
    end function plain
+
+   !> Takes NAME=a:b apart. status: STATUS_USAGE for anything else, a that is not below b, or a name that --set gives as well.
+   subroutine read_range(text, settings, name, ends, status)
+      character(len=*), intent(in) :: text
+      type(string_t), intent(in) :: settings(:)        !< 'NAME=VALUE' of --set
+      character(len=:), allocatable, intent(out) :: name
+      real(wp), intent(out) :: ends(2)
+      type(status_t), intent(out) :: status
+      integer :: equals, colon
+
+      ends = 0.0_wp
+      equals = index(text, '=')
+      colon = index(text, ':')
+      name = trim(adjustl(text(:max(equals - 1, 0))))
+      if (colon < equals + 1) then
+         call complain(text, 'NAME=a:b is expected, the limit being between a and b', status)
+         return
+      end if
+      call read_value(text, name, text(equals + 1:colon - 1), ends(1), status)
+      if (is_ok(status)) call read_value(text, name, text(colon + 1:), ends(2), status)
+      if (is_ok(status) .and. ends(1) >= ends(2)) call complain(text, 'the first value is not below the second one', status)
+      if (is_ok(status)) call check_name(name, text, [string_t ::], settings, status)
+   end subroutine read_range
+
+   subroutine read_value(text, name, expression, x, status)
+      character(len=*), intent(in) :: text, name, expression
+      real(wp), intent(out) :: x
+      type(status_t), intent(out) :: status
+      type(settings_t) :: setting
+
+      x = 0.0_wp
+      call read_settings([string_t(name//'='//trim(adjustl(expression)))], setting, status)
+      if (is_ok(status)) then
+         x = setting%values(1)
+      else
+         call complain(text, status%text, status)
+      end if
+   end subroutine read_value
+
+   subroutine complain(text, what, status)
+      character(len=*), intent(in) :: text, what
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: copy
+
+      copy = what                                      ! it may be the text of this status
+      call set_status(status, STATUS_USAGE, '--vary '//text//': '//copy)
+   end subroutine complain
 
 end module atrito_sweep_plan

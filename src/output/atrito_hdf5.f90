@@ -122,21 +122,16 @@ contains
       integer, intent(in) :: rank
       integer(hsize_t), intent(in) :: chunk(2)
       integer(hid_t), intent(out) :: creation, link
-      integer :: error
+      integer :: error(6)
 
-      call h5pcreate_f(H5P_DATASET_CREATE_F, creation, error)
-      call keep(file, error)
-      call h5pset_chunk_f(creation, rank, chunk(3 - rank:), error)
-      call keep(file, error)
-      call h5pset_shuffle_f(creation, error)
-      call keep(file, error)
-      call h5pset_deflate_f(creation, DEFLATE_LEVEL, error)
-      call keep(file, error)
-      call h5pset_obj_track_times_f(creation, .false., error)
-      call h5pcreate_f(H5P_LINK_CREATE_F, link, error)
-      call keep(file, error)
-      call h5pset_create_inter_group_f(link, 1, error)
-      call keep(file, error)
+      call h5pcreate_f(H5P_DATASET_CREATE_F, creation, error(1))
+      call h5pset_chunk_f(creation, rank, chunk(3 - rank:), error(2))
+      call h5pset_shuffle_f(creation, error(3))
+      call h5pset_deflate_f(creation, DEFLATE_LEVEL, error(4))
+      call h5pset_obj_track_times_f(creation, .false., error(5))
+      call h5pcreate_f(H5P_LINK_CREATE_F, link, error(5))
+      call h5pset_create_inter_group_f(link, 1, error(6))
+      call keep(file, minval(error))
    end subroutine set_creation
 
    subroutine put_real_row(file, values)
@@ -179,26 +174,23 @@ contains
       type(hdf5_file_t), intent(inout) :: file
       integer(hid_t) :: memory, space
       integer(hsize_t) :: dims(2), start(2), count(2)
-      integer :: rank, error
+      integer :: rank, error(4)
 
       rank = merge(1, 2, file%n_components == 1)
       dims = [int(file%n_components, hsize_t), int(file%n_rows, hsize_t)]
       start = [0_hsize_t, int(file%n_written, hsize_t)]
       count = [dims(1), int(file%n_held, hsize_t)]
-      call h5screate_simple_f(rank, dims(3 - rank:), space, error)
-      call keep(file, error)
-      call h5sselect_hyperslab_f(space, H5S_SELECT_SET_F, start(3 - rank:), count(3 - rank:), error)
-      call keep(file, error)
-      call h5screate_simple_f(rank, count(3 - rank:), memory, error)
-      call keep(file, error)
+      call h5screate_simple_f(rank, dims(3 - rank:), space, error(1))
+      call h5sselect_hyperslab_f(space, H5S_SELECT_SET_F, start(3 - rank:), count(3 - rank:), error(2))
+      call h5screate_simple_f(rank, count(3 - rank:), memory, error(3))
       if (allocated(file%reals)) then
-         call h5dwrite_f(file%dataset, H5T_NATIVE_DOUBLE, file%reals, count, error, memory, space)
+         call h5dwrite_f(file%dataset, H5T_NATIVE_DOUBLE, file%reals, count, error(4), memory, space)
       else
-         call h5dwrite_f(file%dataset, H5T_NATIVE_INTEGER, file%integers, count, error, memory, space)
+         call h5dwrite_f(file%dataset, H5T_NATIVE_INTEGER, file%integers, count, error(4), memory, space)
       end if
-      call keep(file, error)
-      call h5sclose_f(memory, error)
-      call h5sclose_f(space, error)
+      call keep(file, minval(error))
+      call h5sclose_f(memory, error(1))
+      call h5sclose_f(space, error(1))
    end subroutine write_rows
 
    !> Text of any length in UTF-8, which every reader takes for a string.
@@ -208,21 +200,18 @@ contains
       character(len=len(text) + 1), target :: c_text
       type(c_ptr), target :: address(1)
       integer(hid_t) :: kind, attribute
-      integer :: error
+      integer :: error(4)
 
       if (.not. is_ok(file%status)) return
       c_text = text//c_null_char
       address(1) = c_loc(c_text)
-      call h5tcopy_f(H5T_STRING, kind, error)
-      call keep(file, error)
-      call h5tset_cset_f(kind, H5T_CSET_UTF8_F, error)
-      call keep(file, error)
+      call h5tcopy_f(H5T_STRING, kind, error(1))
+      call h5tset_cset_f(kind, H5T_CSET_UTF8_F, error(2))
       call create_attribute(file, path, name, kind, attribute)
-      call h5awrite_f(attribute, kind, c_loc(address(1)), error)
-      call keep(file, error)
-      call h5aclose_f(attribute, error)
-      call keep(file, error)
-      call h5tclose_f(kind, error)
+      call h5awrite_f(attribute, kind, c_loc(address(1)), error(3))
+      call h5aclose_f(attribute, error(4))
+      call keep(file, minval(error))
+      call h5tclose_f(kind, error(1))
    end subroutine put_text_attribute
 
    subroutine put_integer_attribute(file, path, name, number)
@@ -230,15 +219,14 @@ contains
       character(len=*), intent(in) :: path, name
       integer(ip), intent(in) :: number
       integer(hid_t) :: attribute
+      integer :: error(2)
       integer(hsize_t), parameter :: NO_DIMENSIONS(1) = 0
-      integer :: error
 
       if (.not. is_ok(file%status)) return
       call create_attribute(file, path, name, H5T_NATIVE_INTEGER, attribute)
-      call h5awrite_f(attribute, H5T_NATIVE_INTEGER, number, NO_DIMENSIONS, error)
-      call keep(file, error)
-      call h5aclose_f(attribute, error)
-      call keep(file, error)
+      call h5awrite_f(attribute, H5T_NATIVE_INTEGER, number, NO_DIMENSIONS, error(1))
+      call h5aclose_f(attribute, error(2))
+      call keep(file, minval(error))
    end subroutine put_integer_attribute
 
    subroutine create_attribute(file, path, name, kind, attribute)
@@ -247,13 +235,12 @@ contains
       integer(hid_t), intent(in) :: kind
       integer(hid_t), intent(out) :: attribute
       integer(hid_t) :: space
-      integer :: error
+      integer :: error(3)
 
-      call h5screate_f(H5S_SCALAR_F, space, error)
-      call keep(file, error)
-      call h5acreate_by_name_f(file%id, path, name, kind, space, attribute, error)
-      call keep(file, error)
-      call h5sclose_f(space, error)
+      call h5screate_f(H5S_SCALAR_F, space, error(1))
+      call h5acreate_by_name_f(file%id, path, name, kind, space, attribute, error(2))
+      call h5sclose_f(space, error(3))
+      call keep(file, minval(error))
    end subroutine create_attribute
 
    !> Completes a file. status: STATUS_FILE when any part of it could not be written.

@@ -24,6 +24,8 @@ contains
       integer, intent(in) :: mumps                  !< USED or NOT_USED by a run; NOT_KNOWN: what this build could use
       type(library_t), allocatable, intent(out) :: list(:)
       logical, intent(in), optional :: uses_metis   !< a run does; default: no
+      logical :: there(3)
+      character(len=*), parameter :: LOADED = ', loaded where it is used'
 
       allocate (list(6))
       list%name = [character(len=8) :: 'compiler', 'BLAS', 'LAPACK', 'MUMPS', 'Clp', 'METIS']
@@ -31,30 +33,22 @@ contains
       list(2)%version = trim(blas_name())
       if (is_reference_blas()) list(2)%version = list(2)%version//' (the reference one, slow)'
       list(3)%version = lapack_version()
-      select case (mumps)
-      case (USED)
-         list(4)%version = number_of(mumps_name())
-      case (NOT_USED)
-         list(4)%version = 'not used'
-      case default
-         if (has_mumps()) then
-            list(4)%version = number_of(mumps_name())//', loaded where it is used'
-         else
-            list(4)%version = 'not used: '//mumps_trouble()
-         end if
-      end select
-      list(5)%version = 'not used, but where no solution is found'
       if (mumps == NOT_KNOWN) then
+         there = [has_mumps(), has_clp(), has_metis()]      ! which looks for them
+         list(4)%version = 'not used: '//mumps_trouble()
+         if (there(1)) list(4)%version = number_of(mumps_name())//LOADED
          list(5)%version = 'not used: '//clp_trouble()
-         if (has_clp()) list(5)%version = clp_version()//', loaded where it is used'
+         if (there(2)) list(5)%version = clp_version()//LOADED
+         list(6)%version = 'not used: '//metis_trouble()
+         if (there(3)) list(6)%version = metis_version()//LOADED
+         return
       end if
+      list(4)%version = 'not used'
+      if (mumps == USED) list(4)%version = number_of(mumps_name())
+      list(5)%version = 'not used, but where no solution is found'
       list(6)%version = 'not used'
       if (present(uses_metis)) then
          if (uses_metis) list(6)%version = metis_version()
-      end if
-      if (mumps == NOT_KNOWN) then
-         list(6)%version = 'not used: '//metis_trouble()
-         if (has_metis()) list(6)%version = metis_version()//', loaded where it is used'
       end if
    end subroutine list_libraries
 

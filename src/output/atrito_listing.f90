@@ -11,8 +11,8 @@ module atrito_listing
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
    use atrito_results, only: chatter_t, results_t, scene_t, balance_t, iteration_t
-   use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, &
-                          left, right, number, bytes, plural
+   use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
+                          number, bytes
    use atrito_model_report, only: describe_model
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields, &
@@ -61,11 +61,11 @@ contains
       call add_heading(page, '1  WHAT WAS UNDERSTOOD')
       call describe_model(page, model)
       call add_blank(page)
-      call describe_pairs(page, results%scene)
+      call describe_pairs(page, results%scene, some=.false.)
       call add_heading(page, '2  WHAT THE SCENE NEEDS')
       call describe_needs(page, results%scene)
       call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
-      call describe_bodies(page, results%scene, factored=.true.)
+      call describe_bodies(page, results%scene, factored=.true., some=.false.)
       if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
          call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
       end if
@@ -140,11 +140,9 @@ contains
       call add_rule(page, '=')
       call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION, 60)//right(date_text(), WIDTH - 60))
       call add_line(page, 'deck  '//model%deck_path)
-      if (allocated(model%heading)) then
-         do i = 1, size(model%heading)
-            call add_paragraph(page, model%heading(i)%s, 6)
-         end do
-      end if
+      do i = 1, size(model%heading)
+         call add_paragraph(page, model%heading(i)%s, 6)
+      end do
       call add_rule(page, '=')
       if (results%converged .and. results%law_holds) return
       call add_blank(page)

@@ -47,31 +47,10 @@ contains
       call add_entry(page, 'node sets, element sets', &
                      to_text(set_count(model%node_sets))//', '//to_text(set_count(model%element_sets)))
       call add_entry(page, 'surfaces', surface_counts(model))
-      call add_entry(page, 'materials, sections', to_text(count_of(model, 'materials'))//', '// &
-                     to_text(count_of(model, 'sections')))
-      call add_entry(page, 'contact pairs', to_text(count_of(model, 'pairs')))
+      call add_entry(page, 'materials, sections', to_text(size(model%materials, kind=ip))//', '// &
+                     to_text(size(model%sections, kind=ip)))
+      call add_entry(page, 'contact pairs', to_text(size(model%pairs, kind=ip)))
    end subroutine describe_counts
-
-   pure integer(ip) function count_of(model, what) result(n)
-      type(model_t), intent(in) :: model
-      character(len=*), intent(in) :: what
-
-      n = 0
-      select case (what)
-      case ('materials')
-         if (allocated(model%materials)) n = size(model%materials, kind=ip)
-      case ('sections')
-         if (allocated(model%sections)) n = size(model%sections, kind=ip)
-      case ('pairs')
-         if (allocated(model%pairs)) n = size(model%pairs, kind=ip)
-      case ('surfaces')
-         if (allocated(model%surfaces)) n = size(model%surfaces, kind=ip)
-      case ('interactions')
-         if (allocated(model%interactions)) n = size(model%interactions, kind=ip)
-      case ('parameters')
-         if (allocated(model%parameters)) n = size(model%parameters, kind=ip)
-      end select
-   end function count_of
 
    !> ` (75 CPE4, 36 CPS9)`
    pure function element_types(model) result(text)
@@ -98,10 +77,10 @@ contains
       integer(ip) :: i, rigid
 
       rigid = 0
-      do i = 1, count_of(model, 'surfaces')
+      do i = 1, size(model%surfaces, kind=ip)
          if (model%surfaces(i)%kind == SURFACE_SEGMENTS) rigid = rigid + 1
       end do
-      text = to_text(count_of(model, 'surfaces'))
+      text = to_text(size(model%surfaces, kind=ip))
       if (rigid > 0) text = text//' ('//to_text(rigid)//' of rigid segments)'
    end function surface_counts
 
@@ -110,10 +89,10 @@ contains
       type(model_t), intent(in) :: model
       integer(ip) :: i
 
-      if (count_of(model, 'parameters') == 0) return
+      if (size(model%parameters, kind=ip) == 0) return
       call add_blank(page)
       call add_line(page, '   '//left('parameter', 24)//right('value', 16))
-      do i = 1, count_of(model, 'parameters')
+      do i = 1, size(model%parameters, kind=ip)
          associate (parameter => model%parameters(i))
             call add_line(page, '   '//left(parameter%name, 24)//right(number(parameter%value, 10), 16)// &
                           merge('   by --set', '           ', parameter%overridden))
@@ -124,7 +103,7 @@ contains
    subroutine describe_materials(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      integer(ip) :: elements(count_of(model, 'sections')), i
+      integer(ip) :: elements(size(model%sections, kind=ip)), i
 
       elements = 0
       if (size(elements) > 0) then
@@ -134,7 +113,7 @@ contains
       end if
       call add_blank(page)
       call add_line(page, '   '//left('material', 24)//right('E [F/L^2]', 16)//right('mu', 12)//right('density', 16))
-      do i = 1, count_of(model, 'materials')
+      do i = 1, size(model%materials, kind=ip)
          associate (material => model%materials(i))
             call add_line(page, '   '//left(material%name, 24)//right(number(material%young, DIGITS), 16)// &
                           right(number(material%poisson, DIGITS), 12)//right(number(material%density, DIGITS), 16))
@@ -143,7 +122,7 @@ contains
       call add_blank(page)
       call add_line(page, '   '//left('section of elements', 24)//right('elements', 16)//right('thickness', 12)//'    '// &
                     left('material', 24)//'formulation')
-      do i = 1, count_of(model, 'sections')
+      do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
             call add_line(page, '   '//left(section%elset, 24)//right(to_text(elements(i)), 16)// &
                           right(number(section%thickness, DIGITS), 12)//'    '//left(model%materials(section%material)%name, 24)// &
@@ -269,9 +248,9 @@ contains
       type(model_t), intent(in) :: model
       integer(ip) :: i
 
-      if (count_of(model, 'pairs') == 0) return
+      if (size(model%pairs, kind=ip) == 0) return
       call add_blank(page)
-      do i = 1, count_of(model, 'interactions')
+      do i = 1, size(model%interactions, kind=ip)
          call add_entry(page, model%interactions(i)%name//', contact', contact_text(model%interactions(i)))
          call add_entry(page, model%interactions(i)%name//', friction', friction_text(model%interactions(i)))
       end do

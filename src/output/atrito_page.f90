@@ -1,10 +1,12 @@
 !> A page of text for people: the listing, the closing summary and the report of `atrito check` are made of these lines.
 module atrito_page
    use atrito_kinds, only: ip, lp, wp, is_nan
-   use atrito_strings, only: string_t, to_text
+   use atrito_strings, only: string_t, join, to_text
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: page_t, begin_page, add_line, add_rule, add_heading, add_entry, add_paragraph, add_blank, print_page
+   public :: page_t, begin_page, begin_report, add_item, add_files, add_line, add_rule, add_heading, add_entry, add_paragraph, &
+             add_blank, print_page
    public :: left, right, number, bytes, plural, text_width
 
    type :: page_t
@@ -13,6 +15,8 @@ module atrito_page
       type(string_t), allocatable :: lines(:)       !< the first n are in use
    end type page_t
 
+   integer, parameter :: SCREEN_WIDTH = 79          !< a terminal of 80 columns does not wrap
+   integer, parameter :: ITEM_WIDTH = 13            !< room for the label of an item
    integer, parameter :: LABEL_WIDTH = 34           !< room for the label of an entry and its leader
    integer, parameter :: INDENT = 3
 
@@ -25,6 +29,36 @@ contains
       page%width = width
       allocate (page%lines(64))
    end subroutine begin_page
+
+   !> Begins a page for the screen: a rule, and the program with what it did.
+   pure subroutine begin_report(page, what)
+      type(page_t), intent(out) :: page
+      character(len=*), intent(in) :: what          !< with blanks before it
+
+      call begin_page(page, SCREEN_WIDTH)
+      call add_rule(page, '=')
+      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION//what, page%width))
+   end subroutine begin_report
+
+   !> `label     value`, cut where there is no room.
+   pure subroutine add_item(page, label, value)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: label, value
+
+      call add_line(page, left(left(label, ITEM_WIDTH)//value, page%width))
+   end subroutine add_item
+
+   !> The end of a report: the tables and pictures in a folder.
+   pure subroutine add_files(page, folder, tables, pictures)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: folder, tables
+      type(string_t), intent(in) :: pictures(:)     !< names without folder and ending; none: not told
+
+      call add_item(page, 'tables in', folder)
+      call add_item(page, '', tables)
+      if (size(pictures) > 0) call add_item(page, 'plots in', folder//'/plots: '//join(pictures, ' '))
+      call add_rule(page, '=')
+   end subroutine add_files
 
    !> Adds a line; blanks at its end are dropped.
    pure subroutine add_line(page, text)

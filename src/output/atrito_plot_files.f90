@@ -14,6 +14,8 @@ module atrito_plot_files
 
    character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study', &
                                   LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints'
+   character(len=15), parameter :: PICTURES(6) = [character(len=15) :: MESH_PLOT, OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, &
+                                                                                                         MECHANISM_PLOT, JOINT_PLOT]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
    character(len=3), parameter :: ENDINGS(4) = ['gp ', 'dat', 'png', 'svg']
@@ -32,15 +34,13 @@ contains
    subroutine remove_plots(folder)
       character(len=*), intent(in) :: folder        !< of the tables
       character(len=:), allocatable :: path
+      integer :: i
 
       path = plot_folder(folder)
       if (.not. is_folder(path)) return
-      call remove_picture(path//'/'//MESH_PLOT)
-      call remove_picture(path//'/'//OVERLAY_SUMMARY)
-      call remove_picture(path//'/'//STUDY_PLOT)
-      call remove_picture(path//'/'//LIMIT_PLOT)
-      call remove_picture(path//'/'//MECHANISM_PLOT)
-      call remove_picture(path//'/'//JOINT_PLOT)
+      do i = 1, size(PICTURES)
+         call remove_picture(path//'/'//trim(PICTURES(i)))
+      end do
       call remove_numbered(path//'/'//CONTACT_PLOT)
       call remove_numbered(path//'/'//OVERLAY_PLOT)
       call remove_file(path//'/'//LOG_NAME)

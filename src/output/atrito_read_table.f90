@@ -27,6 +27,7 @@ module atrito_read_table
    end type table_file_t
 
    character(len=1), parameter :: LINE_FEED = achar(10), CARRIAGE_RETURN = achar(13), TAB = achar(9)
+   character(len=*), parameter :: BLANKS = ' '//TAB//CARRIAGE_RETURN
 
 contains
 
@@ -49,7 +50,7 @@ contains
       type(table_file_t), intent(out) :: table
       type(status_t), intent(out) :: status
       integer :: first, last
-      integer(ip) :: line
+      integer(ip) :: line, n_rows
 
       table%name = name
       table%text = text
@@ -58,13 +59,15 @@ contains
          call set_status(status, STATUS_FILE, 'is not a text file')
          return
       end if
-      call read_comments(table)
+      call read_comments(table, n_rows)
       table%n_columns = size(table%columns, kind=ip)
       if (table%n_columns == 0) then
          call set_status(status, STATUS_FILE, 'is no table of atrito: it has no line `'//MARK_COLUMNS//' ...`')
          return
       end if
-      call make_room(table, count_rows(text))
+      allocate (table%first(table%n_columns, n_rows), table%last(table%n_columns, n_rows), source=0_ip)
+      allocate (table%kind(table%n_columns, n_rows), source=ITEM_WORD)
+      allocate (table%value(table%n_columns, n_rows), source=0.0_wp)
       first = 1
       line = 0
       do while (first <= len(text) .and. is_ok(status))
@@ -74,15 +77,6 @@ contains
          first = last + 2
       end do
    end subroutine parse_table
-
-   subroutine make_room(table, n_rows)
-      type(table_file_t), intent(inout) :: table
-      integer(ip), intent(in) :: n_rows
-
-      allocate (table%first(table%n_columns, n_rows), table%last(table%n_columns, n_rows), source=0_ip)
-      allocate (table%kind(table%n_columns, n_rows), source=ITEM_WORD)
-      allocate (table%value(table%n_columns, n_rows), source=0.0_wp)
-   end subroutine make_room
 
    !> Place of the last character of the line that begins at `first`.
    pure integer function end_of_line(text, first) result(last)
@@ -98,33 +92,23 @@ contains
       character(len=*), intent(in) :: line
       integer :: i
 
-      i = verify(line, ' '//TAB//CARRIAGE_RETURN)
+      i = verify(line, BLANKS)
       is_row = i > 0
       if (is_row) is_row = line(i:i) /= '#'
    end function is_row
 
-   pure integer(ip) function count_rows(text) result(n)
-      character(len=*), intent(in) :: text
-      integer :: first, last
-
-      n = 0
-      first = 1
-      do while (first <= len(text))
-         last = end_of_line(text, first)
-         if (is_row(text(first:last))) n = n + 1
-         first = last + 2
-      end do
-   end function count_rows
-
-   !> The column names and the mark of a run that did not converge.
-   subroutine read_comments(table)
+   !> The column names, the mark of a run that did not converge, and how many rows there are.
+   subroutine read_comments(table, n_rows)
       type(table_file_t), intent(inout) :: table
+      integer(ip), intent(out) :: n_rows
       integer :: first, last
 
+      n_rows = 0
       first = 1
       do while (first <= len(table%text))
          last = end_of_line(table%text, first)
          associate (line => table%text(first:last))
+            if (is_row(line)) n_rows = n_rows + 1
             if (index(line, MARK_NOT_CONVERGED) == 1) table%not_converged = .true.
             if (index(line, MARK_COLUMNS) == 1) call read_names(line(len(MARK_COLUMNS) + 1:), table%columns)
          end associate
@@ -150,25 +134,13 @@ contains
       character(len=*), intent(in) :: line
       integer, intent(inout) :: last
       integer, intent(out) :: first
+      integer :: n
 
-      first = last + 1
-      do while (first <= len(line))
-         if (.not. is_blank(line(first:first))) exit
-         first = first + 1
-      end do
-      last = first
-      do while (last <= len(line))
-         if (is_blank(line(last:last))) exit
-         last = last + 1
-      end do
-      last = last - 1
+      n = verify(line(last + 1:), BLANKS)
+      first = merge(last + n, len(line) + 1, n > 0)
+      n = scan(line(first:), BLANKS)
+      last = merge(first + n - 2, len(line), n > 0)
    end subroutine next_item
-
-   elemental logical function is_blank(c)
-      character(len=1), intent(in) :: c
-
-      is_blank = c == ' ' .or. c == TAB .or. c == CARRIAGE_RETURN
-   end function is_blank
 
    subroutine read_row(table, begins, ends, line, status)
       type(table_file_t), intent(inout) :: table

@@ -4,7 +4,7 @@ module atrito_resultant_tables
    use atrito_results, only: results_t, body_motion_t
    use atrito_strings, only: string_t
    use atrito_summary, only: scales_t, scales_of_pair
-   use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words, clear_small, one_word
+   use atrito_table, only: table_t, begin_table, add_real_columns, add_integers, add_words, clear_small, one_word
    implicit none (type, external)
    private
    public :: build_bodies, build_joints
@@ -40,13 +40,10 @@ contains
       call add_integers(table, 'step', [results%step])
       call add_integers(table, 'body', [(i, i=1, n)])
       call add_words(table, 'name', '-', names, on_the_left=.true.)
-      call add_reals(table, 'u1', 'L', field(:, 1), 0.0_wp)
-      call add_reals(table, 'u2', 'L', field(:, 2), 0.0_wp)
-      call add_reals(table, 'rotation', '-', field(:, 3), 0.0_wp)
+      call add_real_columns(table, ['u1      ', 'u2      ', 'rotation'], ['L', 'L', '-'], field(:, :3))
       do k = 1, size(GROUPS)
-         call add_reals(table, trim(GROUPS(k))//'_fx', 'F', field(:, 3*k + 1), 0.0_wp)
-         call add_reals(table, trim(GROUPS(k))//'_fy', 'F', field(:, 3*k + 2), 0.0_wp)
-         call add_reals(table, trim(GROUPS(k))//'_moment', 'F*L', field(:, 3*k + 3), 0.0_wp)
+         call add_real_columns(table, trim(GROUPS(k))//['_fx    ', '_fy    ', '_moment'], ['F  ', 'F  ', 'F*L'], &
+                               field(:, 3*k + 1:3*k + 3))
       end do
    end subroutine build_bodies
 
@@ -87,13 +84,8 @@ contains
       call add_integers(table, 'pair', results%joints%pair)
       call add_integers(table, 'body_1', results%joints%bodies(1))
       call add_integers(table, 'body_2', results%joints%bodies(2))
-      call add_reals(table, 'n', 'F', field(:, 1), 0.0_wp)
-      call add_reals(table, 't', 'F', field(:, 2), 0.0_wp)
-      call add_reals(table, 'm', 'F*L', field(:, 3), 0.0_wp)
-      call add_reals(table, 'x', 'L', field(:, 4), 0.0_wp)
-      call add_reals(table, 'y', 'L', field(:, 5), 0.0_wp)
-      call add_reals(table, 'opening', 'L', field(:, 6), 0.0_wp)
-      call add_reals(table, 'sliding', 'L', field(:, 7), 0.0_wp)
+      call add_real_columns(table, [character(len=7) :: 'n', 't', 'm', 'x', 'y', 'opening', 'sliding'], &
+                            ['F  ', 'F  ', 'F*L', 'L  ', 'L  ', 'L  ', 'L  '], field)
    end subroutine build_joints
 
 end module atrito_resultant_tables

@@ -2,6 +2,7 @@
 module atrito_scene_report
    use atrito_kinds, only: ip
    use atrito_strings, only: to_text
+   use atrito_summary, only: body_count
    use atrito_results, only: scene_t, body_result_t, pair_scene_t
    use atrito_page, only: page_t, add_line, add_blank, add_entry, add_paragraph, left, right, number, bytes, plural
    implicit none (type, external)
@@ -43,23 +44,17 @@ contains
       end do
    end subroutine describe_needs
 
-   pure integer(ip) function body_count(scene)
-      type(scene_t), intent(in) :: scene
-
-      body_count = 0
-      if (allocated(scene%bodies)) body_count = size(scene%bodies, kind=ip)
-   end function body_count
-
    !> A row a body: its size, storage and why.
    subroutine describe_bodies(page, scene, factored, some)
       type(page_t), intent(inout) :: page
       type(scene_t), intent(in) :: scene
       logical, intent(in) :: factored               !< lost digits and signs are known
-      logical, intent(in), optional :: some         !< of many the first ones only
+      logical, intent(in) :: some                   !< of many the first ones only
       integer(ip) :: i, n
 
       if (body_count(scene) == 0) return
-      n = rows_shown(body_count(scene), some)
+      n = body_count(scene)
+      if (some) n = min(n, MOST_ROWS)
       call add_line(page, '   '//left('body', 13)//right('elements', 9)//right('equations', 10)//right('contact', 8)// &
                     right('free', 5)//'  '//left('storage', 8)//right('entries', 10)//right('memory', 11))
       do i = 1, n
@@ -74,16 +69,6 @@ contains
       end if
       if (n < body_count(scene)) call add_line(page, '   ... and '//to_text(body_count(scene) - n)//' more bodies')
    end subroutine describe_bodies
-
-   !> How many of n rows are shown.
-   pure integer(ip) function rows_shown(n, some) result(shown)
-      integer(ip), intent(in) :: n
-      logical, intent(in), optional :: some
-
-      shown = n
-      if (.not. present(some)) return
-      if (some) shown = min(n, MOST_ROWS)
-   end function rows_shown
 
    subroutine add_body(page, body)
       type(page_t), intent(inout) :: page
@@ -138,12 +123,13 @@ contains
    subroutine describe_pairs(page, scene, some)
       type(page_t), intent(inout) :: page
       type(scene_t), intent(in) :: scene
-      logical, intent(in), optional :: some         !< of many the first ones only
+      logical, intent(in) :: some                   !< of many the first ones only
       integer(ip) :: i, n
 
       if (.not. allocated(scene%pairs)) return
       if (size(scene%pairs) == 0) return
-      n = rows_shown(size(scene%pairs, kind=ip), some)
+      n = size(scene%pairs, kind=ip)
+      if (some) n = min(n, MOST_ROWS)
       call add_line(page, '   '//left('pair', 5)//left('slave / master', 37)//right('points', 7)// &
                     right('least gap', 13)//right('greatest gap', 13))
       do i = 1, n

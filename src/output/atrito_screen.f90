@@ -1,19 +1,21 @@
-!> The closing summary of a run: at most a screen of 80 columns by 24 lines.
+!> The closing summary of a run, at most a screen of 80 columns by 24 lines, and what `atrito check` prints.
 module atrito_screen
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, join, to_text
-   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t, METHOD_NAME
    use atrito_results, only: results_t, scene_t
-   use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, bytes, plural
+   use atrito_model_report, only: describe_counts
+   use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
+   use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
+                          plural
    use atrito_plot_files, only: plot_folder
-   use atrito_summary, only: pair_summary_t, summarise_pair
+   use atrito_summary, only: pair_summary_t, summarise_pair, body_count, pair_count
    implicit none (type, external)
    private
-   public :: compose_summary
+   public :: compose_summary, compose_check
 
    integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
    integer, parameter :: SCREEN_LINES = 24
@@ -24,6 +26,16 @@ module atrito_screen
 
 contains
 
+   !> Begins the report on a deck with its first line of *HEADING.
+   pure subroutine begin_deck_report(page, model, what)
+      type(page_t), intent(out) :: page
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: what          !< was done, with a blank before it; empty for a run
+
+      call begin_report(page, what//'   '//model%deck_path)
+      if (size(model%heading) > 0) call add_line(page, left(model%heading(1)%s, page%width))
+   end subroutine begin_deck_report
+
    !> Composes the summary. folder and files: where the run was written.
    subroutine compose_summary(model, results, folder, files, page, pictures)
       type(model_t), intent(in) :: model
@@ -33,12 +45,7 @@ contains
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
 
-      call begin_page(page, WIDTH)
-      call add_rule(page, '=')
-      call add_line(page, left(PROGRAM_NAME//' '//PROGRAM_VERSION//'   '//model%deck_path, WIDTH))
-      if (allocated(model%heading)) then
-         if (size(model%heading) > 0) call add_line(page, left(model%heading(1)%s, WIDTH))
-      end if
+      call begin_deck_report(page, model, '')
       call add_rule(page, '-')
       call add_verdict(page, results)
       call add_sizes(page, model, results)
@@ -49,17 +56,11 @@ contains
       end if
       call add_rule(page, '-')
       call add_closing(page, folder, files)
-      if (present(pictures)) call add_pictures(page, folder, pictures)
+      if (present(pictures)) then
+         if (size(pictures) > 0) call add_item(page, 'plots in', plot_folder(folder)//': '//join(pictures, ' '))
+      end if
       call add_rule(page, '=')
    end subroutine compose_summary
-
-   !> `label     value`
-   subroutine add_item(page, label, value)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: label, value
-
-      call add_line(page, left(left(label, 13)//value, WIDTH))
-   end subroutine add_item
 
    subroutine add_verdict(page, results)
       type(page_t), intent(inout) :: page
@@ -99,13 +100,6 @@ contains
          call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)//' of the largest force')
       end if
    end subroutine add_sizes
-
-   pure integer(ip) function body_count(scene)
-      type(scene_t), intent(in) :: scene
-
-      body_count = 0
-      if (allocated(scene%bodies)) body_count = size(scene%bodies, kind=ip)
-   end function body_count
 
    pure function contact_text(scene) result(text)
       type(scene_t), intent(in) :: scene
@@ -152,7 +146,6 @@ contains
       character(len=:), allocatable :: text
 
       text = ', '//plural(int(results%linear_solves, ip), 'linear solve', 'linear solves')
-      if (.not. allocated(model%pairs)) return
       if (size(model%pairs) == 0) return
       if (is_sparse_form(results%scene)) then
          text = ', multipliers: '//plural(int(results%outer_iterations, ip), 'step', 'steps')//text
@@ -251,8 +244,7 @@ contains
       integer(ip), intent(in) :: most               !< pairs on the screen; the rest is in the listing
       integer(ip) :: i, shown
 
-      if (.not. allocated(results%contact)) return
-      if (size(results%contact) == 0) return
+      if (pair_count(results) == 0) return
       shown = min(size(results%contact, kind=ip), most)
       call add_rule(page, '-')
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
@@ -330,15 +322,6 @@ contains
       ends_with = index(name, ending, back=.true.) == max(1, len(name) - len(ending) + 1)
    end function ends_with
 
-   subroutine add_pictures(page, folder, pictures)
-      type(page_t), intent(inout) :: page
-      character(len=*), intent(in) :: folder
-      type(string_t), intent(in) :: pictures(:)
-
-      if (size(pictures) == 0) return
-      call add_item(page, 'plots in', plot_folder(folder)//': '//join(pictures, ' '))
-   end subroutine add_pictures
-
    !> Seconds to the millisecond.
    pure function seconds(time) result(text)
       real(wp), intent(in) :: time
@@ -346,5 +329,27 @@ contains
 
       text = number(1.0e-3_wp*anint(1.0e3_wp*time), DIGITS)
    end function seconds
+
+   !> Composes the report of a deck that has no errors.
+   subroutine compose_check(model, scene, page)
+      type(model_t), intent(in) :: model
+      type(scene_t), intent(in) :: scene
+      type(page_t), intent(out) :: page
+
+      call begin_deck_report(page, model, ' check')
+      call add_rule(page, '=')
+      call describe_counts(page, model)
+      if (allocated(scene%pairs)) then
+         if (size(scene%pairs) > 0) call add_heading(page, 'contact')
+      end if
+      call describe_pairs(page, scene, some=.true.)
+      call add_heading(page, 'solver')
+      call describe_bodies(page, scene, factored=.false., some=.true.)
+      call add_heading(page, 'needs')
+      call describe_needs(page, scene)
+      call add_blank(page)
+      call add_line(page, 'no errors, '//plural(count_messages(SEVERITY_WARNING), 'warning', 'warnings')//', '// &
+                    plural(count_messages(SEVERITY_NOTE), 'note', 'notes')//'; nothing was solved')
+   end subroutine compose_check
 
 end module atrito_screen

@@ -4,12 +4,13 @@ module atrito_summary
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_results, only: results_t, scene_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
    public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields, scales_of_pair
+   public :: pair_count, body_count
 
    !> What the contact tractions of one pair come to.
    type :: pair_summary_t
@@ -107,19 +108,19 @@ contains
 
       force = scales%pressure*scales%area
       associate (s => summary)
-         list = [quantity('candidate_area', 'L^2', s%candidate_area, 0.0_wp), &
-                 quantity('effective_area', 'L^2', s%effective_area, 0.0_wp), &
-                 quantity('effective_area_percent', '-', s%effective_area_percent, 0.0_wp), &
-                 quantity('normal_resultant', 'F', s%normal_resultant, force), &
-                 quantity('shear_resultant', 'F', s%shear_resultant, force), &
-                 quantity('max_pressure', 'F/L^2', s%max_pressure, scales%pressure), &
-                 quantity('max_pressure_over_uniform', '-', s%max_pressure_over_uniform, 0.0_wp), &
-                 quantity('max_pressure_over_triangular', '-', s%max_pressure_over_triangular, 0.0_wp), &
-                 quantity('resultant_from_start', 'L', s%resultant_from_start, scales%length), &
-                 quantity('resultant_from_end', 'L', s%resultant_from_end, scales%length), &
-                 quantity('max_abs_shear', 'F/L^2', s%max_abs_shear, scales%pressure), &
-                 quantity('max_abs_slip', 'L', s%max_abs_slip, scales%slip), &
-                 quantity('max_penetration', 'L', s%max_penetration, scales%displacement), &
+         list = [quantity_t('candidate_area', 'L^2', s%candidate_area, 0.0_wp), &
+                 quantity_t('effective_area', 'L^2', s%effective_area, 0.0_wp), &
+                 quantity_t('effective_area_percent', '-', s%effective_area_percent, 0.0_wp), &
+                 quantity_t('normal_resultant', 'F', s%normal_resultant, force), &
+                 quantity_t('shear_resultant', 'F', s%shear_resultant, force), &
+                 quantity_t('max_pressure', 'F/L^2', s%max_pressure, scales%pressure), &
+                 quantity_t('max_pressure_over_uniform', '-', s%max_pressure_over_uniform, 0.0_wp), &
+                 quantity_t('max_pressure_over_triangular', '-', s%max_pressure_over_triangular, 0.0_wp), &
+                 quantity_t('resultant_from_start', 'L', s%resultant_from_start, scales%length), &
+                 quantity_t('resultant_from_end', 'L', s%resultant_from_end, scales%length), &
+                 quantity_t('max_abs_shear', 'F/L^2', s%max_abs_shear, scales%pressure), &
+                 quantity_t('max_abs_slip', 'L', s%max_abs_slip, scales%slip), &
+                 quantity_t('max_penetration', 'L', s%max_penetration, scales%displacement), &
                  counted('open_points', s%open_points), &
                  counted('stick_points', s%stick_points), &
                  counted('slip_points', s%slip_points)]
@@ -133,48 +134,31 @@ contains
 
       list = [counted('picard_iterations', int(results%outer_iterations, ip)), &
               counted('linear_solves', int(results%linear_solves, ip)), &
-              quantity('equilibrium_residual', '-', results%equilibrium_residual, 0.0_wp), &
-              quantity('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
-              quantity('external_work', 'F L', results%external_work, 0.0_wp), &
-              quantity('error_estimate_percent', '-', results%error_estimate, 0.0_wp)]
+              quantity_t('equilibrium_residual', '-', results%equilibrium_residual, 0.0_wp), &
+              quantity_t('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
+              quantity_t('external_work', 'F L', results%external_work, 0.0_wp), &
+              quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp)]
    end function step_quantities
 
    !> Every quantity that summary.tab can have.
    pure function quantity_names() result(names)
       type(string_t), allocatable :: names(:)
-      type(quantity_t), allocatable :: of_pair(:), of_step(:)
+      type(quantity_t), allocatable :: list(:)
       integer :: i
 
-      of_pair = pair_quantities(pair_summary_t(), scales_t())
-      of_step = step_quantities(results_t())
+      list = [pair_quantities(pair_summary_t(), scales_t()), step_quantities(results_t())]
       allocate (names(0))
-      do i = 1, size(of_pair)
-         call append_string(names, trim(of_pair(i)%name))
-      end do
-      do i = 1, size(of_step)
-         call append_string(names, trim(of_step(i)%name))
+      do i = 1, size(list)
+         call append_string(names, trim(list(i)%name))
       end do
    end function quantity_names
-
-   pure function quantity(name, dimension, value, scale)
-      character(len=*), intent(in) :: name, dimension
-      real(wp), intent(in) :: value, scale
-      type(quantity_t) :: quantity
-
-      quantity%name = name
-      quantity%dimension = dimension
-      quantity%value = value
-      quantity%scale = scale
-   end function quantity
 
    pure function counted(name, value)
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: value
       type(quantity_t) :: counted
 
-      counted%name = name
-      counted%value = real(value, wp)
-      counted%is_count = .true.
+      counted = quantity_t(name, value=real(value, wp), is_count=.true.)
    end function counted
 
    !> Finds the scales of all fields. What is not there counts as 0.
@@ -182,13 +166,13 @@ contains
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
       type(scales_t) :: scales
-      integer :: i
+      integer(ip) :: i
 
       scales%length = largest(model%mesh%x)
       if (allocated(results%u)) scales%displacement = largest(results%u)
       if (allocated(results%reaction)) scales%force = largest(results%reaction)
       scales%force = max(scales%force, maxval(abs(results%balance%applied)))
-      do i = 1, number_of(results%contact)
+      do i = 1, pair_count(results)
          associate (contact => results%contact(i))
             if (contact%n == 0) cycle
             scales%pressure = max(scales%pressure, maxval(abs(contact%pressure(:contact%n))))
@@ -214,12 +198,19 @@ contains
       if (allocated(contact%u)) own%displacement = max(own%displacement, maxval(abs(contact%u)))
    end function scales_of_pair
 
-   pure integer function number_of(list)
-      type(contact_result_t), allocatable, intent(in) :: list(:)
+   pure integer(ip) function pair_count(results)
+      type(results_t), intent(in) :: results
 
-      number_of = 0
-      if (allocated(list)) number_of = size(list)
-   end function number_of
+      pair_count = 0
+      if (allocated(results%contact)) pair_count = size(results%contact, kind=ip)
+   end function pair_count
+
+   pure integer(ip) function body_count(scene)
+      type(scene_t), intent(in) :: scene
+
+      body_count = 0
+      if (allocated(scene%bodies)) body_count = size(scene%bodies, kind=ip)
+   end function body_count
 
    !> Largest absolute value; 0 for an empty array.
    real(wp) function largest(values)

@@ -3,15 +3,15 @@ module atrito_table
    use atrito_kinds, only: ip, wp, is_nan
    use atrito_strings, only: string_t, append_string
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
-   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, put_lines, close_text, &
+   use atrito_files, only: file_set_t, text_file_t, begin_files, end_files, open_text, put_line, put_lines, close_text, &
                            NEW_LINE_CHARACTER
-   use atrito_status, only: status_t
+   use atrito_status, only: status_t, is_ok
    use atrito_threads, only: n_threads, is_shared
    use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
    implicit none (type, external)
    private
    public :: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
-             write_table, clear_small, abs_is_below, one_word
+             add_real_columns, write_table, write_table_set, clear_small, abs_is_below, one_word
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE
 
    character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
@@ -83,6 +83,18 @@ contains
       column%reals = values
       call add_column(table, name, dimension, column)
    end subroutine add_reals
+
+   !> Adds columns of reals of which nothing is rounding.
+   pure subroutine add_real_columns(table, names, dimensions, values)
+      type(table_t), intent(inout) :: table
+      character(len=*), intent(in) :: names(:), dimensions(:)
+      real(wp), intent(in) :: values(:, :)          !< (n_rows, columns)
+      integer :: i
+
+      do i = 1, size(names)
+         call add_reals(table, trim(names(i)), trim(dimensions(i)), values(:, i), 0.0_wp)
+      end do
+   end subroutine add_real_columns
 
    !> Adds a column of reals that are not copied but read when the table is written: those at table%places.
    subroutine add_field(table, name, dimension, field, scale)
@@ -191,6 +203,23 @@ contains
       call write_rows(file, table, digits)
       call close_text(file, status)
    end subroutine write_table
+
+   !> Writes tables into a folder, all or none. status: STATUS_FILE.
+   subroutine write_table_set(folder, tables, origin, digits, status)
+      character(len=*), intent(in) :: folder
+      type(table_t), intent(inout) :: tables(:)
+      type(origin_t), intent(in) :: origin
+      integer, intent(in) :: digits
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+      integer :: i
+
+      call begin_files(set, folder, status)
+      do i = 1, size(tables)
+         if (is_ok(status)) call write_table(set, tables(i), origin, digits, status)
+      end do
+      call end_files(set, status)
+   end subroutine write_table_set
 
    !> Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
    subroutine place_columns(table, digits)

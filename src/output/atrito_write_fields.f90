@@ -197,11 +197,7 @@ contains
       do i = 1, size(vectors, 2, kind=ip)
          wanted = .true.
          if (present(mask)) wanted = mask(i)
-         if (wanted) then
-            call put_row(file, [vectors(:, i), 0.0_wp])
-         else
-            call put_row(file, [nan, nan, nan])
-         end if
+         call put_row(file, merge([vectors(:, i), 0.0_wp], nan, wanted))
       end do
    end subroutine put_vectors
 
@@ -231,11 +227,7 @@ contains
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
       call begin_dataset(file, path, 1_ip, size(stress, 2, kind=ip), .true., 'stress recovered at the nodes', 'F/L^2')
       do i = 1, size(stress, 2, kind=ip)
-         if (mask(i)) then
-            call put_row(file, stress(k:k, i))
-         else
-            call put_row(file, [nan])
-         end if
+         call put_row(file, [merge(stress(k, i), nan, mask(i))])
       end do
    end subroutine put_nodal_stress
 

@@ -7,13 +7,13 @@ module atrito_write_tables
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
-   use atrito_results, only: results_t
+   use atrito_results, only: results_t, iteration_t
    use atrito_number_text, only: trimmed_real
    use atrito_resultant_tables, only: build_bodies, build_joints
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, &
-                             measure_fields, scales_of_pair
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
-                           write_table, clear_small, abs_is_below, one_word, ZERO_SHARE
+                             measure_fields, scales_of_pair, pair_count
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_real_columns, add_field, add_integers, &
+                           add_integer_field, add_words, write_table, clear_small, abs_is_below, one_word, ZERO_SHARE
    implicit none (type, external)
    private
    public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES, STRESS_NAMES
@@ -45,12 +45,12 @@ contains
       type(origin_t) :: origin
 
       origin%deck = model%deck_path(index(model%deck_path, '/', back=.true.) + 1:)
-      allocate (origin%heading(0))
-      if (allocated(model%heading)) origin%heading = model%heading
+      origin%heading = model%heading
       origin%not_converged = .not. (results%converged .and. results%law_holds)
    end function origin_of
 
-   !> Writes all tables of a run but timing.tab, which comes last.
+   !> Writes all tables of a run but timing.tab, which comes last: contact whenever there is a pair, summary and iterations always,
+   !> the rest when the deck asks.
    !>
    !> status: STATUS_FILE when one could not be written; the rest is not tried then.
    subroutine write_tables(model, results, digits, set, status)
@@ -67,62 +67,36 @@ contains
       origin = origin_of(model, results)
       scales = measure_fields(model, results)
       do i = 1, size(TABLE_NAMES)
-         if (.not. is_wanted(TABLE_NAMES(i), model, results)) cycle
          select case (TABLE_NAMES(i))
          case ('contact')
+            if (pair_count(results) == 0) cycle
             call build_contact(results, scales, table)
          case ('summary')
             call build_summary(results, scales, digits, table)
          case ('nodes')
+            if (.not. (model%requests%nodes .and. allocated(results%u))) cycle
             call build_nodes(model, results, scales, table)
          case ('reactions')
+            if (.not. (model%requests%reactions .and. allocated(results%reaction))) cycle
             call build_reactions(model, results, scales, table)
          case ('stress')
+            if (.not. (model%requests%stress .and. allocated(results%stress))) cycle
             call build_stress(model, results, scales, table)
          case ('bodies')
+            if (.not. (model%requests%bodies .and. allocated(results%bodies))) cycle
             call build_bodies(results, scales, table)
          case ('joints')
+            if (.not. (model%requests%joints .and. allocated(results%joints))) cycle
             call build_joints(results, scales, table)
          case ('iterations')
             call build_iterations(results, table)
+         case default
+            cycle
          end select
          call write_table(set, table, origin, digits, status)
          if (.not. is_ok(status)) return
       end do
    end subroutine write_tables
-
-   !> Contact whenever there is a pair; summary and iterations always; the rest when the deck asks; timing is not written here.
-   pure logical function is_wanted(name, model, results)
-      character(len=*), intent(in) :: name
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-
-      select case (name)
-      case ('contact')
-         is_wanted = pair_count(results) > 0
-      case ('summary', 'iterations')
-         is_wanted = .true.
-      case ('nodes')
-         is_wanted = model%requests%nodes .and. allocated(results%u)
-      case ('reactions')
-         is_wanted = model%requests%reactions .and. allocated(results%reaction)
-      case ('stress')
-         is_wanted = model%requests%stress .and. allocated(results%stress)
-      case ('bodies')
-         is_wanted = model%requests%bodies .and. allocated(results%bodies)
-      case ('joints')
-         is_wanted = model%requests%joints .and. allocated(results%joints)
-      case default
-         is_wanted = .false.
-      end select
-   end function is_wanted
-
-   pure integer(ip) function pair_count(results)
-      type(results_t), intent(in) :: results
-
-      pair_count = 0
-      if (allocated(results%contact)) pair_count = size(results%contact, kind=ip)
-   end function pair_count
 
    !> A row a quadrature point, by pair, then along s.
    subroutine build_contact(results, scales, table)
@@ -132,6 +106,9 @@ contains
       integer(ip), allocatable :: pair(:), point(:), point_status(:)
       real(wp), allocatable :: field(:, :)
       integer(ip) :: first, last, n, i, j
+      character(len=17), parameter :: NAMES(8) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', 'weighted_pressure', &
+                                                                                                                   'shear', 'slip']
+      character(len=5), parameter :: DIMENSIONS(8) = ['L    ', 'L    ', 'L    ', 'L    ', 'F/L^2', 'F/L^2', 'F/L^2', 'L    ']
 
       n = sum(results%contact%n)
       allocate (pair(n), point(n), point_status(n), field(n, 9))
@@ -149,28 +126,22 @@ contains
       call add_integers(table, 'step', spread(results%step, 1, n))
       call add_integers(table, 'pair', pair)
       call add_integers(table, 'point', point)
-      call add_reals(table, 's', 'L', field(:, 1), scales%length)
-      call add_reals(table, 'x', 'L', field(:, 2), scales%length)
-      call add_reals(table, 'y', 'L', field(:, 3), scales%length)
-      call add_reals(table, 'gap', 'L', field(:, 4), 0.0_wp)
-      call add_reals(table, 'pressure', 'F/L^2', field(:, 5), 0.0_wp)
-      call add_reals(table, 'weighted_pressure', 'F/L^2', field(:, 6), 0.0_wp)
-      call add_reals(table, 'shear', 'F/L^2', field(:, 7), 0.0_wp)
-      call add_reals(table, 'slip', 'L', field(:, 8), 0.0_wp)
+      call add_real_columns(table, NAMES, DIMENSIONS, field(:, :8))
       call add_integers(table, 'status', point_status)
       call add_reals(table, 'weight', 'L^2', field(:, 9), 0.0_wp)
    end subroutine build_contact
 
    !> What is rounding in the fields of a pair becomes 0.
-   pure subroutine clear_rounding(field, scales)
+   pure subroutine clear_rounding(field, own)
       real(wp), intent(inout) :: field(:, :)
-      type(scales_t), intent(in) :: scales           !< of the pair
+      type(scales_t), intent(in) :: own              !< scales of the pair
+      real(wp) :: scale(8)
+      integer :: k
 
-      call clear_small(scales%displacement, field(:, 4))
-      call clear_small(scales%pressure, field(:, 5))
-      call clear_small(scales%pressure, field(:, 6))
-      call clear_small(scales%pressure, field(:, 7))
-      call clear_small(scales%slip, field(:, 8))
+      scale = [spread(own%length, 1, 3), own%displacement, spread(own%pressure, 1, 3), own%slip]
+      do k = 1, size(scale)
+         call clear_small(scale(k), field(:, k))
+      end do
    end subroutine clear_rounding
 
    pure subroutine copy_fields(field, results, i)
@@ -347,42 +318,22 @@ contains
    subroutine build_iterations(results, table)
       type(results_t), intent(in) :: results
       type(table_t), intent(out) :: table
-      integer(ip) :: n
+      type(iteration_t), allocatable :: rows(:)
 
-      n = 0
-      if (allocated(results%iterations)) n = size(results%iterations, kind=ip)
-      call begin_table(table, 'iterations', 'a row an inner solve', n)
-      if (n == 0) then
-         call add_iteration_columns(results%step, empty_results(), table)
-      else
-         call add_iteration_columns(results%step, results, table)
-      end if
+      allocate (rows(0))
+      if (allocated(results%iterations)) rows = results%iterations
+      call begin_table(table, 'iterations', 'a row an inner solve', size(rows, kind=ip))
+      call add_integers(table, 'step', spread(results%step, 1, size(rows)))
+      call add_integers(table, 'outer', (rows%outer))
+      call add_integers(table, 'inner', (rows%inner))
+      call add_reals(table, 'change_displacement', '-', (rows%change_displacement), 0.0_wp)
+      call add_reals(table, 'change_pressure', '-', (rows%change_pressure), 0.0_wp)
+      call add_reals(table, 'change_friction', '-', (rows%change_friction), 0.0_wp)
+      call add_integers(table, 'open', (rows%open))
+      call add_integers(table, 'stick', (rows%stick))
+      call add_integers(table, 'slip', (rows%slip))
+      call add_reals(table, 'residual', '-', (rows%residual), 0.0_wp)
    end subroutine build_iterations
-
-   pure function empty_results() result(results)
-      type(results_t) :: results
-
-      allocate (results%iterations(0))
-   end function empty_results
-
-   subroutine add_iteration_columns(step, results, table)
-      integer(ip), intent(in) :: step
-      type(results_t), intent(in) :: results
-      type(table_t), intent(inout) :: table
-
-      associate (rows => results%iterations)
-         call add_integers(table, 'step', spread(step, 1, size(rows)))
-         call add_integers(table, 'outer', (rows%outer))
-         call add_integers(table, 'inner', (rows%inner))
-         call add_reals(table, 'change_displacement', '-', (rows%change_displacement), 0.0_wp)
-         call add_reals(table, 'change_pressure', '-', (rows%change_pressure), 0.0_wp)
-         call add_reals(table, 'change_friction', '-', (rows%change_friction), 0.0_wp)
-         call add_integers(table, 'open', (rows%open))
-         call add_integers(table, 'stick', (rows%stick))
-         call add_integers(table, 'slip', (rows%slip))
-         call add_reals(table, 'residual', '-', (rows%residual), 0.0_wp)
-      end associate
-   end subroutine add_iteration_columns
 
    !> Writes timing.tab: the phases that have ended, their sum, and the peak memory as a comment.
    subroutine write_timing(model, results, digits, set, status)

@@ -1,13 +1,17 @@
 #!/bin/sh
-# Runs a broken deck and compares what is said with expect.txt.
-#    run_case.sh ATRITO CASE_FOLDER WORK_FOLDER
-# expect.txt: `exit N`; `errors N`, how many in all; `place LINE:COLUMN`, of an error; `contains TEXT`.
+# Runs a case of a catalogue of broken decks and compares what is said with what is expected (README.md).
+#    run_case.sh ATRITO CATALOGUE CASE WORK_FOLDER
 set -u
 atrito=$1
-case_folder=$2
-work=$3
+catalogue=$2
+name=$3
+work=$4
+folder=$(dirname "$catalogue")
 rm -rf "$work"
-mkdir -p "$work" && cd "$case_folder" || exit 9
+mkdir -p "$work/deck" || exit 9
+awk -v wanted="$name" -v folder="$folder" -v deck="$work/deck/deck.inp" -f "$(dirname "$0")/deck_of_case.awk" \
+   "$catalogue" >"$work/expect" || exit 9
+cd "$work/deck" || exit 9
 "$atrito" deck.inp -o "$work/tables" >"$work/out" 2>"$work/err"
 code=$?
 bad=0
@@ -15,7 +19,7 @@ complain() {
    echo "$*"
    bad=1
 }
-[ -n "$(find "$work" "$case_folder" -name "*.tab")" ] && complain "a table was written"
+[ -n "$(find "$work" -name "*.tab")" ] && complain "a table was written"
 [ -e "$work/tables" ] && complain "an output folder was made"
 [ -s "$work/out" ] && complain "standard output is not empty"
 while read -r what rest; do
@@ -24,12 +28,12 @@ while read -r what rest; do
    errors) [ "$(grep -c 'error \[' "$work/err")" -eq "$rest" ] || complain "not $rest errors" ;;
    place) grep -q "^deck.inp:$rest: error \[" "$work/err" || complain "no error at $rest" ;;
    contains) grep -qF -- "$rest" "$work/err" || complain "not said: $rest" ;;
-   *) complain "expect.txt: unknown line $what" ;;
+   *) complain "$catalogue, $name: unknown line $what" ;;
    esac
-done <expect.txt
+done <"$work/expect"
 # errors come in the order of the deck
 sed -n 's/^deck\.inp:\([0-9]*\):[0-9]*: error .*/\1/p' "$work/err" >"$work/lines"
 sort -n "$work/lines" | cmp -s - "$work/lines" || complain "the errors are not in the order of the deck"
-grep -q '^exit' expect.txt && grep -q '^contains' expect.txt || complain "expect.txt asks for nothing"
+grep -q '^exit' "$work/expect" && grep -q '^contains' "$work/expect" || complain "$catalogue, $name asks for nothing"
 [ $bad -eq 0 ] || cat "$work/err"
 exit $bad

@@ -1,0 +1,262 @@
+!> The picture of a contact pair: pressure, shear, slip and gap along s, in panels one below the other.
+!>
+!> The script reads contact.tab in the folder above, so it draws what the table says. A pair without friction has no panels of
+!> shear and slip, and one without a nonlocal law no weighted pressure.
+module atrito_contact_plot
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: to_text
+   use atrito_status, only: status_t
+   use atrito_files, only: file_set_t, text_file_t, put_line
+   use atrito_model, only: model_t, interaction_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL
+   use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_SLIP
+   use atrito_write_tables, only: origin_of
+   use atrito_plot_files, only: CONTACT_PLOT
+   use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, picture_title, begin_script, end_script, put_terminal, &
+                               put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
+   implicit none (type, external)
+   private
+   public :: write_contact_plot, contact_plot_name, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
+             N_STATES, STATE_WORD
+
+   !> The bound of the shear is shown whole up to so many times the largest shear; a greater one would hide the shear itself.
+   real(wp), parameter :: MOST_BOUND = 4.0_wp
+   !> The lines +-eps are shown where eps over the largest slip lies between these: else they are one line, or hide the slip.
+   real(wp), parameter :: LEAST_EPS = 0.02_wp, MOST_EPS = 4.0_wp
+   integer, parameter :: LONGEST_NAME = 30          !< characters of a surface's name
+
+   integer(ip), parameter :: N_STATES = 4, STATE_CLOSED = 3 !< closed: without friction
+   character(len=6), parameter :: STATE_WORD(0:N_STATES - 1) = ['open  ', 'stick ', 'slip  ', 'closed']
+
+contains
+
+   !> Name of a pair's picture, without ending.
+   pure function contact_plot_name(pair) result(name)
+      integer(ip), intent(in) :: pair
+      character(len=:), allocatable :: name
+
+      name = CONTACT_PLOT//to_text(pair)
+   end function contact_plot_name
+
+   !> Writes the script of a pair into the set of the plots' folder.
+   !>
+   !> status: STATUS_FILE when it could not be written.
+   subroutine write_contact_plot(set, model, results, pair, status)
+      type(file_set_t), intent(inout) :: set
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: pair               !< with at least one point
+      type(status_t), intent(out) :: status
+      type(text_file_t) :: file
+      type(interaction_t) :: law
+      logical :: friction
+      character(len=:), allocatable :: name
+
+      name = contact_plot_name(pair)
+      law = model%interactions(model%pairs(pair)%interaction)
+      friction = results%contact(pair)%has_friction .and. law%friction /= FRICTION_NONE
+      call begin_script(set, name, 'contact pair '//to_text(pair)//' along s', file)
+      call put_contact_columns(file, pair, ', 12 status (0 open, 1 stick, 2 slip)')
+      call put_line(file, 'marked(c, status) = column(12) == status ? col(c) : NaN')
+      call put_line(file, 'table = "../contact.tab"')
+      call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
+      call put_line(file, 'pair_line = '//quoted(pair_title(results, pair)//law_text(law)))
+      call put_frame(file, merge(4, 2, friction), slave_range(results%contact(pair)), '"s [L]"')
+      if (friction) call put_line(file, 'nu = '//to_text(law%nu, 12))
+      if (friction) call put_line(file, 'eps = '//to_text(law%eps, 12))
+      call put_terminal(file, name, '1000,height')
+      call put_styles(file, results%contact(pair)%n)
+      call put_line(file, 'set multiplot title heading."\n".pair_line noenhanced')
+      call put_panels(file, results%contact(pair), law, friction)
+      call put_line(file, 'unset multiplot')
+      call end_script(file, status)
+   end subroutine write_contact_plot
+
+   !> What the columns of contact.tab are, and a function that takes those of one pair.
+   subroutine put_contact_columns(file, pair, and_status)
+      type(text_file_t), intent(inout) :: file
+      integer(ip), intent(in) :: pair
+      character(len=*), intent(in) :: and_status    !< what is said of the status; empty where it is not drawn
+
+      call put_line(file, '# Columns of contact.tab: 2 pair, 4 s [L], 7 gap [L], 8 pressure [F/L^2], 9 weighted pressure [F/L^2],')
+      call put_line(file, '# 10 shear [F/L^2], 11 slip [L]'//and_status)
+      call put_line(file, 'pair = '//to_text(pair))
+      call put_line(file, 'col(c) = column(2) == pair ? column(c)/unit : NaN')
+   end subroutine put_contact_columns
+
+   pure function pair_title(results, pair) result(text)
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: pair
+      character(len=:), allocatable :: text
+
+      text = 'pair '//to_text(pair)
+      if (.not. allocated(results%scene%pairs)) return
+      if (pair > size(results%scene%pairs)) return
+      associate (scene => results%scene%pairs(pair))
+         text = text//': '//cleaned(scene%slave, LONGEST_NAME)//' on '//cleaned(scene%master, LONGEST_NAME)
+      end associate
+   end function pair_title
+
+   !> The parameters of a pair's laws, those that are in force.
+   pure function law_text(law) result(text)
+      type(interaction_t), intent(in) :: law
+      character(len=:), allocatable :: text
+
+      select case (law%friction)
+      case (FRICTION_NONLOCAL)
+         text = ';  '//GREEK_NU//' = '//to_text(law%nu)//', '//GREEK_EPSILON//' = '//to_text(law%eps)//', '// &
+                GREEK_RHO//' = '//to_text(law%rho)
+      case (FRICTION_LOCAL)
+         text = ';  '//GREEK_NU//' = '//to_text(law%nu)
+         if (law%stick_slope > 0.0_wp) text = text//', k = '//to_text(law%stick_slope)
+      case default
+         text = ';  no friction'
+      end select
+      if (law%delta > 0.0_wp) text = text//', '//GREEK_DELTA//' = '//to_text(law%delta)
+   end function law_text
+
+   !> s of the pair, from 0 to its last point.
+   pure type(range_t) function slave_range(contact) result(range)
+      type(contact_result_t), intent(in) :: contact
+
+      call cover(range, [0.0_wp, contact%s_end, contact%s(:contact%n)])
+      if (range%high <= range%low) range = padded(range)
+   end function slave_range
+
+   !> Curves 1 to 3, points of each status 4 to 6; many points are drawn smaller.
+   subroutine put_styles(file, n)
+      type(text_file_t), intent(inout) :: file
+      integer(ip), intent(in) :: n                  !< points
+      character(len=:), allocatable :: dot
+
+      dot = 'dot*'//to_text(min(1.0_wp, max(0.25_wp, 6.0_wp/sqrt(real(max(n, 1_ip), wp)))), 2)
+      call put_line(file, 'set style line 1 lt 1 lw 2 lc rgb "'//COLOUR(1)//'"')
+      call put_line(file, 'set style line 2 lw 2 dt (8,5) lc rgb "'//COLOUR(6)//'"')
+      call put_line(file, 'set style line 3 lw 1.5 dt (7,5) lc rgb "#404040"')
+      call put_line(file, 'set style line 4 pt 6 lw 1.5 lc rgb "black" ps '//dot)
+      call put_line(file, 'set style line 5 pt 7 lw 1.5 lc rgb "black" ps '//dot)
+      call put_line(file, 'set style line 6 pt 9 lw 1.5 lc rgb "'//COLOUR(2)//'" ps 1.2*'//dot)
+   end subroutine put_styles
+
+   subroutine put_panels(file, contact, law, friction)
+      type(text_file_t), intent(inout) :: file
+      type(contact_result_t), intent(in) :: contact
+      type(interaction_t), intent(in) :: law
+      logical, intent(in) :: friction
+
+      call put_panel(file, 1, 'pressure', 'F/L^2', field_range(contact%pressure(:contact%n), contact%weighted_pressure(:contact%n)))
+      if (law%friction == FRICTION_NONLOCAL .and. friction) then
+         call put_curve(file, 8, 'pressure p', ', table using 4:(col(9)) with lines ls 2 title "weighted, S_{'// &
+                        GREEK_RHO//'}(p)"', contact, friction, with_legend=.true.)
+      else
+         call put_curve(file, 8, 'pressure p', '', contact, friction, with_legend=.true.)
+      end if
+      if (friction) then
+         call put_panel(file, 2, 'shear', 'F/L^2', shear_range(contact, law%nu))
+         call put_curve(file, 10, 'shear', bound_curves(law), contact, friction, with_legend=.false.)
+         call put_panel(file, 3, 'slip', 'L', slip_range(contact, law%eps))
+         call put_curve(file, 11, 'slip u_T', slip_curves(contact, law%eps), contact, friction, with_legend=.false.)
+      end if
+      call put_panel(file, merge(4, 2, friction), 'gap', 'L', field_range(contact%gap(:contact%n), contact%gap(:contact%n)))
+      call put_curve(file, 7, 'gap', '', contact, friction, with_legend=.false.)
+   end subroutine put_panels
+
+   !> Zero and both fields.
+   pure type(range_t) function field_range(a, b) result(range)
+      real(wp), intent(in) :: a(:), b(:)
+
+      call cover(range, [0.0_wp])
+      call cover(range, a)
+      call cover(range, b)
+   end function field_range
+
+   !> Zero, the shear, and the bound as far as it does not hide the shear.
+   pure type(range_t) function shear_range(contact, nu) result(range)
+      type(contact_result_t), intent(in) :: contact
+      real(wp), intent(in) :: nu
+      type(range_t) :: bound
+      real(wp) :: largest, shown
+
+      range = field_range(contact%shear(:contact%n), [real(wp) ::])
+      call cover(bound, [0.0_wp])
+      call cover(bound, contact%weighted_pressure(:contact%n))
+      largest = max(abs(range%low), abs(range%high))
+      shown = min(MOST_BOUND*largest, nu*bound%high)
+      ! without any shear the bound is all there is to see
+      if (largest <= 0.0_wp) shown = nu*bound%high
+      if (nu*bound%high > MOST_BOUND*largest .and. largest > 0.0_wp) shown = 1.5_wp*largest
+      call cover(range, [-shown, shown])
+   end function shear_range
+
+   pure function bound_curves(law) result(text)
+      type(interaction_t), intent(in) :: law
+      character(len=:), allocatable :: text, name
+
+      name = PLUS_MINUS//' '//GREEK_NU//' p'
+      if (law%friction == FRICTION_NONLOCAL) name = PLUS_MINUS//' '//GREEK_NU//' S_{'//GREEK_RHO//'}(p)'
+      text = ', table using 4:(nu*col(9)) with lines ls 3 title "'//name//'"'// &
+             ', table using 4:(-nu*col(9)) with lines ls 3'
+   end function bound_curves
+
+   !> True where the lines +-eps tell something.
+   pure logical function shows_slip_bound(contact, eps)
+      type(contact_result_t), intent(in) :: contact
+      real(wp), intent(in) :: eps
+      type(range_t) :: range
+      real(wp) :: largest
+
+      range = field_range(contact%slip(:contact%n), [real(wp) ::])
+      largest = max(abs(range%low), abs(range%high))
+      shows_slip_bound = eps > 0.0_wp .and. eps >= LEAST_EPS*largest .and. eps <= MOST_EPS*largest
+   end function shows_slip_bound
+
+   pure type(range_t) function slip_range(contact, eps) result(range)
+      type(contact_result_t), intent(in) :: contact
+      real(wp), intent(in) :: eps
+
+      range = field_range(contact%slip(:contact%n), [real(wp) ::])
+      if (shows_slip_bound(contact, eps)) call cover(range, [-eps, eps])
+   end function slip_range
+
+   pure function slip_curves(contact, eps) result(text)
+      type(contact_result_t), intent(in) :: contact
+      real(wp), intent(in) :: eps
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (.not. shows_slip_bound(contact, eps)) return
+      text = ', eps/unit with lines ls 3 title "'//PLUS_MINUS//' '//GREEK_EPSILON//'", -eps/unit with lines ls 3'
+   end function slip_curves
+
+   !> A column as a line, further curves, and its points by their status.
+   subroutine put_curve(file, column, title, more, contact, friction, with_legend)
+      type(text_file_t), intent(inout) :: file
+      integer, intent(in) :: column                 !< of contact.tab
+      character(len=*), intent(in) :: title
+      character(len=*), intent(in) :: more          !< further curves, each behind a comma
+      type(contact_result_t), intent(in) :: contact
+      logical, intent(in) :: friction
+      logical, intent(in) :: with_legend            !< of the points
+      character(len=:), allocatable :: line, c
+      integer(ip) :: k
+      integer(ip), parameter :: STYLE(0:N_STATES - 1) = [4_ip, 5_ip, 6_ip, 5_ip]
+
+      c = to_text(int(column, ip))
+      line = 'plot table using 4:(col('//c//')) with lines ls 1 title "'//title//'"'//more
+      do k = POINT_OPEN, POINT_SLIP
+         if (all(contact%status(:contact%n) /= k)) cycle
+         line = line//', table using 4:(marked('//c//','//to_text(k)//')) with points ls '//to_text(STYLE(state_of(k, friction)))
+         if (with_legend) line = line//' title "'//trim(STATE_WORD(state_of(k, friction)))//'"'
+      end do
+      call put_line(file, line)
+   end subroutine put_curve
+
+   !> The state of a point; a closed one of a pair without friction neither sticks nor slips.
+   elemental integer(ip) function state_of(status, has_friction) result(state)
+      integer(ip), intent(in) :: status             !< POINT_*
+      logical, intent(in) :: has_friction
+
+      state = status
+      if (status /= POINT_OPEN .and. .not. has_friction) state = STATE_CLOSED
+   end function state_of
+
+end module atrito_contact_plot

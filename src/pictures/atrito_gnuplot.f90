@@ -1,0 +1,145 @@
+!> Runs gnuplot on scripts that stand in a folder. The only place that starts another program.
+!>
+!> Pictures are an extra: whatever goes wrong here is a warning, W-PLOT, never a failed run.
+module atrito_gnuplot
+   use atrito_kinds, only: ip
+   use atrito_strings, only: string_t, append_string
+   use atrito_status, only: status_t, is_ok
+   use atrito_files, only: file_exists, read_file, remove_file
+   use atrito_messages, only: add_warning
+   use atrito_plot_files, only: plot_folder, LOG_NAME
+   use atrito_plot_text, only: quoted
+   use atrito_processes, only: run_command
+   use atrito_system, only: note_path, forget_path
+   implicit none (type, external)
+   private
+   public :: draw_written, draw_pictures, shell_quoted, plot_command, first_complaint
+
+   integer, parameter :: NOT_FOUND = 127            !< the shell's code for a program that is not there
+   character(len=4), parameter :: ENDINGS(2) = ['.png', '.svg']
+   integer, parameter :: LONGEST_COMPLAINT = 200
+
+contains
+
+   !> Draws the pictures below the folder of the tables whose scripts were written; those that were not are a warning.
+   subroutine draw_written(folder, names, status, drawn)
+      character(len=*), intent(in) :: folder                    !< of the tables
+      type(string_t), intent(in) :: names(:)
+      type(status_t), intent(in) :: status                      !< of the scripts
+      type(string_t), allocatable, intent(out) :: drawn(:)
+
+      if (is_ok(status)) then
+         call draw_pictures(plot_folder(folder), names, drawn)
+      else
+         allocate (drawn(0))
+         call add_warning('W-PLOT', 'no plots are written: '//status%text)
+      end if
+   end subroutine draw_written
+
+   !> Draws <name>.png and <name>.svg from each <name>.gp of a folder. What gnuplot says stays in gnuplot.log beside them; a
+   !> failure is one warning. Interrupted, none of these pictures is left.
+   subroutine draw_pictures(folder, names, drawn)
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
+      type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
+      integer :: i, k, exit_code
+
+      allocate (drawn(0))
+      if (size(names) == 0) return
+      call note_path(folder//'/'//LOG_NAME)
+      do i = 1, size(names)
+         do k = 1, size(ENDINGS)
+            call remove_file(folder//'/'//names(i)%s//ENDINGS(k))
+            call note_path(folder//'/'//names(i)%s//ENDINGS(k))
+         end do
+      end do
+      call run_command(plot_command(folder, names), exit_code)
+      do i = 1, size(names)
+         if (has_pictures(folder//'/'//names(i)%s)) call append_string(drawn, names(i)%s)
+         do k = 1, size(ENDINGS)
+            call forget_path(folder//'/'//names(i)%s//ENDINGS(k))
+         end do
+      end do
+      call forget_path(folder//'/'//LOG_NAME)
+      call judge_outcome(folder, exit_code, size(drawn) == size(names))
+   end subroutine draw_pictures
+
+   logical function has_pictures(path)
+      character(len=*), intent(in) :: path          !< without ending
+
+      has_pictures = file_exists(path//'.png')
+      if (has_pictures) has_pictures = file_exists(path//'.svg')
+   end function has_pictures
+
+   !> The command for the shell. Each script has a gnuplot of its own, so that one that fails does not stop the others; -d: without
+   !> the settings that a user may have at home.
+   pure function plot_command(folder, names) result(command)
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: names(:)
+      character(len=:), allocatable :: command
+      integer :: i
+
+      command = 'cd -- '//shell_quoted(anchored(folder))//' && { code=0; for name in'
+      do i = 1, size(names)
+         command = command//' '//shell_quoted(names(i)%s)
+      end do
+      command = '{ '//command//'; do gnuplot -d "$name.gp" || code=$?; done; exit $code; } </dev/null >'//LOG_NAME// &
+                ' 2>&1; } 2>/dev/null'
+   end function plot_command
+
+   !> A relative path that `cd` cannot take for something else: neither for an option nor for a folder of CDPATH.
+   pure function anchored(path) result(text)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: text
+
+      text = path
+      if (index(path, '/') /= 1) text = './'//path
+   end function anchored
+
+   !> A word of the shell, whatever the characters.
+   pure function shell_quoted(text) result(word)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: word
+
+      word = quoted(text, '''\''''')
+   end function shell_quoted
+
+   subroutine judge_outcome(folder, exit_code, complete)
+      character(len=*), intent(in) :: folder
+      integer, intent(in) :: exit_code
+      logical, intent(in) :: complete               !< all pictures are there
+      character(len=:), allocatable :: text
+      character(len=*), parameter :: SCRIPTS = '; the scripts are in '
+      type(status_t) :: status
+
+      call read_file(folder//'/'//LOG_NAME, text, status)
+      if (.not. is_ok(status)) text = ''
+      if (len(text) == 0 .or. exit_code == NOT_FOUND) call remove_file(folder//'/'//LOG_NAME)
+      if (exit_code == NOT_FOUND) then
+         call add_warning('W-PLOT', 'gnuplot was not found (Debian: gnuplot-nox), no pictures'//SCRIPTS//folder)
+      else if (exit_code /= 0 .or. .not. complete) then
+         call add_warning('W-PLOT', 'gnuplot failed: '//first_complaint(text)//SCRIPTS//folder)
+      end if
+   end subroutine judge_outcome
+
+   !> The line of gnuplot's output that tells the error; the lines before it repeat the script.
+   pure function first_complaint(text) result(line)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: line, first_line
+      integer :: begins, ends
+
+      first_line = ''
+      begins = 1
+      do while (begins <= len(text))
+         ends = index(text(begins:), achar(10))
+         ends = merge(len(text), begins + ends - 2, ends == 0)
+         line = text(begins:min(ends, begins + LONGEST_COMPLAINT - 1))
+         if (index(line, '.gp" line ') > 0) return
+         if (len_trim(first_line) == 0) first_line = line
+         begins = ends + 2
+      end do
+      line = first_line
+      if (len_trim(line) == 0) line = 'it says nothing'
+   end function first_complaint
+
+end module atrito_gnuplot

@@ -1,0 +1,167 @@
+!> What the tables of several runs have in common: which of them can be drawn over one another, and over which ranges.
+module atrito_overlay_data
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use atrito_kinds, only: ip, wp
+   use atrito_status, only: status_t, is_ok
+   use atrito_read_table, only: table_file_t, read_table, find_column, item_text
+   use atrito_plot_text, only: range_t, cover
+   implicit none (type, external)
+   private
+   public :: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, N_FIELDS, FIELD_COLUMN, N_QUANTITIES, &
+             LONGEST_LABEL
+   public :: FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP
+
+   integer, parameter :: LONGEST_LABEL = 40          !< characters of a run's or a parameter's name
+   !> Positive values that span more than this are drawn over a logarithmic axis.
+   real(wp), parameter :: LOGARITHMIC = 100.0_wp
+   integer, parameter :: N_FIELDS = 5
+   integer, parameter :: FIELD_PRESSURE = 1, FIELD_WEIGHTED = 2, FIELD_SHEAR = 3, FIELD_SLIP = 4, FIELD_GAP = 5
+   character(len=17), parameter :: FIELD_NAME(N_FIELDS) = &
+                                   [character(len=17) :: 'pressure', 'weighted_pressure', 'shear', 'slip', 'gap']
+   !> Their columns in contact.tab, for gnuplot.
+   integer, parameter :: FIELD_COLUMN(N_FIELDS) = [8, 9, 10, 11, 7]
+   !> Rows of summary.tab that are drawn against a parameter.
+   integer, parameter :: N_QUANTITIES = 4
+   character(len=22), parameter :: QUANTITY_NAME(N_QUANTITIES) = [character(len=22) :: &
+                                                                  'normal_resultant', 'effective_area_percent', &
+                                                                  'max_pressure', 'max_abs_shear']
+
+   !> A run of a sweep.
+   type :: overlay_run_t
+      character(len=:), allocatable :: label       !< such as eps=1e-4
+      character(len=:), allocatable :: path        !< of its folder, from here
+      character(len=:), allocatable :: from_plots  !< of its folder, from the folder of the plots
+      real(wp) :: value = 0.0_wp                   !< of the parameter that varies, when there is one
+      logical :: has_tables = .false.              !< contact.tab can be read
+      logical :: not_converged = .false.
+      real(wp), allocatable :: quantity(:, :)      !< (N_QUANTITIES, pairs): of summary.tab; not allocated: there is none
+   end type overlay_run_t
+
+   !> A contact pair over all runs.
+   type :: overlay_pair_t
+      type(range_t) :: s
+      type(range_t) :: field(N_FIELDS)
+      integer(ip) :: most_points = 0
+      logical :: has_shear = .false.               !< in one run at least
+      logical :: has_weighted = .false.            !< it differs from the pressure in one run at least
+   end type overlay_pair_t
+
+   !> What is laid over one another.
+   type :: overlay_t
+      character(len=:), allocatable :: title       !< heading of the deck; empty where there is none
+      logical :: by_value = .false.                !< one parameter varies
+      character(len=:), allocatable :: parameter   !< its name, as it can be drawn
+      type(overlay_run_t), allocatable :: runs(:)
+      type(overlay_pair_t), allocatable :: pairs(:)
+   end type overlay_t
+
+contains
+
+   !> Positive values that span more than two decades.
+   pure logical function is_logarithmic(values)
+      real(wp), intent(in) :: values(:)
+
+      is_logarithmic = .false.
+      if (size(values) == 0) return
+      if (.not. all(ieee_is_finite(values))) return
+      if (minval(values) <= 0.0_wp) return
+      is_logarithmic = maxval(values)/minval(values) > LOGARITHMIC
+   end function is_logarithmic
+
+   !> Reads the tables of all runs. Those of a run that failed are missing, which is no failure here.
+   subroutine read_runs(overlay)
+      type(overlay_t), intent(inout) :: overlay    !< label, path and value of the runs are given
+      type(table_file_t) :: table
+      type(status_t) :: status
+      integer :: i
+
+      allocate (overlay%pairs(0))
+      overlay%title = ''
+      do i = 1, size(overlay%runs)
+         associate (run => overlay%runs(i))
+            call read_table(run%path//'/contact.tab', table, status)
+            run%has_tables = is_ok(status)
+            if (.not. is_ok(status)) cycle
+            run%not_converged = table%not_converged
+            if (len(overlay%title) == 0) overlay%title = heading_of(table%text)
+            call cover_run(table, overlay%pairs)
+            call read_table(run%path//'/summary.tab', table, status)
+            if (is_ok(status)) call take_quantities(table, run)
+         end associate
+      end do
+   end subroutine read_runs
+
+   !> The first line `# heading: ...` of a table.
+   pure function heading_of(text) result(heading)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: heading
+      character(len=*), parameter :: MARK = new_line('a')//'# heading: '
+      integer :: first, length
+
+      heading = ''
+      first = index(text, MARK)
+      if (first == 0) return
+      first = first + len(MARK)
+      length = index(text(first:), new_line('a')) - 1
+      if (length > 0) heading = trim(text(first:first + length - 1))
+   end function heading_of
+
+   !> Widens the ranges of the pairs by those of a run.
+   subroutine cover_run(table, pairs)
+      type(table_file_t), intent(in) :: table
+      type(overlay_pair_t), allocatable, intent(inout) :: pairs(:)
+      integer(ip) :: pair, c(N_FIELDS), c_pair, c_s, row, i, n
+      integer(ip), allocatable :: n_points(:)
+
+      c_pair = find_column(table, 'pair')
+      c_s = find_column(table, 's')
+      do i = 1, N_FIELDS
+         c(i) = find_column(table, trim(FIELD_NAME(i)))
+      end do
+      if (min(c_pair, c_s, minval(c)) == 0 .or. table%n_rows == 0) return
+      n = maxval(nint(table%value(c_pair, :), ip))
+      if (n > size(pairs)) pairs = [pairs, spread(overlay_pair_t(), 1, n - size(pairs))]
+      allocate (n_points(size(pairs)), source=0_ip)
+      do row = 1, table%n_rows
+         pair = nint(table%value(c_pair, row), ip)
+         if (pair < 1) cycle
+         n_points(pair) = n_points(pair) + 1
+         call cover_point(pairs(pair), table%value(c_s, row), table%value(c, row))
+      end do
+      pairs%most_points = max(pairs%most_points, n_points)
+   end subroutine cover_run
+
+   pure subroutine cover_point(pair, s, values)
+      type(overlay_pair_t), intent(inout) :: pair
+      real(wp), intent(in) :: s, values(N_FIELDS)
+      integer :: i
+
+      call cover(pair%s, [s])
+      do i = 1, N_FIELDS
+         call cover(pair%field(i), [0.0_wp, values(i)])
+      end do
+      pair%has_shear = pair%has_shear .or. abs(values(FIELD_SHEAR)) > 0.0_wp
+      pair%has_weighted = pair%has_weighted .or. abs(values(FIELD_WEIGHTED) - values(FIELD_PRESSURE)) > 0.0_wp
+   end subroutine cover_point
+
+   subroutine take_quantities(table, run)
+      type(table_file_t), intent(in) :: table
+      type(overlay_run_t), intent(inout) :: run
+      integer(ip) :: c_pair, c_name, c_value, row, pair
+      integer :: i
+
+      c_pair = find_column(table, 'pair')
+      c_name = find_column(table, 'quantity')
+      c_value = find_column(table, 'value')
+      if (min(c_pair, c_name, c_value) == 0 .or. table%n_rows == 0) return
+      allocate (run%quantity(N_QUANTITIES, max(0_ip, maxval(nint(table%value(c_pair, :), ip)))), source=0.0_wp)
+      do row = 1, table%n_rows
+         pair = nint(table%value(c_pair, row), ip)
+         if (pair < 1) cycle
+         do i = 1, N_QUANTITIES
+            if (item_text(table, c_name, row) == trim(QUANTITY_NAME(i))) run%quantity(i, pair) = table%value(c_value, row)
+         end do
+      end do
+   end subroutine take_quantities
+
+end module atrito_overlay_data

@@ -1,0 +1,85 @@
+!> The pictures of a run, `--plot`: scripts and data into DIR/plots, then gnuplot.
+!>
+!> Comes after the tables, which are complete whatever happens here: every failure is a warning, W-PLOT.
+module atrito_write_plots
+   use atrito_kinds, only: ip
+   use atrito_strings, only: string_t, append_string
+   use atrito_status, only: status_t, is_ok
+   use atrito_files, only: file_set_t, begin_files, end_files
+   use atrito_timers, only: start_phase, stop_phase
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t
+   use atrito_summary, only: pair_count
+   use atrito_plot_files, only: plot_folder, MESH_PLOT, JOINT_PLOT
+   use atrito_mesh_plot, only: write_mesh_plot
+   use atrito_contact_plot, only: write_contact_plot, contact_plot_name
+   use atrito_joint_plot, only: write_joint_plot, has_joint_plot
+   use atrito_gnuplot, only: draw_written
+   implicit none (type, external)
+   private
+   public :: write_plots, write_plot_scripts, plot_names
+
+   !> Of more pairs than these there are no pictures of their own beside that of the joints.
+   integer(ip), parameter :: MANY_PAIRS = 20
+
+contains
+
+   !> Writes the scripts of all pictures into <folder>/plots and draws them.
+   subroutine write_plots(model, results, folder, drawn)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: folder                !< of the tables
+      type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
+      type(status_t) :: status
+
+      call start_phase('plot')
+      call write_plot_scripts(model, results, plot_folder(folder), status)
+      call draw_written(folder, plot_names(model, results), status, drawn)
+      call stop_phase('plot')
+   end subroutine write_plots
+
+   !> Pictures of a run: the mesh, the joints where they are asked for, and each pair that has points.
+   pure function plot_names(model, results) result(names)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(string_t), allocatable :: names(:)
+      integer(ip) :: i
+
+      call append_string(names, MESH_PLOT)
+      if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
+      do i = 1, plotted_pairs(model, results)
+         if (results%contact(i)%n > 0) call append_string(names, contact_plot_name(i))
+      end do
+   end function plot_names
+
+   !> How many pairs have pictures of their own, those without points among them: all or none.
+   pure integer(ip) function plotted_pairs(model, results) result(n)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+
+      n = pair_count(results)
+      if (n > MANY_PAIRS .and. has_joint_plot(model, results)) n = 0
+   end function plotted_pairs
+
+   !> Writes scripts and data, which appear together or not at all.
+   !>
+   !> status: STATUS_FILE
+   subroutine write_plot_scripts(model, results, folder, status)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: folder                !< of the plots
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+      integer(ip) :: i
+
+      call begin_files(set, folder, status)
+      if (.not. is_ok(status)) return
+      call write_mesh_plot(set, model, results, status)
+      if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, status)
+      do i = 1, plotted_pairs(model, results)
+         if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, i, status)
+      end do
+      call end_files(set, status)
+   end subroutine write_plot_scripts
+
+end module atrito_write_plots

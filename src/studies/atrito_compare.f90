@@ -1,0 +1,448 @@
+!> `atrito compare`: are two tables, or two folders of them, the same?
+!>
+!> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column (of its row in summary.tab; of its contact pair
+!> for pressure, shear and slip; of a family of columns in bodies.tab and joints.tab). Integers and words must be equal; nan equals
+!> nan. timing and iterations are left out; the equilibrium residual must be small in both.
+module atrito_compare
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, append_string, to_text, join
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
+   use atrito_column_scales, only: kind_of, columns_of_scale, largest_number, moment_scale, is_number
+   use atrito_files, only: file_exists, is_folder
+   use atrito_page, only: page_t, begin_page, add_line, plural
+   use atrito_read_table, only: table_file_t, read_table, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_NAN
+   use atrito_write_tables, only: TABLE_NAMES
+   implicit none (type, external)
+   private
+   public :: comparison_t, begin_comparison, compare_paths, compare_tables, DEFAULT_RTOL, DEFAULT_ATOL
+
+   real(wp), parameter :: DEFAULT_RTOL = 1.0e-6_wp, DEFAULT_ATOL = 0.0_wp
+   real(wp), parameter :: LARGEST_RESIDUAL = 1.0e-8_wp  !< of the equilibrium; its digits are rounding
+   integer, parameter :: MOST_LINES = 20                !< differences printed; the rest is counted
+
+   !> A comparison while it goes on.
+   type :: comparison_t
+      real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
+      integer(ip) :: n_tables = 0, n_values = 0, n_differences = 0
+      type(string_t), allocatable :: left_out(:)    !< names of tables
+      type(page_t) :: page                          !< what is to be printed
+   end type comparison_t
+
+contains
+
+   !> Begins a comparison without findings.
+   subroutine begin_comparison(comparison, rtol, atol)
+      type(comparison_t), intent(out) :: comparison
+      real(wp), intent(in) :: rtol                  !< 0..1
+      real(wp), intent(in) :: atol                  !< >= 0, in the dimension of each column
+
+      comparison%rtol = rtol
+      comparison%atol = atol
+      allocate (comparison%left_out(0))
+      call begin_page(comparison%page, 100)
+   end subroutine begin_comparison
+
+   !> Compares two files or two folders; comparison%page says what differs.
+   !>
+   !> status: STATUS_USAGE when they differ, or when one is a file and one a folder; STATUS_FILE when a file cannot be read.
+   subroutine compare_paths(a, b, comparison, status)
+      character(len=*), intent(in) :: a, b
+      type(comparison_t), intent(inout) :: comparison
+      type(status_t), intent(out) :: status
+      logical :: there(2)
+
+      there = are_there(a, b)
+      if (.not. any(there)) then
+         call set_status(status, STATUS_FILE, a//' and '//b//': neither is there')
+         return
+      end if
+      if (.not. all(there)) then
+         call report_missing(comparison, a, b, there)
+      else if (is_folder(a) .neqv. is_folder(b)) then
+         call set_status(status, STATUS_USAGE, a//' and '//b//': one is a folder, the other a file')
+         return
+      else if (is_folder(a)) then
+         call compare_folders(a, b, comparison, status)
+      else
+         call compare_files(a, b, comparison, status)
+      end if
+      if (is_ok(status)) call conclude(comparison, status)
+   end subroutine compare_paths
+
+   !> Which of two files or folders are there.
+   function are_there(a, b) result(there)
+      character(len=*), intent(in) :: a, b
+      logical :: there(2), folder(2)
+
+      folder(1) = is_folder(a)
+      folder(2) = is_folder(b)
+      there(1) = file_exists(a)
+      there(2) = file_exists(b)
+      there = there .or. folder
+   end function are_there
+
+   subroutine report_missing(comparison, a, b, there)
+      type(comparison_t), intent(inout) :: comparison
+      character(len=*), intent(in) :: a, b
+      logical, intent(in) :: there(2)
+
+      if (.not. there(1)) call report(comparison, a//': missing')
+      if (.not. there(2)) call report(comparison, b//': missing')
+   end subroutine report_missing
+
+   subroutine compare_folders(a, b, comparison, status)
+      character(len=*), intent(in) :: a, b
+      type(comparison_t), intent(inout) :: comparison
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: file_a, file_b
+      logical :: there(2)
+      integer :: i
+
+      do i = 1, size(TABLE_NAMES)
+         file_a = a//'/'//trim(TABLE_NAMES(i))//'.tab'
+         file_b = b//'/'//trim(TABLE_NAMES(i))//'.tab'
+         there = are_there(file_a, file_b)
+         if (.not. any(there)) cycle
+         if (is_left_out(TABLE_NAMES(i))) then
+            call append_string(comparison%left_out, trim(TABLE_NAMES(i)))
+         else if (.not. all(there)) then
+            call report_missing(comparison, file_a, file_b, there)
+         else
+            call compare_files(file_a, file_b, comparison, status)
+            if (.not. is_ok(status)) return
+         end if
+      end do
+      if (comparison%n_tables == 0 .and. comparison%n_differences == 0) then
+         call set_status(status, STATUS_FILE, a//' and '//b//': there are no tables to compare')
+      end if
+   end subroutine compare_folders
+
+   !> Their numbers tell of the machine and the way, not of the solution.
+   pure logical function is_left_out(name)
+      character(len=*), intent(in) :: name
+
+      is_left_out = name == 'timing' .or. name == 'iterations'
+   end function is_left_out
+
+   subroutine compare_files(a, b, comparison, status)
+      character(len=*), intent(in) :: a, b
+      type(comparison_t), intent(inout) :: comparison
+      type(status_t), intent(inout) :: status
+      type(table_file_t) :: table_a, table_b
+
+      call read_table(a, table_a, status)
+      if (is_ok(status)) call read_table(b, table_b, status)
+      if (.not. is_ok(status)) return
+      if (is_left_out(kind_of(table_a)) .and. kind_of(table_a) == kind_of(table_b)) then
+         call append_string(comparison%left_out, kind_of(table_a))
+      else
+         call compare_tables(table_a, table_b, comparison)
+      end if
+   end subroutine compare_files
+
+   !> Compares two tables item by item.
+   subroutine compare_tables(a, b, comparison)
+      type(table_file_t), intent(in) :: a, b
+      type(comparison_t), intent(inout) :: comparison
+      integer(ip), allocatable :: column_in_b(:)
+      integer(ip) :: before, column
+
+      comparison%n_tables = comparison%n_tables + 1
+      before = comparison%n_differences
+      if (a%not_converged .neqv. b%not_converged) then
+         call report(comparison, a%name//': NOT CONVERGED in the '//trim(merge('first ', 'second', a%not_converged))//' only')
+      end if
+      call match_columns(a, b, comparison, column_in_b)
+      if (kind_of(a) == 'summary' .and. kind_of(b) == 'summary') then
+         call compare_summaries(a, b, comparison)
+         return
+      end if
+      if (a%n_rows /= b%n_rows) then
+         call report(comparison, a%name//': '//plural(a%n_rows, 'row', 'rows')//' / '//plural(b%n_rows, 'row', 'rows'))
+         return
+      end if
+      do column = 1, a%n_columns
+         if (column_in_b(column) > 0) call compare_columns(a, b, column, column_in_b(column), comparison)
+      end do
+   end subroutine compare_tables
+
+   !> Place in b of each column of a; 0 and a difference where there is none. The order counts too: scripts use it.
+   subroutine match_columns(a, b, comparison, column_in_b)
+      type(table_file_t), intent(in) :: a, b
+      type(comparison_t), intent(inout) :: comparison
+      integer(ip), allocatable, intent(out) :: column_in_b(:)
+      integer(ip) :: i
+      logical :: all_there
+
+      all_there = a%n_columns == b%n_columns
+      allocate (column_in_b(a%n_columns))
+      do i = 1, a%n_columns
+         column_in_b(i) = find_column(b, a%columns(i)%s)
+         if (column_in_b(i) == 0) call report(comparison, a%name//': column '//a%columns(i)%s//' is missing in the second')
+         all_there = all_there .and. column_in_b(i) > 0
+      end do
+      do i = 1, b%n_columns
+         if (find_column(a, b%columns(i)%s) > 0) cycle
+         call report(comparison, a%name//': column '//b%columns(i)%s//' is missing in the first')
+         all_there = .false.
+      end do
+      if (.not. all_there) return
+      if (any(column_in_b /= [(i, i=1, a%n_columns)])) then
+         call report(comparison, a%name//': the columns stand in another order: '//join(a%columns, ' ')//' / '// &
+                     join(b%columns, ' '))
+      end if
+   end subroutine match_columns
+
+   subroutine compare_columns(a, b, i, j, comparison)
+      type(table_file_t), intent(in) :: a, b
+      integer(ip), intent(in) :: i, j               !< the column in a and in b
+      type(comparison_t), intent(inout) :: comparison
+      integer(ip), allocatable :: of_a(:), of_b(:)
+      real(wp) :: scale
+      logical :: exact, by_pair
+      integer(ip) :: row, first, last
+
+      of_a = columns_of_scale(a, i)
+      of_b = columns_of_scale(b, j)
+      exact = is_integer_column(a, i, 1_ip, a%n_rows) .or. is_integer_column(b, j, 1_ip, b%n_rows)
+      by_pair = is_of_pair(a, i) .and. is_of_pair(b, j)
+      first = 1
+      do while (first <= a%n_rows)
+         last = a%n_rows
+         if (by_pair) last = last_row_of_pair(a, first)
+         scale = max(largest_number(a, of_a, first, last), largest_number(b, of_b, first, last), moment_scale(a, i), &
+                     moment_scale(b, j))
+         do row = first, last
+            call compare_items(a, b, [i, row], [j, row], scale, exact, comparison)
+         end do
+         first = last + 1
+      end do
+   end subroutine compare_columns
+
+   !> Whether the scale of a column is that of each contact pair: stresses and slips of a weak pair have digits of their own.
+   pure logical function is_of_pair(table, column)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: column
+
+      select case (table%columns(column)%s)
+      case ('pressure', 'weighted_pressure', 'shear', 'slip')
+         is_of_pair = find_column(table, 'pair') > 0
+      case default
+         is_of_pair = .false.
+      end select
+   end function is_of_pair
+
+   !> The last of the rows with the step and the pair of row `first` that stand together.
+   pure integer(ip) function last_row_of_pair(table, first) result(last)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: first
+
+      last = first
+      do while (last < table%n_rows)
+         if (.not. (same_item(table, 'pair', first, last + 1) .and. same_item(table, 'step', first, last + 1))) exit
+         last = last + 1
+      end do
+   end function last_row_of_pair
+
+   pure logical function same_item(table, name, row, other)
+      type(table_file_t), intent(in) :: table
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: row, other
+      integer(ip) :: column
+
+      column = find_column(table, name)
+      same_item = column == 0
+      if (.not. same_item) same_item = item_text(table, column, row) == item_text(table, column, other)
+   end function same_item
+
+   !> All items are integers and not all are 0, which a column of reals may hold as well.
+   pure logical function is_integer_column(table, column, first, last)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: column, first, last  !< rows
+
+      is_integer_column = all(table%kind(column, first:last) == ITEM_INTEGER)
+      if (is_integer_column) is_integer_column = any(abs(table%value(column, first:last)) > 0.0_wp)
+   end function is_integer_column
+
+   !> Compares two items; at = [column, row].
+   subroutine compare_items(a, b, at_a, at_b, scale, exact, comparison)
+      type(table_file_t), intent(in) :: a, b
+      integer(ip), intent(in) :: at_a(2), at_b(2)
+      real(wp), intent(in) :: scale
+      logical, intent(in) :: exact
+      type(comparison_t), intent(inout) :: comparison
+      integer :: kind_a, kind_b
+      real(wp) :: half_difference, half_allowed
+      character(len=:), allocatable :: text
+
+      comparison%n_values = comparison%n_values + 1
+      kind_a = a%kind(at_a(1), at_a(2))
+      kind_b = b%kind(at_b(1), at_b(2))
+      if (kind_a == ITEM_NAN .and. kind_b == ITEM_NAN) return
+      text = item_text(a, at_a(1), at_a(2))//' / '//item_text(b, at_b(1), at_b(2))
+      if (is_number(kind_a) .and. is_number(kind_b)) then
+         ! halves, since the difference of two huge numbers overflows
+         half_difference = abs(0.5_wp*a%value(at_a(1), at_a(2)) - 0.5_wp*b%value(at_b(1), at_b(2)))
+         half_allowed = 0.0_wp
+         if (.not. exact) half_allowed = comparison%rtol*(0.5_wp*scale) + 0.5_wp*comparison%atol
+         if (half_difference <= half_allowed) return
+         if (half_difference < 0.25_wp*huge(half_difference)) text = text//', differ by '//to_text(2.0_wp*half_difference, 3)
+         if (exact) then
+            text = text//', must be equal'
+         else
+            text = text//', allowed '//to_text(2.0_wp*min(half_allowed, 0.25_wp*huge(half_allowed)), 3)
+         end if
+      else if (kind_a == ITEM_WORD .and. kind_b == ITEM_WORD) then
+         if (item_text(a, at_a(1), at_a(2)) == item_text(b, at_b(1), at_b(2))) return
+      end if
+      call report(comparison, a%name//', '//row_name(a, at_a(2))//', '//item_name(a, at_a)//': '//text)
+   end subroutine compare_items
+
+   !> `row 3, pair 1, point 3, s = 1e-1`
+   pure function row_name(table, row) result(text)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: row
+      character(len=:), allocatable :: text
+      character(len=7), parameter :: KEYS(7) = ['pair   ', 'body   ', 'body_1 ', 'body_2 ', 'node   ', 'element', 'point  ']
+      integer(ip) :: column
+      integer :: i
+
+      text = 'row '//to_text(row)
+      do i = 1, size(KEYS)
+         column = find_column(table, trim(KEYS(i)))
+         if (column > 0) text = text//', '//trim(KEYS(i))//' '//item_text(table, column, row)
+      end do
+      column = find_column(table, 's')
+      if (column > 0) text = text//', s = '//item_text(table, column, row)
+   end function row_name
+
+   !> The column's name; in a summary the quantity's.
+   pure function item_name(table, at) result(text)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: at(2)              !< [column, row]
+      character(len=:), allocatable :: text
+
+      if (kind_of(table) == 'summary') then
+         text = item_text(table, find_column(table, 'quantity'), at(2))
+      else
+         text = table%columns(at(1))%s
+      end if
+   end function item_name
+
+   !> Rows are matched by their quantity, pair and step, and each is its own scale.
+   subroutine compare_summaries(a, b, comparison)
+      type(table_file_t), intent(in) :: a, b
+      type(comparison_t), intent(inout) :: comparison
+      integer(ip) :: row, other
+
+      do row = 1, a%n_rows
+         other = find_row(b, row_key(a, row), row)
+         if (other == 0) then
+            call report(comparison, a%name//': '//row_key(a, row)//' is missing in the second')
+         else
+            call compare_quantity(a, b, row, other, comparison)
+         end if
+      end do
+      do row = 1, b%n_rows
+         if (find_row(a, row_key(b, row), row) == 0) then
+            call report(comparison, a%name//': '//row_key(b, row)//' is missing in the first')
+         end if
+      end do
+   end subroutine compare_summaries
+
+   subroutine compare_quantity(a, b, row_a, row_b, comparison)
+      type(table_file_t), intent(in) :: a, b
+      integer(ip), intent(in) :: row_a, row_b
+      type(comparison_t), intent(inout) :: comparison
+      integer(ip) :: i, j
+      real(wp) :: scale
+      logical :: exact
+
+      if (item_text(a, find_column(a, 'quantity'), row_a) == 'equilibrium_residual') then
+         comparison%n_values = comparison%n_values + 1
+         if (.not. is_small(a, row_a) .or. .not. is_small(b, row_b)) then
+            call report(comparison, a%name//', equilibrium_residual: '//item_text(a, find_column(a, 'value'), row_a)//' / '// &
+                        item_text(b, find_column(b, 'value'), row_b)//', must be below '//to_text(LARGEST_RESIDUAL)//' in both')
+         end if
+         return
+      end if
+      i = find_column(a, 'value')
+      j = find_column(b, 'value')
+      scale = max(largest_number(a, [i], row_a, row_a), largest_number(b, [j], row_b, row_b))
+      exact = is_integer_column(a, i, row_a, row_a) .or. is_integer_column(b, j, row_b, row_b)
+      call compare_items(a, b, [i, row_a], [j, row_b], scale, exact, comparison)
+   end subroutine compare_quantity
+
+   pure logical function is_small(table, row)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: row
+      integer(ip) :: column
+
+      column = find_column(table, 'value')
+      is_small = is_number(table%kind(column, row))
+      if (is_small) is_small = abs(table%value(column, row)) < LARGEST_RESIDUAL
+   end function is_small
+
+   !> `step 1, pair 0, strain_energy`: what a row of a summary is known by.
+   pure function row_key(table, row) result(key)
+      type(table_file_t), intent(in) :: table
+      integer(ip), intent(in) :: row
+      character(len=:), allocatable :: key
+      character(len=4), parameter :: KEYS(2) = ['step', 'pair']
+      integer(ip) :: column
+      integer :: i
+
+      key = ''
+      do i = 1, size(KEYS)
+         column = find_column(table, KEYS(i))
+         if (column > 0) key = key//KEYS(i)//' '//item_text(table, column, row)//', '
+      end do
+      key = key//item_text(table, find_column(table, 'quantity'), row)
+   end function row_key
+
+   !> Row of a key, looked for first where it is expected; 0 when there is none.
+   pure integer(ip) function find_row(table, key, expected) result(row)
+      type(table_file_t), intent(in) :: table
+      character(len=*), intent(in) :: key
+      integer(ip), intent(in) :: expected
+
+      row = expected
+      if (row <= table%n_rows) then
+         if (row_key(table, row) == key) return
+      end if
+      do row = 1, table%n_rows
+         if (row_key(table, row) == key) return
+      end do
+      row = 0
+   end function find_row
+
+   !> Counts a difference and prints the first ones.
+   subroutine report(comparison, text)
+      type(comparison_t), intent(inout) :: comparison
+      character(len=*), intent(in) :: text
+
+      comparison%n_differences = comparison%n_differences + 1
+      if (comparison%n_differences <= MOST_LINES) call add_line(comparison%page, text)
+   end subroutine report
+
+   !> The last lines and the outcome.
+   subroutine conclude(comparison, status)
+      type(comparison_t), intent(inout) :: comparison
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: text
+
+      text = plural(comparison%n_tables, 'table', 'tables')//', '//plural(comparison%n_values, 'value', 'values')
+      if (size(comparison%left_out) > 0) text = text//', left out: '//join(comparison%left_out, ' ')
+      if (comparison%n_differences > MOST_LINES) then
+         call add_line(comparison%page, '... and '//to_text(comparison%n_differences - MOST_LINES)//' more')
+      end if
+      if (comparison%n_differences == 0) then
+         call add_line(comparison%page, 'same: '//text)
+         status%code = STATUS_OK
+      else
+         call add_line(comparison%page, 'different: '//plural(comparison%n_differences, 'difference', 'differences')//' in '//text)
+         call set_status(status, STATUS_USAGE, 'the tables differ')
+      end if
+   end subroutine conclude
+
+end module atrito_compare

@@ -1,0 +1,150 @@
+!> What `atrito limit` writes: limit.tab, mechanism.tab, and the closing lines on the screen.
+module atrito_stability_tables
+   use atrito_kinds, only: ip, wp
+   use atrito_page, only: page_t, begin_report, add_item, add_files, add_rule, number, plural, add_paragraph
+   use atrito_stability_result, only: stability_t, CODE_NOT_RUN
+   use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set, one_word
+   implicit none (type, external)
+   private
+   public :: write_stability, compose_stability
+
+   integer, parameter :: DIGITS = 10
+
+contains
+
+   !> Writes limit.tab and mechanism.tab. status: STATUS_FILE.
+   subroutine write_stability(folder, origin, limit, digits_of_tables, status)
+      character(len=*), intent(in) :: folder
+      type(origin_t), intent(in) :: origin
+      type(stability_t), intent(in) :: limit
+      integer, intent(in) :: digits_of_tables
+      type(status_t), intent(out) :: status
+      type(table_t) :: tables(2)
+
+      call build_values(limit, tables(1))
+      call build_mechanism(limit, tables(2))
+      call write_table_set(folder, tables, origin, digits_of_tables, status)
+   end subroutine write_stability
+
+   pure subroutine build_values(limit, table)
+      type(stability_t), intent(in) :: limit
+      type(table_t), intent(out) :: table
+
+      associate (values => limit%values)
+         call begin_table(table, 'limit', 'a row a value of '//limit%parameter//'; displacement: '//limit%watched, &
+                          size(values, kind=ip))
+         call append_string(table%remarks, 'stands at '//to_text(limit%stands, 17)//', can be balanced at ' &
+                            //to_text(limit%balanced, 17)//', falls at '//to_text(limit%falls, 17))
+         call append_string(table%remarks, 'code: of the run, 4 also without one; -1: the loads can be balanced, no run was made')
+         call add_reals(table, 'value', '-', values%value, 0.0_wp)
+         call add_integers(table, 'code', int(values%code, ip))
+         call add_reals(table, 'excess', '-', values%excess, 0.0_wp)
+         call add_reals(table, 'displacement', 'L', values%displacement, 0.0_wp)
+         call add_integers(table, 'iterations', values%iterations)
+         call add_integers(table, 'linear_solves', values%solves)
+         call add_integers(table, 'factorisations', values%factorisations)
+      end associate
+   end subroutine build_values
+
+   pure subroutine build_mechanism(limit, table)
+      type(stability_t), intent(in) :: limit
+      type(table_t), intent(out) :: table
+      type(string_t) :: words(size(limit%collapse%bodies))
+      integer :: i
+
+      do i = 1, size(words)                            ! a name with blanks would be several items
+         words(i)%s = one_word(limit%collapse%names(i)%s)
+      end do
+      associate (bodies => limit%collapse%bodies, centre => limit%collapse%centre, motion => limit%collapse%motion)
+         call begin_table(table, 'mechanism', 'a row a body that moves at '//limit%parameter//' = '//to_text(limit%falls, 17), &
+                          size(bodies, kind=ip))
+         call append_string(table%remarks, 'the largest displacement of a node is 1; u1, u2: of the centre x, y; rotation: [1]')
+         call add_integers(table, 'body', bodies)
+         call add_words(table, 'name', '-', words, on_the_left=.true.)
+         call add_reals(table, 'x', 'L', centre(1, :), 0.0_wp)
+         call add_reals(table, 'y', 'L', centre(2, :), 0.0_wp)
+         call add_reals(table, 'u1', 'L', motion(1, :), 1.0_wp)
+         call add_reals(table, 'u2', 'L', motion(2, :), 1.0_wp)
+         call add_reals(table, 'rotation', '-', motion(3, :), 0.0_wp)
+      end associate
+   end subroutine build_mechanism
+
+   !> The closing lines.
+   subroutine compose_stability(deck, folder, limit, seconds, page, pictures)
+      character(len=*), intent(in) :: deck, folder
+      type(stability_t), intent(in) :: limit
+      real(wp), intent(in) :: seconds(2)               !< wall clock and processor
+      type(page_t), intent(out) :: page
+      type(string_t), intent(in) :: pictures(:)        !< that were drawn, names without folder and ending
+
+      call begin_report(page, '   limit of '//limit%parameter//' in '//deck)
+      call add_rule(page, '-')
+      call add_item(page, 'stands at', limit%parameter//' = '//number(limit%stands, DIGITS)//': solved and checked')
+      call add_item(page, 'falls at', limit%parameter//' = '//number(limit%falls, DIGITS)//': proved')
+      call add_item(page, 'limit', limit_text(limit))
+      call add_undecided(limit, page)
+      call add_item(page, 'displacement', displacement_text(limit))
+      call add_item(page, 'values', values_text(limit))
+      call add_rule(page, '-')
+      call add_paragraph(page, 'mechanism: '//limit%collapse%text, 0)
+      call add_rule(page, '-')
+      call add_item(page, 'time', number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
+      call add_files(page, folder, 'limit mechanism', pictures)
+   end subroutine compose_stability
+
+   function limit_text(limit) result(text)
+      type(stability_t), intent(in) :: limit
+      character(len=:), allocatable :: text
+      real(wp) :: half
+
+      half = 0.5_wp*abs(limit%falls - limit%stands)
+      text = number(0.5_wp*(limit%stands + limit%falls), DIGITS)//', '//number(half, 2)//' more or less, '
+      if (limit%is_close) then
+         text = text//'as close as asked ('//number(limit%tolerance, 3)//')'
+      else
+         text = text//'farther than '//number(limit%tolerance, 3)
+      end if
+   end function limit_text
+
+   !> Values that narrow neither bound.
+   subroutine add_undecided(limit, page)
+      type(stability_t), intent(in) :: limit
+      type(page_t), intent(inout) :: page
+      integer(ip) :: runs, proofs
+
+      runs = count(limit%values%code == STATUS_NOT_CONVERGED, kind=ip)
+      proofs = count(limit%values%excess /= limit%values%excess .and. limit%values%code == CODE_NOT_RUN, kind=ip)
+      if (runs > 0) call add_item(page, 'undecided', 'at '//plural(runs, 'value', 'values')// &
+                                  ' neither a solution nor a proof was found (exit 3)')
+      if (runs > 0) call add_item(page, '', 'although the loads can be balanced up to '//number(limit%balanced, DIGITS))
+      if (proofs > 0) call add_item(page, 'undecided', plural(proofs, 'value is', 'values are')// &
+                                    ' too near the limit for a proof')
+   end subroutine add_undecided
+
+   !> What is watched, at the value that stands.
+   function displacement_text(limit) result(text)
+      type(stability_t), intent(in) :: limit
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = limit%watched
+      do i = 1, size(limit%values)
+         if (abs(limit%values(i)%value - limit%stands) > 0.0_wp .or. limit%values(i)%code /= STATUS_OK) cycle
+         text = text//' = '//number(limit%values(i)%displacement, 5)//' [L] where it stands'
+      end do
+   end function displacement_text
+
+   function values_text(limit) result(text)
+      type(stability_t), intent(in) :: limit
+      character(len=:), allocatable :: text
+      integer(ip) :: n, solved
+
+      n = size(limit%values, kind=ip)
+      solved = count(limit%values%code == STATUS_OK .or. limit%values%code == STATUS_NOT_CONVERGED, kind=ip)
+      text = to_text(n)//': '//to_text(solved)//' solved, '//to_text(n - solved)//' by their balance alone; '// &
+             plural(sum(limit%values%factorisations), 'factorisation', 'factorisations')
+   end function values_text
+
+end module atrito_stability_tables

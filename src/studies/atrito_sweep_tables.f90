@@ -1,0 +1,194 @@
+!> What a sweep writes beside the folders of its runs: sweep.tab, runs.tab, and the closing lines on the screen.
+module atrito_sweep_tables
+   use atrito_kinds, only: ip, wp
+   use atrito_page, only: page_t, begin_report, add_item, add_files, add_line, add_rule, left, right, number, plural
+   use atrito_read_table, only: table_file_t, read_table, find_column, item_text
+   use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_strings, only: string_t, append_string, join, to_text
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set
+   implicit none (type, external)
+   private
+   public :: sweep_run_t, read_summary, row_of_quantity, write_sweep, compose_sweep
+
+   !> One run of a sweep.
+   type :: sweep_run_t
+      character(len=:), allocatable :: label           !< 'nu=0.3, eps=1e-4'
+      character(len=:), allocatable :: folder          !< below the sweep's
+      type(string_t), allocatable :: texts(:)          !< values of the parameters as the user wrote them
+      real(wp), allocatable :: values(:)
+      integer :: code = STATUS_OK                      !< exit code of the run
+      integer(ip) :: factorisations = 0
+      type(table_file_t) :: summary                    !< summary.tab; without rows where there is none
+   end type sweep_run_t
+
+   integer(ip), parameter :: MOST_ROWS = 12              !< runs on the screen; all are in runs.tab
+   integer, parameter :: DIGITS = 5
+   integer, parameter :: VALUE_WIDTH = 13
+   character(len=*), parameter :: SHOWN(4) = [character(len=22) :: 'effective_area_percent', 'normal_resultant', 'max_pressure', &
+                                                                                                              'max_abs_shear']
+
+   character(len=VALUE_WIDTH), parameter :: HEADINGS(size(SHOWN)) = &
+                                            [character(len=VALUE_WIDTH) :: 'area [%]', 'normal [F]', 'max. p', 'max. |shear|']
+
+contains
+
+   !> Takes the summary of a run that wrote one. status: STATUS_FILE.
+   subroutine read_summary(folder, run, status)
+      character(len=*), intent(in) :: folder           !< of the run
+      type(sweep_run_t), intent(inout) :: run
+      type(status_t), intent(out) :: status
+
+      if (run%code /= STATUS_OK .and. run%code /= STATUS_NOT_CONVERGED) return
+      call read_table(folder//'/summary.tab', run%summary, status)
+   end subroutine read_summary
+
+   !> The row of a quantity of the first pair, or of the step; 0 where the summary has none.
+   pure integer(ip) function row_of_quantity(summary, quantity) result(row)
+      type(table_file_t), intent(in) :: summary
+      character(len=*), intent(in) :: quantity
+
+      do row = 1, summary%n_rows
+         if (item_text(summary, find_column(summary, 'quantity'), row) == quantity) return
+      end do
+      row = 0
+   end function row_of_quantity
+
+   !> Writes sweep.tab and runs.tab. status: STATUS_FILE.
+   subroutine write_sweep(folder, origin, names, runs, digits_of_tables, status)
+      character(len=*), intent(in) :: folder
+      type(origin_t), intent(in) :: origin
+      type(string_t), intent(in) :: names(:)           !< the parameters
+      type(sweep_run_t), intent(in) :: runs(:)
+      integer, intent(in) :: digits_of_tables
+      type(status_t), intent(out) :: status
+      type(table_t) :: tables(2)
+
+      call build_sweep(names, runs, tables(1))
+      call build_runs(names, runs, tables(2))
+      call write_table_set(folder, tables, origin, digits_of_tables, status)
+   end subroutine write_sweep
+
+   !> The parameters, then the columns of summary.tab.
+   subroutine build_sweep(names, runs, table)
+      type(string_t), intent(in) :: names(:)
+      type(sweep_run_t), intent(in) :: runs(:)
+      type(table_t), intent(out) :: table
+      integer(ip), allocatable :: of_row(:), step(:), pair(:)
+      type(string_t), allocatable :: quantities(:), amounts(:)
+      integer(ip) :: i, j, n
+
+      n = sum(runs%summary%n_rows)
+      allocate (of_row(n), step(n), pair(n), quantities(n), amounts(n))
+      n = 0
+      do i = 1, size(runs, kind=ip)
+         associate (summary => runs(i)%summary)
+            do j = 1, summary%n_rows
+               n = n + 1
+               of_row(n) = i
+               step(n) = nint(summary%value(find_column(summary, 'step'), j), ip)
+               pair(n) = nint(summary%value(find_column(summary, 'pair'), j), ip)
+               quantities(n)%s = item_text(summary, find_column(summary, 'quantity'), j)
+               amounts(n)%s = item_text(summary, find_column(summary, 'value'), j)
+            end do
+         end associate
+      end do
+      call begin_table(table, 'sweep', 'a row a quantity of a run: the parameters, then the columns of summary', n)
+      do i = 1, size(names, kind=ip)
+         call add_reals(table, names(i)%s, '-', [(runs(of_row(j))%values(i), j=1, n)], 0.0_wp)
+      end do
+      call add_integers(table, 'step', step)
+      call add_integers(table, 'pair', pair)
+      call add_words(table, 'quantity', '-', quantities, on_the_left=.true.)
+      call add_words(table, 'value', 'mixed', amounts, on_the_left=.false.)
+      do i = 1, size(runs, kind=ip)
+         if (runs(i)%code == STATUS_OK) cycle
+         call append_string(table%remarks, runs(i)%label//': exit code '//to_text(int(runs(i)%code, ip)))
+      end do
+   end subroutine build_sweep
+
+   !> A row a run: how it ended and where it is.
+   subroutine build_runs(names, runs, table)
+      type(string_t), intent(in) :: names(:)
+      type(sweep_run_t), intent(in) :: runs(:)
+      type(table_t), intent(out) :: table
+      type(string_t) :: folders(size(runs))
+      integer(ip) :: i, j, n
+
+      n = size(runs, kind=ip)
+      do i = 1, n
+         folders(i)%s = runs(i)%folder
+      end do
+      call begin_table(table, 'runs', 'a row a run', n)
+      call add_integers(table, 'run', [(i, i=1, n)])
+      do i = 1, size(names, kind=ip)
+         call add_reals(table, names(i)%s, '-', [(runs(j)%values(i), j=1, n)], 0.0_wp)
+      end do
+      call add_integers(table, 'exit', [(int(runs(i)%code, ip), i=1, n)])
+      call add_integers(table, 'factorisations', [(runs(i)%factorisations, i=1, n)])
+      call add_words(table, 'folder', '-', folders, on_the_left=.true.)
+   end subroutine build_runs
+
+   !> The closing lines: a row a run, of the first contact pair.
+   subroutine compose_sweep(deck, names, runs, folder, seconds, page, pictures)
+      character(len=*), intent(in) :: deck, folder
+      type(string_t), intent(in) :: names(:)
+      type(sweep_run_t), intent(in) :: runs(:)
+      real(wp), intent(in) :: seconds(2)               !< wall clock and processor
+      type(page_t), intent(out) :: page
+      type(string_t), intent(in) :: pictures(:) !< that were drawn, names without folder and ending
+      integer(ip) :: i, n
+
+      n = size(runs, kind=ip)
+      call begin_report(page, '   sweep of '//deck)
+      call add_rule(page, '-')
+      call add_line(page, row_of(join(names, ', '), 'outer', HEADINGS, 'exit'))
+      do i = 1, min(n, MOST_ROWS)
+         call add_line(page, row_of_run(runs(i)))
+      end do
+      if (n > MOST_ROWS) call add_line(page, '... and '//plural(n - MOST_ROWS, 'run', 'runs')//' more in sweep.tab')
+      call add_rule(page, '-')
+      call add_item(page, 'runs', to_text(n)//', '//to_text(count(runs%code == STATUS_OK, kind=ip))// &
+                    ' of them solved and checked; '//plural(sum(runs%factorisations), 'factorisation', 'factorisations'))
+      call add_item(page, 'time', number(seconds(1), 3)//' s ('//number(seconds(2), 3)//' s of processor)')
+      call add_files(page, folder, 'sweep runs, and a folder a run', pictures)
+   end subroutine compose_sweep
+
+   function row_of_run(run) result(text)
+      type(sweep_run_t), intent(in) :: run
+      character(len=:), allocatable :: text
+      character(len=VALUE_WIDTH) :: amounts(size(SHOWN))
+      integer :: i
+
+      do i = 1, size(SHOWN)
+         amounts(i) = amount(run, trim(SHOWN(i)))
+      end do
+      text = row_of(join(run%texts, ', '), trim(amount(run, 'picard_iterations')), amounts, &
+                    to_text(int(run%code, ip)))
+   end function row_of_run
+
+   !> Columns of the screen.
+   pure function row_of(values, outer, amounts, code) result(text)
+      character(len=*), intent(in) :: values, outer, amounts(:), code
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = left(values, 16)//right(outer, 6)
+      do i = 1, size(amounts)
+         text = text//right(trim(amounts(i)), VALUE_WIDTH)
+      end do
+      text = text//right(code, 5)
+   end function row_of
+
+   !> A value of the summary as text of a few digits; '-' where there is none.
+   pure function amount(run, quantity) result(text)
+      type(sweep_run_t), intent(in) :: run
+      character(len=*), intent(in) :: quantity
+      character(len=VALUE_WIDTH) :: text
+      integer(ip) :: row
+
+      row = row_of_quantity(run%summary, quantity)
+      text = '-'
+      if (row > 0) text = number(run%summary%value(find_column(run%summary, 'value'), row), DIGITS)
+   end function amount
+
+end module atrito_sweep_tables
