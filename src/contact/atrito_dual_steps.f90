@@ -16,7 +16,7 @@ module atrito_dual_steps
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: take_dual_steps
+   public :: take_dual_steps, opening_motion
 
    !> State of the unknown that is being driven to its bound: fixed, its multiplier not yet judged.
    integer(ip), parameter :: DRIVEN = 4

@@ -25,6 +25,32 @@ have_gnuplot=yes
 command -v gnuplot >/dev/null 2>&1 || have_gnuplot=no
 [ "$have_gnuplot" = yes ] || echo 'gnuplot is not installed: the pictures themselves are not checked'
 
+# drawn SCRIPT TABLE: what each panel of a script draws, by the names that the table has for the columns: `panel column ...`.
+drawn() {
+   awk '
+      FNR == 1 { file++ }
+      file == 1 && /^# columns:/ { for (i = 3; i <= NF; i++) name[i - 2] = $i }
+      file == 1 { next }
+      /^col\(c\)/ || /^marked\(/ { match($0, /column\([0-9]+\)/); print "by " name[substr($0, RSTART + 7, RLENGTH - 8) + 0] }
+      /^set label 1 / { panel = $4; sub(/^"/, "", panel) }
+      /^plot .*table/ {
+         line = panel
+         rest = $0
+         while (match(rest, /using [0-9]+:\([-a-z*]*(col|marked)\([0-9]+/)) {
+            item = substr(rest, RSTART + 6, RLENGTH - 6)
+            rest = substr(rest, RSTART + RLENGTH)
+            along = name[item + 0]
+            sub(/.*\(/, "", item)
+            line = line " " along ":" name[item + 0] }
+         print line }' "$2" "$1"
+}
+
+# The columns of a picture are those that its panels are named after.
+panels_draw() { # WHAT SCRIPT TABLE EXPECTED, a line each
+   drawn "$2" "$3" | awk '{ delete seen; line = $1; for (i = 2; i <= NF; i++) if (!($i in seen)) { seen[$i] = 1; line = line " " $i } print line }' >drawn.out
+   printf '%s\n' "$4" | diff drawn.out - >drawn.diff || { complain "$1: other columns"; cat drawn.diff; }
+}
+
 # every example, with and without friction
 rm -rf './-o d d' sweep grid told without
 for deck in "$input"/*.inp; do
@@ -41,6 +67,19 @@ pictures none mesh contact-1
 run 0 "$ex1" told --plot
 [ "$have_gnuplot" = no ] || says 'summary' told.out 'plots in     told/plots: mesh contact-1'
 says 'listing' told/ex1-plate-on-support.lst 'mesh, contact-1'
+
+panels_draw 'contact' told/plots/contact-1.gp told/contact.tab 'by pair
+by status
+pressure s:pressure s:weighted_pressure
+shear s:shear s:weighted_pressure
+slip s:slip
+gap s:gap'
+panels_draw 'contact without friction' ex1-plate-on-support-0/plots/contact-1.gp ex1-plate-on-support-0/contact.tab 'by pair
+by status
+pressure s:pressure
+gap s:gap'
+says 'marks of states' told/plots/contact-1.gp '(marked(8,0)) with points ls 4 title "open"'
+says 'marks of states' told/plots/contact-1.gp '(marked(8,2)) with points ls 6 title "slip"'
 
 # a script can be run again where it stands
 if [ "$have_gnuplot" = yes ]; then
@@ -135,6 +174,11 @@ says 'no folder' again.err 'warning [W-PLOT] no plots are written: without/plots
 # sweeps: a legend up to ten runs, then a palette; a picture against one parameter
 "$atrito" sweep "$ex1" --vary nu=0,0.1,0.3 --plot --quiet -o sweep 2>sweep.err || complain 'the sweep failed'
 pictures sweep overlay-1 overlay-summary
+panels_draw 'overlay' sweep/plots/overlay-1.gp told/contact.tab 'by pair
+pressure s:pressure
+shear s:shear
+slip s:slip
+gap s:gap'
 "$atrito" sweep "$ex1" --vary nu=0.1,0.2,0.3,0.4 --vary rho=0.1,0.2,0.3 --plot --quiet -o grid 2>grid.err || complain 'the grid failed'
 pictures grid overlay-1
 absent grid/plots/overlay-summary.gp

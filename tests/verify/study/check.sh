@@ -55,6 +55,18 @@ reference=$(awk '/^# strain_energy: reference/ { sub(",", "", $4); print $4 }' o
 wanted=$(value "100*($(summary half strain_energy) - $(summary level-0 strain_energy))/$reference")
 near 'what half the delta does' "$moved" "$(value "$wanted < 0 ? -($wanted) : $wanted")" "$(value "0.06*$moved")"
 
+# Exact stick has no eps; a stick slope is probed by twice of it.
+sed -e 's/^\*FRICTION, NONLOCAL/*FRICTION/' -e 's/^<nu>, <eps>, <rho>/<nu>, <slope>/' -e 's/^eps = 1e-4/slope = 1e7/' "$pillar" >steep.inp
+"$atrito" study steep.inp --levels 3 --elements cps9 -o steep --quiet --digits 17 || complain 'a study with a stick slope'
+run 0 steep.inp soft --refine 0 --digits 17 --quiet
+run 0 steep.inp twice --refine 0 --set slope=2e7 --digits 17 --quiet
+for quantity in strain_energy normal_resultant; do
+   moved=$(awk -v q="$quantity" '/^# twice the stick slope moves/ { for (i = 1; i < NF; i++) if ($i == q) print $(i + 2) }' steep/study.tab)
+   reference=$(awk -v q="$quantity:" '/: reference/ && $2 == q { sub(",", "", $4); print $4 }' steep/study.tab)
+   wanted=$(value "100*($(summary twice $quantity) - $(summary soft $quantity))/$reference")
+   near "what twice the stick slope does to $quantity" "$moved" "$(value "$wanted < 0 ? -($wanted) : $wanted")" "$(value "0.06*$moved")"
+done
+
 # The flat punch, against exact values: order 1 for both elements, since the singularity of the edge decides, and what is said of it.
 # P/2 is 1 and p(0) a/P is 1/pi; the energy is half the work of the tractions on the cut sides: Westergaard's field of
 # Z = -P/(pi cos w), sin w = z, by Simpson's rule, which the punch itself and the symmetry line add nothing to.
