@@ -12,9 +12,10 @@ module atrito_build_block
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, add_draft_block, note_places, spoil_block
+   use atrito_element_table, only: SHAPES
    use atrito_items, only: get_real, option_text, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: add_nodes, add_block, reserve_mesh, Q2_NODES
+   use atrito_mesh, only: add_nodes, add_block, reserve_mesh
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
@@ -125,7 +126,7 @@ contains
       logical :: good(6)
 
       call read_element_type(deck, card, n_nodes, spec%state, good(1))
-      if (n_nodes == Q2_NODES) spec%order = 2
+      spec%order = SHAPES(n_nodes)%degree
       call read_count(deck, card, 'NX', spec%n(1), good(2))
       call read_count(deck, card, 'NY', spec%n(2), good(3))
       call read_corners(deck, card, spec, good(4))

@@ -5,9 +5,10 @@ module atrito_refine_model
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
+   use atrito_element_table, only: SHAPES
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
-   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
@@ -24,16 +25,16 @@ contains
    subroutine refine_model(deck, levels, shape, model, draft)
       type(deck_t), intent(in) :: deck
       integer(ip), intent(in) :: levels                !< >= 0; each quadrilateral into 4**levels
-      integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES for all elements; 0: their own
+      integer(ip), intent(in) :: shape                 !< for all elements, place in SHAPES; 0: their own
       type(model_t), intent(inout) :: model
       type(draft_t), intent(inout) :: draft
       type(mesh_t) :: coarse
       integer(ip) :: i, pieces
 
       pieces = 2**levels
-      if (shape == Q1_NODES .and. any(model%mesh%shape == Q2_NODES)) then
+      if (SHAPES(max(shape, 1_ip))%degree == 1 .and. any(SHAPES(model%mesh%shape)%degree > 1)) then
          pieces = 2*pieces
-         if (any(model%mesh%shape == Q1_NODES)) then
+         if (any(SHAPES(model%mesh%shape)%degree == 1)) then
             call report_deck_error(deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
                                    expected='a mesh of one kind')
             return
