@@ -7,7 +7,7 @@ module atrito_run
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
-   use atrito_element_table, only: SHAPES, KINDS, kind_named
+   use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
    use atrito_files, only: check_folder
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_hdf5, only: has_hdf5
@@ -92,7 +92,7 @@ contains
          area = area + signed_area(model%mesh, e)
       end do
       facts%h = sqrt(area/real(model%mesh%n_elements, wp))
-      associate (degree => SHAPES(model%mesh%shape)%degree)
+      associate (degree => DEGREE_OF(model%mesh%shape))
          if (all(degree == degree(1))) facts%degree = degree(1)
       end associate
       if (size(model%pairs) == 0) return

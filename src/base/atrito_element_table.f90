@@ -7,7 +7,7 @@ module atrito_element_table
    implicit none (type, external)
    private
    public :: element_shape_t, element_kind_t, plane_state_t, SHAPES, KINDS, STATES, PLANE_STRAIN, PLANE_STRESS
-   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average
+   public :: DEGREE_OF, BEST_OF, MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average
 
    integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
 
@@ -39,18 +39,21 @@ module atrito_element_table
    integer, private :: i
    !> Corners, middles of the sides, centre.
    real(wp), parameter :: SQUARE(2, MOST_NODES) = reshape([real(wp) :: -1, -1, 1, -1, 1, 1, -1, 1, &
-                                                           0, -1, 1, 0, 0, 1, -1, 0, 0, 0], [2, MOST_NODES])
+                                                                                   0, -1, 1, 0, 0, 1, -1, 0, 0, 0], [2, MOST_NODES])
    type(element_shape_t), parameter :: SHAPES(MOST_NODES) = &
-      [(NO_SHAPE, i=1, 3), element_shape_t(4, 4, 1, 4, 1, 'Q1', 'Quadrilateral', SQUARE), &
-       (NO_SHAPE, i=5, 8), element_shape_t(9, 4, 2, 9, 4, 'Q2', 'Quadrilateral_9', SQUARE)]
+                                       [(NO_SHAPE, i=1, 3), element_shape_t(4, 4, 1, 4, 1, 'Q1', 'Quadrilateral', SQUARE), &
+                                        (NO_SHAPE, i=5, 8), element_shape_t(9, 4, 2, 9, 4, 'Q2', 'Quadrilateral_9', SQUARE)]
+
+   !> Columns by themselves: of all elements of a mesh, SHAPES(shape)%degree would copy the rows.
+   integer(ip), parameter :: DEGREE_OF(MOST_NODES) = SHAPES%degree, BEST_OF(MOST_NODES) = SHAPES%n_best
 
    integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2
    type(plane_state_t), parameter :: STATES(2) = [plane_state_t('CPE', 'plane strain', .false.), &
                                                   plane_state_t('CPS', 'plane stress', .true.)]
 
    type(element_kind_t), parameter :: KINDS(4) = &
-      [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
-       element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), element_kind_t('CPS9', 9, PLANE_STRESS, .true.)]
+                                      [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
+                                   element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), element_kind_t('CPS9', 9, PLANE_STRESS, .true.)]
 
 contains
 

@@ -7,7 +7,7 @@
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: stress_33, von_mises
-   use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: SHAPES, BEST_OF, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, side_count
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, COMPONENTS, clear_samples, add_sample, is_laid, lay_patch, &
@@ -41,8 +41,8 @@ module atrito_stress_recovery
    !> How good the patch of a corner is for a node of the element: 1 the node's own, or that of its edge or its element; then the
    !> corners next to it along an edge; then across the element. Only the best rank at hand is taken. (corner, node)
    integer(ip), parameter :: RANK_OF(MOST_CORNERS, MOST_NODES) = reshape([1, 2, 3, 2, 2, 1, 2, 3, 3, 2, 1, 2, 2, 3, 2, 1, &
-                                                                    1, 1, 2, 2, 2, 1, 1, 2, 2, 2, 1, 1, 1, 2, 2, 1, &
-                                                                    1, 1, 1, 1], [4, 9])
+                                                                          1, 1, 2, 2, 2, 1, 1, 2, 2, 2, 1, 1, 1, 2, 2, 1, &
+                                                                          1, 1, 1, 1], [4, 9])
    integer(ip), parameter :: RANK_NONE = 4
 
 contains
@@ -79,7 +79,7 @@ contains
       call build_patches(fem, work%patches)
       call make_point_rules(work%best, best=.true.)
       call make_point_rules(work%all, best=.false.)
-      k = max(1_ip, maxval(SHAPES(fem%mesh%shape)%n_best))
+      k = max(1_ip, maxval(BEST_OF(fem%mesh%shape)))
       allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do run = 1, run_count(fem%mesh%n_elements)

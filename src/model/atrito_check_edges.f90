@@ -4,7 +4,7 @@ module atrito_check_edges
    use atrito_deck, only: deck_t
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, place_token, ids_text
-   use atrito_element_table, only: SHAPES
+   use atrito_element_table, only: SHAPES, DEGREE_OF
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t, side_count, face_end, middle_node
    use atrito_model, only: model_t
@@ -24,7 +24,7 @@ contains
       type(number_list_t) :: ids
       integer(ip) :: e, first
 
-      if (all(SHAPES(model%mesh%shape(:model%mesh%n_elements))%degree == 1)) return
+      if (all(DEGREE_OF(model%mesh%shape(:model%mesh%n_elements)) == 1)) return
       allocate (misfit(model%mesh%n_elements), source=.false.)
       do e = 1, model%mesh%n_elements
          if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, draft, e, misfit)

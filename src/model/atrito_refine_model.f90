@@ -5,7 +5,7 @@ module atrito_refine_model
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
-   use atrito_element_table, only: SHAPES
+   use atrito_element_table, only: DEGREE_OF
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
@@ -32,9 +32,9 @@ contains
       integer(ip) :: i, pieces
 
       pieces = 2**levels
-      if (SHAPES(max(shape, 1_ip))%degree == 1 .and. any(SHAPES(model%mesh%shape)%degree > 1)) then
+      if (DEGREE_OF(max(shape, 1_ip)) == 1 .and. any(DEGREE_OF(model%mesh%shape) > 1)) then
          pieces = 2*pieces
-         if (any(SHAPES(model%mesh%shape)%degree == 1)) then
+         if (any(DEGREE_OF(model%mesh%shape) == 1)) then
             call report_deck_error(deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
                                    expected='a mesh of one kind')
             return

@@ -6,7 +6,7 @@
 !> kept for a next run.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
-   use atrito_element_table, only: SHAPES
+   use atrito_element_table, only: SHAPES, BEST_OF
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t
    use atrito_results, only: scene_t
@@ -102,7 +102,7 @@ contains
                                 POINT_BYTES = 250_lp
       integer(lp) :: samples
 
-      samples = maxval(SHAPES(model%mesh%shape)%n_best)
+      samples = maxval(BEST_OF(model%mesh%shape))
       bytes = NODE_BYTES*model%mesh%n_nodes + (ELEMENT_BYTES + samples*SAMPLE_BYTES)*model%mesh%n_elements &
               + ROW_BYTES*stress_rows(model) + POINT_BYTES*data%line%n
    end function recovery_bytes
