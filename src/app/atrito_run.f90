@@ -7,11 +7,12 @@ module atrito_run
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
    use atrito_deck, only: deck_t
+   use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
    use atrito_files, only: check_folder
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_hdf5, only: has_hdf5
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: signed_area, PLANE_STRAIN, PLANE_STRESS, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: signed_area
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_option_table, only: SOLVERS, CONTACT_FORMS
@@ -25,7 +26,7 @@ module atrito_run
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
                            SOLVER_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t
+   use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
    use atrito_threads, only: set_threads
    use atrito_timers, only: start_phase, stop_phase
@@ -83,8 +84,9 @@ contains
          area = area + signed_area(model%mesh, e)
       end do
       facts%h = sqrt(area/real(model%mesh%n_elements, wp))
-      if (all(model%mesh%shape == Q1_NODES)) facts%degree = 1
-      if (all(model%mesh%shape == Q2_NODES)) facts%degree = 2
+      associate (degree => DEGREE_OF(model%mesh%shape))
+         if (all(degree == degree(1))) facts%degree = degree(1)
+      end associate
       if (size(model%pairs) == 0) return
       do i = 1, size(model%pairs)
          associate (law => model%interactions(model%pairs(i)%interaction))
@@ -198,14 +200,13 @@ contains
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
    end subroutine load_model
 
-   !> cpe is plane strain, cps plane stress; nothing asked is always there.
+   !> Whether all elements of the deck have the plane state of a kind; nothing asked is always there.
    pure logical function has_state(model, element)
       type(model_t), intent(in) :: model
-      character(len=*), intent(in) :: element       !< cpe4, cps4, cpe9, cps9 or empty
+      character(len=*), intent(in) :: element       !< name of a kind, or empty
 
       has_state = .true.
-      if (index(element, 'cpe') == 1) has_state = all(model%mesh%state == PLANE_STRAIN)
-      if (index(element, 'cps') == 1) has_state = all(model%mesh%state == PLANE_STRESS)
+      if (len_trim(element) > 0) has_state = all(model%mesh%state == KINDS(kind_named(upper_case(trim(element))))%state)
    end function has_state
 
    pure function solve_options(command) result(options)

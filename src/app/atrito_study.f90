@@ -4,9 +4,9 @@ module atrito_study
    use atrito_body_store, only: body_store_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_status
+   use atrito_element_table, only: KINDS, kind_named
    use atrito_folder_claim, only: folder_claim_t, release_folder
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_messages, only: clear_messages
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_page, only: page_t
@@ -15,7 +15,7 @@ module atrito_study
    use atrito_run, only: run_deck, load_model, solve_options, agree_on_outcome
    use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, join, nearest_names, to_text
+   use atrito_strings, only: string_t, join, nearest_names, to_text, upper_case
    use atrito_summary, only: quantity_t, scales_t, quantity_names, pair_quantities, step_quantities, summarise_pair
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
    use atrito_study_plot, only: write_study_plot
@@ -272,12 +272,12 @@ contains
       one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
    end subroutine make_command
 
+   !> 0: the deck's own.
    pure integer(ip) function shape_of(element)
       character(len=*), intent(in) :: element
 
       shape_of = 0
-      if (index(element, '4') > 0) shape_of = Q1_NODES
-      if (index(element, '9') > 0) shape_of = Q2_NODES
+      if (len_trim(element) > 0) shape_of = KINDS(kind_named(upper_case(trim(element))))%shape
    end function shape_of
 
    !> A quantity of the first pair, or of the step; `missing` where the summary has none.

@@ -1,11 +1,12 @@
 !> The outlines of all bodies, and what each face of them looks at: for contact that is found and not given pair by pair. In linear
 !> time but for the depth of the tree of the faces.
 module atrito_outlines
+   use atrito_element_table, only: MOST_SIDES
    use atrito_face_geometry, only: face_arc_length, outward_normal
    use atrito_faces, only: face_list_t, node_elements_t, outer_faces
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_master, only: master_t, master_of_faces
-   use atrito_mesh, only: mesh_t, face_nodes, face_end, MOST_FACES => FACES
+   use atrito_mesh, only: mesh_t, face_nodes, face_end
    use atrito_piece_tree, only: search_t, begin_search, next_leaf, FACING
    use atrito_pieces, only: place_at, normal_at, cross_piece, END_TOLERANCE
    use atrito_points, only: CORNER
@@ -55,7 +56,7 @@ contains
       associate (faces => outlines%faces)
          outlines%body = body_of_element(faces%element(:faces%n))
          allocate (outlines%length(faces%n), outlines%next(faces%n))
-         allocate (outlines%place(MOST_FACES, mesh%n_elements), source=0_ip)
+         allocate (outlines%place(MOST_SIDES, mesh%n_elements), source=0_ip)
          do i = 1, faces%n
             outlines%place(faces%face(i), faces%element(i)) = i
             outlines%length(i) = face_arc_length(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), 1.0_wp)
@@ -78,7 +79,7 @@ contains
             from(node) = merge(MANY, i, from(node) /= 0)
          end do
          do i = 1, faces%n
-            outlines%next(i) = max(from(mesh%nodes(face_end(faces%face(i)), faces%element(i))), 0_ip)
+            outlines%next(i) = max(from(mesh%nodes(face_end(mesh, faces%element(i), faces%face(i)), faces%element(i))), 0_ip)
             if (outlines%next(i) == 0) cycle
             if (.not. goes_on(normal_of(mesh, faces, i, 1.0_wp), normal_of(mesh, faces, outlines%next(i), -1.0_wp))) then
                outlines%next(i) = 0

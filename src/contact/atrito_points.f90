@@ -3,9 +3,10 @@
 !> NODAL quadrature, as in the paper: the points are the slave's nodes, trapezoidal for Q1 and Simpson for Q2. Each looks along
 !> the slave's normal for the master, element faces or rigid segments.
 module atrito_points
+   use atrito_element_table, only: MOST_SIDES
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t, face_nodes, FACES
+   use atrito_mesh, only: mesh_t, face_nodes
    use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t
    use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, look_at_end, &
@@ -88,7 +89,7 @@ contains
       points%n_faces = slave%n
       used = [(finds_master(mesh, slave, i, master), i=1, slave%n)]
       points%n_left_out = count(.not. used, kind=ip)
-      points%faces = pack([(int(slave%element(i), lp)*FACES + slave%face(i), i=1, slave%n)], used)
+      points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(points, 3*slave%n)
       call place_points(mesh, thickness, slave, used, points)
       call trim_points(points)

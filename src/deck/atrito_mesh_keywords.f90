@@ -1,13 +1,13 @@
 !> Definitions of the keywords that make meshes, sets and surfaces.
 module atrito_mesh_keywords
+   use atrito_element_table, only: SHAPES, KINDS, MOST_NODES
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
-                             LEVEL_MODEL, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, &
-                             KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
+                              LEVEL_MODEL, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, &
+                              KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
+   use atrito_kinds, only: ip
    implicit none (type, external)
    private
    public :: define_mesh_keywords
-
-   character(len=*), parameter :: ELEMENT_TYPES = 'CPE4 CPS4 CPE9+ CPS9+'
 
 contains
 
@@ -117,19 +117,17 @@ contains
 
    subroutine define_element_keywords(k)
       type(keyword_list_t), intent(inout) :: k
+      integer(ip) :: shape
 
       call define_keyword(k, 'ELEMENT', LEVEL_MODEL, 'elements by number and nodes', &
                           doc='Corners counter-clockwise, then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre. CPE is plane '// &
                           'strain, CPS plane stress; 4 nodes are bilinear, 9 biquadratic. Faces: S1 = nodes 1-2, S2 = 2-3, '// &
                           'S3 = 3-4, S4 = 4-1.')
-      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=ELEMENT_TYPES)
+      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types())
       call add_option(k, 'ELSET', KIND_NAME, 'puts these elements into an element set')
-      call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE4|CPS4')
-      call add_item(k, 'id', KIND_ID, 'number of the element, positive')
-      call add_element_nodes(k, '1234')
-      call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE=CPE9|CPS9')
-      call add_item(k, 'id', KIND_ID, 'number of the element, positive')
-      call add_element_nodes(k, '123456789')
+      do shape = 1, MOST_NODES
+         if (SHAPES(shape)%n_nodes > 0) call add_element_form(k, shape)
+      end do
       call add_example(k, '*ELEMENT, TYPE=CPE4, ELSET=plate|1, 1, 2, 102, 101')
 
       call define_keyword(k, 'ELGEN', LEVEL_MODEL, 'repeats an element in a row, and the row', &
@@ -160,6 +158,36 @@ contains
       call add_example(k, '*ELSET, ELSET=plate, GENERATE|1, 75')
    end subroutine define_element_keywords
 
+   !> The lines of the elements of one shape.
+   subroutine add_element_form(k, shape)
+      type(keyword_list_t), intent(inout) :: k
+      integer(ip), intent(in) :: shape                 !< place in SHAPES
+      character(len=:), allocatable :: names
+      integer(ip) :: i
+
+      names = ''
+      do i = 1, size(KINDS, kind=ip)
+         if (KINDS(i)%shape == shape) names = names//'|'//trim(KINDS(i)%name)
+      end do
+      call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE='//names(2:))
+      call add_item(k, 'id', KIND_ID, 'number of the element, positive')
+      do i = 1, shape
+         call add_item(k, 'node '//achar(iachar('0') + i), KIND_ID, merge('corner  ', 'mid-side', i <= SHAPES(shape)%n_corners))
+      end do
+   end subroutine add_element_form
+
+   !> The names of all elements, a + behind those that Abaqus has not.
+   pure function element_types() result(names)
+      character(len=:), allocatable :: names
+      integer(ip) :: i
+
+      names = ''
+      do i = 1, size(KINDS, kind=ip)
+         names = names//' '//trim(KINDS(i)%name)//trim(merge('+', ' ', KINDS(i)%own))
+      end do
+      names = names(2:)
+   end function element_types
+
    subroutine define_block(k)
       type(keyword_list_t), intent(inout) :: k
 
@@ -169,7 +197,7 @@ contains
                           '-LEFT. COPY makes columns and rows of equal blocks, each a body of its own: that in column 3 of '// &
                           'row 2 is <elset>-3-2, with its own sets and sides; <elset> holds all of them, and <elset>-BOTTOM '// &
                           'those of the first row, -TOP of the last row, -LEFT of the first column, -RIGHT of the last.')
-      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=ELEMENT_TYPES)
+      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types())
       call add_option(k, 'ELSET!', KIND_NAME, 'name of the block')
       call add_option(k, 'NX!', KIND_INTEGER, 'elements along BOTTOM')
       call add_option(k, 'NY!', KIND_INTEGER, 'elements along LEFT')
@@ -243,15 +271,5 @@ contains
       call add_item(k, 'last', KIND_ID, 'number of the last '//member)
       call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next', default='1')
    end subroutine add_set_forms
-
-   subroutine add_element_nodes(k, numbers)
-      type(keyword_list_t), intent(inout) :: k
-      character(len=*), intent(in) :: numbers
-      integer :: i
-
-      do i = 1, len(numbers)
-         call add_item(k, 'node '//numbers(i:i), KIND_ID, merge('corner  ', 'mid-side', i <= 4))
-      end do
-   end subroutine add_element_nodes
 
 end module atrito_mesh_keywords

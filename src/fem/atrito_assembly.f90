@@ -6,8 +6,9 @@
 !> Where the coordinates of a regular mesh were printed with 10 to 15 digits, no two elements are equal, but most are within the
 !> `grain` of those digits. Whoever puts the difference right afterwards takes one stiffness for these, too.
 module atrito_assembly
+   use atrito_element_table, only: MOST_NODES
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t, Q2_NODES
+   use atrito_mesh, only: mesh_t
    use atrito_bodies, only: bodies_t, element_equations
    use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
@@ -32,12 +33,12 @@ module atrito_assembly
    !> All that a stiffness depends on.
    type :: form_t
       integer(ip) :: section = 0, state = 0, shape = 0
-      real(wp) :: x(2, Q2_NODES) = 0.0_wp          !< relative to the first node
+      real(wp) :: x(2, MOST_NODES) = 0.0_wp          !< relative to the first node
    end type form_t
 
    !> The stiffness computed last.
    type, extends(form_t) :: stiffness_cache_t
-      real(wp) :: k(2*Q2_NODES, 2*Q2_NODES) = 0.0_wp
+      real(wp) :: k(2*MOST_NODES, 2*MOST_NODES) = 0.0_wp
    end type stiffness_cache_t
 
    !> A run of elements, compared one after the other. Places are those in the list of elements; 0: none.
@@ -276,7 +277,7 @@ contains
       integer(ip), intent(in) :: element
       real(wp), intent(out) :: packed(:)
       type(form_t) :: form
-      real(wp) :: k(2*Q2_NODES, 2*Q2_NODES)
+      real(wp) :: k(2*MOST_NODES, 2*MOST_NODES)
       integer(ip) :: n
 
       call take_form(fem, element, form)
@@ -292,7 +293,7 @@ contains
       real(wp), intent(out) :: diagonal(:)         !< (n_kept) [F/L]
       type(stiffness_cache_t) :: cache
       logical, allocatable :: has_kept(:)          !< (elements of the body)
-      integer(ip) :: equations(2*Q2_NODES), i, k, e, n, first
+      integer(ip) :: equations(2*MOST_NODES), i, k, e, n, first
 
       diagonal = 0.0_wp
       associate (body => fem%bodies%list(i_body))
@@ -360,7 +361,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element
       integer(ip), intent(in) :: shape             !< of the other one; 0: there is none
-      real(wp), intent(in) :: x(2, Q2_NODES)       !< of the other one, less those of its first node [L]
+      real(wp), intent(in) :: x(2, MOST_NODES)       !< of the other one, less those of its first node [L]
       real(wp), intent(in) :: grain                !< [L]
       real(wp) :: first(2), here(2), way(2), largest, size_of_element, difference
       integer(ip) :: k

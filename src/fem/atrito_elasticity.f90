@@ -1,7 +1,7 @@
 !> Linear isotropic elasticity in the plane. Strains are e11, e22, 2 e12.
 module atrito_elasticity
+   use atrito_element_table, only: STATES, can_average
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: PLANE_STRAIN, PLANE_STRESS, Q1_NODES
    implicit none (type, external)
    private
    public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, has_mean_dilatation
@@ -24,13 +24,13 @@ contains
    !> Stress = matrix * strain for s11, s22, s12 [F/L^2].
    pure function elasticity_matrix(section, state) result(d)
       type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: state     !< place in STATES
       real(wp) :: d(3, 3)
       real(wp) :: lambda, shear
 
       associate (young => section%young, mu => section%poisson)
          shear = young/(2*(1 + mu))
-         if (state == PLANE_STRESS) then
+         if (STATES(state)%is_thin) then
             lambda = young*mu/((1 + mu)*(1 - mu))
          else
             lambda = young*mu/((1 + mu)*(1 - 2*mu))
@@ -46,12 +46,12 @@ contains
    !> The inverse of the elasticity matrix [L^2/F]; it stays finite at Poisson's ratio 1/2.
    pure function compliance_matrix(section, state) result(c)
       type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: state     !< place in STATES
       real(wp) :: c(3, 3)
 
       c = 0.0_wp
       associate (young => section%young, mu => section%poisson)
-         if (state == PLANE_STRESS) then
+         if (STATES(state)%is_thin) then
             c(1, 1) = 1/young
             c(1, 2) = -mu/young
          else
@@ -64,14 +64,13 @@ contains
       c(2, 1) = c(1, 2)
    end function compliance_matrix
 
-   !> Whether the strains of an element have one dilatation, the mean of the element (B-bar): four nodes in plane strain. In
-   !> plane stress the thickness gives way and nothing locks; elements with nine nodes hardly lock.
+   !> Whether the strains of an element have one dilatation, the mean of the element (B-bar).
    pure logical function has_mean_dilatation(section, state, n_nodes)
       type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< PLANE_STRAIN or PLANE_STRESS
-      integer(ip), intent(in) :: n_nodes   !< Q1_NODES or Q2_NODES
+      integer(ip), intent(in) :: state     !< place in STATES
+      integer(ip), intent(in) :: n_nodes   !< of the element
 
-      has_mean_dilatation = section%formulation == FORMULATION_BBAR .and. state == PLANE_STRAIN .and. n_nodes == Q1_NODES
+      has_mean_dilatation = section%formulation == FORMULATION_BBAR .and. can_average(n_nodes, state)
    end function has_mean_dilatation
 
    !> The stress across the plane.
@@ -81,7 +80,7 @@ contains
       real(wp), intent(in) :: s(3)         !< s11, s22, s12 [F/L^2]
 
       stress_33 = section%poisson*(s(1) + s(2))
-      if (state == PLANE_STRESS) stress_33 = 0.0_wp
+      if (STATES(state)%is_thin) stress_33 = 0.0_wp
    end function stress_33
 
    !> Von Mises' equivalent stress.

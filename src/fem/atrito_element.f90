@@ -3,11 +3,11 @@
 !> Coordinates are taken relative to the element's first node: the derivatives of the shape functions add up to zero only but for
 !> round-off, which far from the origin would cost digits.
 module atrito_element
+   use atrito_element_table, only: SHAPES, MOST_NODES
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_elasticity, only: elastic_t, elasticity_matrix, has_mean_dilatation
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
-   use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, &
-                                     gauss_count, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
+   use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
+                              gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
    implicit none (type, external)
    private
    public :: element_stiffness, mean_gradients, pressure_load, body_load
@@ -15,7 +15,7 @@ module atrito_element
    !> Bits of the largest entry of a stiffness that are kept: four fewer than a double has, room for exact sums.
    integer, parameter :: KEPT_BITS = digits(1.0_wp) - 4
    !> Dofs of the largest element.
-   integer, parameter :: MOST_DOFS = 2*Q2_NODES
+   integer, parameter :: MOST_DOFS = 2*MOST_NODES
 
 contains
 
@@ -30,9 +30,9 @@ contains
    pure subroutine element_stiffness(x, section, state, k)
       real(wp), intent(in) :: x(:, :)              !< coordinates [L], (2, n)
       type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state             !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: k(:, :)             !< (2n, 2n)
-      real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, Q2_NODES), d(3, 3), bulk, shear
+      real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, MOST_NODES), d(3, 3), bulk, shear
       integer(ip) :: n, i, j
 
       n = size(x, 2, kind=ip)
@@ -61,12 +61,12 @@ contains
    !> The integrals over the element of ga gb', a < b.
    pure subroutine integrate_products(n, x, products)
       integer(ip), intent(in) :: n
-      real(wp), intent(in) :: x(2, Q2_NODES)       !< less those of the first node [L]
+      real(wp), intent(in) :: x(2, MOST_NODES)       !< less those of the first node [L]
       real(wp), intent(out) :: products(MOST_DOFS, MOST_DOFS) !< blocks a < b; others are undefined
       integer(ip) :: i
 
       products(:2*n, :2*n) = 0.0_wp
-      if (n == Q1_NODES) then
+      if (n == 4) then
          do i = 1, size(Q1_XI_SLOPES, 2, kind=ip)
             call add_products(n, x, Q1_XI_SLOPES(:, i), Q1_ETA_SLOPES(:, i), 1.0_wp, products)
          end do
@@ -131,17 +131,17 @@ contains
    !> The work of the mean dilatation (T. J. R. Hughes, Int. J. Numer. Methods Eng. 15, 1980, for the plane: half of it in either
    !> direction; e33 stays 0, and s33 = mu (s11 + s22)).
    pure subroutine add_mean_dilatation(x, bulk, k)
-      real(wp), intent(in) :: x(2, Q2_NODES)       !< of Q1_NODES nodes [L]
+      real(wp), intent(in) :: x(2, MOST_NODES)       !< of four nodes [L]
       real(wp), intent(in) :: bulk
       real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
-      real(wp) :: mean(2*Q1_NODES), d(2), e(2), area
+      real(wp) :: mean(8), d(2), e(2), area
       integer(ip) :: b
 
-      mean = reshape(mean_gradients(x(:, :Q1_NODES)), [2*Q1_NODES])
+      mean = reshape(mean_gradients(x(:, :4)), [8])
       d = x(:, 3) - x(:, 1)
       e = x(:, 4) - x(:, 2)
       area = 0.5_wp*(d(1)*e(2) - d(2)*e(1))
-      do b = 3, 2*Q1_NODES
+      do b = 3, 8
          associate (last => 2*((b - 1)/2))         ! dofs of the nodes before
             k(:last, b) = k(:last, b) + mean(:last)*(bulk*area*mean(b))
          end associate
@@ -238,8 +238,8 @@ contains
    !> dN_a/dx1 is half the height of the diagonal from the node before a to the node behind it. sum(mean_gradients*u) is the mean
    !> dilatation.
    pure function mean_gradients(x) result(g)
-      real(wp), intent(in) :: x(:, :)              !< (2, Q1_NODES) [L]
-      real(wp) :: g(2, Q1_NODES)
+      real(wp), intent(in) :: x(:, :)              !< (2, 4) [L]
+      real(wp) :: g(2, 4)
       real(wp) :: d(2), e(2), twice_area
 
       d = x(:, 3) - x(:, 1)
@@ -285,7 +285,7 @@ contains
 
       n_nodes = size(x, 2, kind=ip)
       f = 0.0_wp
-      do point = 1, gauss_count(n_nodes)**2
+      do point = 1, SHAPES(n_nodes)%n_points
          call gauss_point(n_nodes, point, xi, weight)
          j = matmul(from_first(x), shape_gradients(n_nodes, xi))
          jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)

@@ -3,10 +3,9 @@
 module atrito_error_estimate
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: compliance_matrix
+   use atrito_element_table, only: MOST_NODES
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
-   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
-   use atrito_shape_functions, only: gauss_count
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_stress_recovery, only: stress_field_t
    use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
@@ -34,15 +33,14 @@ contains
       type(energies_t), intent(out) :: energies
       real(wp), intent(in), optional :: unit        !< displacements and stresses are divided by it first: a power of two, so that
       !< squares of very large or small ones stay in the range of numbers
-      type(point_rule_t) :: rules(2)
+      type(point_rule_t) :: rules(MOST_NODES)
       type(energies_t) :: parts(run_count(fem%mesh%n_elements))
       real(wp) :: per_unit
       integer(ip) :: run
 
       per_unit = 1.0_wp
       if (present(unit)) per_unit = 1/unit
-      call make_point_rule(Q1_NODES, gauss_count(Q1_NODES), rules(1))
-      call make_point_rule(Q2_NODES, gauss_count(Q2_NODES), rules(2))
+      call make_point_rules(rules, best=.false.)
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do run = 1, size(parts, kind=ip)
          call measure_run(fem, u, field, per_unit, rules, run, parts(run))
@@ -58,7 +56,7 @@ contains
       real(wp), intent(in) :: u(:, :)
       type(stress_field_t), intent(in) :: field
       real(wp), intent(in) :: per_unit
-      type(point_rule_t), intent(in) :: rules(2)
+      type(point_rule_t), intent(in) :: rules(MOST_NODES)
       integer(ip), intent(in) :: run
       type(energies_t), intent(out) :: energies
       type(point_geometry_t) :: geometry
@@ -66,7 +64,7 @@ contains
 
       call find_run(run, fem%mesh%n_elements, first, last)
       do e = first, last
-         associate (rule => rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)))
+         associate (rule => rules(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
             call add_element(fem, e, u, field, per_unit, rule, geometry, energies)
          end associate

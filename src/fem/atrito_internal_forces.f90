@@ -6,9 +6,10 @@
 module atrito_internal_forces
    use, intrinsic :: iso_c_binding, only: c_bool
    use atrito_assembly, only: fem_t, stiffness_cache_t, cached_stiffness
+   use atrito_element_table, only: MOST_NODES
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: mesh_t
    use atrito_range, only: work_of, unit_of
    use atrito_threads, only: n_threads, is_shared, run_count, find_run
    implicit none (type, external)
@@ -116,7 +117,7 @@ contains
       real(wp), intent(inout) :: work(:)             !< of each run, over the unit [F]
       type(late_forces_t), intent(inout) :: late
       type(stiffness_cache_t) :: cache
-      real(wp) :: ue(2*Q2_NODES), fe(2*Q2_NODES)
+      real(wp) :: ue(2*MOST_NODES), fe(2*MOST_NODES)
       integer(ip) :: run, first, last, e, n
 
       ue = 0.0_wp
@@ -140,7 +141,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: u(:, :)
-      real(wp), intent(inout) :: ue(2*Q2_NODES)
+      real(wp), intent(inout) :: ue(2*MOST_NODES)
       integer(ip) :: k
 
       do k = 1, mesh%shape(e)
@@ -152,14 +153,14 @@ contains
    !> Two loops, since the compiler makes much more of eight than of n.
    pure subroutine multiply_stiffness(n, k, u, f)
       integer(ip), intent(in) :: n                   !< dofs of the element
-      real(wp), intent(in) :: k(2*Q2_NODES, 2*Q2_NODES), u(2*Q2_NODES)
-      real(wp), intent(inout) :: f(2*Q2_NODES)
+      real(wp), intent(in) :: k(2*MOST_NODES, 2*MOST_NODES), u(2*MOST_NODES)
+      real(wp), intent(inout) :: f(2*MOST_NODES)
       integer(ip) :: j
 
       f(:n) = 0.0_wp
-      if (n == 2*Q1_NODES) then
-         do j = 1, 2*Q1_NODES
-            f(:2*Q1_NODES) = f(:2*Q1_NODES) + k(:2*Q1_NODES, j)*u(j)
+      if (n == 8) then
+         do j = 1, 8
+            f(:8) = f(:8) + k(:8, j)*u(j)
          end do
       else
          do j = 1, n
@@ -182,7 +183,7 @@ contains
    pure subroutine hand_out(mesh, e, fe, owner, force, late)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: e
-      real(wp), intent(in) :: fe(2*Q2_NODES)
+      real(wp), intent(in) :: fe(2*MOST_NODES)
       integer(ip), intent(in) :: owner(:)
       real(wp), intent(inout) :: force(:, :)
       type(late_forces_t), intent(inout) :: late
@@ -230,7 +231,7 @@ contains
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
       real(wp), intent(out) :: size_of_force(:, :)   !< (2, n_nodes) [F]
       type(stiffness_cache_t) :: cache
-      real(wp) :: ue(2*Q2_NODES), fe(2*Q2_NODES)
+      real(wp) :: ue(2*MOST_NODES), fe(2*MOST_NODES)
       integer(ip) :: e, k, node
 
       size_of_force = 0.0_wp

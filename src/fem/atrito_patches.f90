@@ -5,9 +5,10 @@
 module atrito_patches
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: elastic_t
+   use atrito_element_table, only: STATES, MOST_NODES, MOST_CORNERS
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
-   use atrito_mesh, only: mesh_t, Q1_NODES
+   use atrito_mesh, only: mesh_t
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
@@ -19,7 +20,7 @@ module atrito_patches
    integer(ip), parameter :: PATCH_OUTER = 2     !< on the outline, where no interior patch is at hand; two elements or more
    integer(ip), parameter :: PATCH_SINGLE = 3    !< a corner of an element without neighbours
 
-   integer(ip), parameter :: CORNERS = Q1_NODES
+   integer(ip), parameter :: CORNERS = MOST_CORNERS
 
    type :: patches_t
       integer(ip) :: n = 0                        !< places: pairs of a node and a zone; the first zone of node i has place i
@@ -60,7 +61,7 @@ contains
       allocate (zone(fem%mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_elements))
       do e = 1, fem%mesh%n_elements
-         zone(e) = 4*(like(fem%section_of(e)) - 1) + 2*(fem%mesh%state(e) - 1) + merge(1_ip, 2_ip, fem%mesh%shape(e) == Q1_NODES)
+         zone(e) = (like(fem%section_of(e))*size(STATES, kind=ip) + fem%mesh%state(e))*MOST_NODES + fem%mesh%shape(e)
       end do
       !$omp end parallel do
    end function zones_of_elements

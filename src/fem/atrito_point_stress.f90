@@ -4,12 +4,12 @@ module atrito_point_stress
    use atrito_assembly, only: fem_t, is_like_before
    use atrito_elasticity, only: elasticity_matrix, has_mean_dilatation
    use atrito_element, only: mean_gradients
+   use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
-   use atrito_shape_functions, only: shape_values, shape_gradients, gauss_rule
+   use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
-   public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
+   public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, make_point_rule, fetch_geometry, point_stresses
 
    integer(ip), parameter :: MOST_POINTS = 9
 
@@ -17,8 +17,8 @@ module atrito_point_stress
    type :: point_rule_t
       integer(ip) :: n = 0
       real(wp) :: weight(MOST_POINTS) = 0.0_wp
-      real(wp) :: value(MOST_POINTS, Q2_NODES) = 0.0_wp       !< shape functions at each point
-      real(wp) :: slope(MOST_POINTS, 2, Q2_NODES) = 0.0_wp    !< their derivatives along xi and eta
+      real(wp) :: value(MOST_POINTS, MOST_NODES) = 0.0_wp       !< shape functions at each point
+      real(wp) :: slope(MOST_POINTS, 2, MOST_NODES) = 0.0_wp    !< their derivatives along xi and eta
    end type point_rule_t
 
    !> An element at the points of a rule, without its displacements. Coordinates are relative to its first node, so that the place
@@ -26,37 +26,42 @@ module atrito_point_stress
    type :: point_geometry_t
       integer(ip) :: section = 0, state = 0
       integer(ip) :: shape = 0                   !< nodes; 0: nothing yet
-      real(wp) :: x(2, Q2_NODES) = 0.0_wp        !< [L]
+      real(wp) :: x(2, MOST_NODES) = 0.0_wp        !< [L]
       real(wp) :: d(3, 3) = 0.0_wp               !< elasticity matrix [F/L^2]
       logical :: averages = .false.              !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
-      real(wp) :: mean(2, Q1_NODES) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]
+      real(wp) :: mean(2, MOST_CORNERS) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]
       real(wp) :: place(MOST_POINTS, 2) = 0.0_wp !< less the element's first node [L]
       real(wp) :: jacobian(MOST_POINTS) = 0.0_wp !< [L^2]
       real(wp) :: steepness(MOST_POINTS) = 0.0_wp           !< sum of the squares of dxi/dx [1/L^2]
-      real(wp) :: gradient(MOST_POINTS, 2, Q2_NODES) = 0.0_wp !< dN/dx of all nodes but the first [1/L]
+      real(wp) :: gradient(MOST_POINTS, 2, MOST_NODES) = 0.0_wp !< dN/dx of all nodes but the first [1/L]
    end type point_geometry_t
 
 contains
 
-   !> The rule of order x order points; 1 is the centre.
-   pure subroutine make_point_rule(n_nodes, order, rule)
-      integer(ip), intent(in) :: n_nodes         !< Q1_NODES or Q2_NODES
-      integer(ip), intent(in) :: order           !< 1, 2 or 3
-      type(point_rule_t), intent(out) :: rule
-      real(wp) :: points(3), weights(3), xi(2)
-      integer(ip) :: i, j
+   !> The rules of all shapes: the Gauss points of their stiffness, or where stresses are best.
+   pure subroutine make_point_rules(rules, best)
+      type(point_rule_t), intent(out) :: rules(MOST_NODES)   !< by shape
+      logical, intent(in) :: best
+      integer(ip) :: k
 
-      points = 0.0_wp
-      weights = 2.0_wp
-      if (order > 1) call gauss_rule(order, points(:order), weights(:order))
-      do j = 1, order
-         do i = 1, order
-            rule%n = rule%n + 1
-            xi = [points(i), points(j)]
-            rule%weight(rule%n) = weights(i)*weights(j)
-            rule%value(rule%n, :n_nodes) = shape_values(n_nodes, xi)
-            rule%slope(rule%n, :, :n_nodes) = transpose(shape_gradients(n_nodes, xi))
-         end do
+      do k = 1, MOST_NODES
+         if (SHAPES(k)%n_nodes > 0) call make_point_rule(k, merge(SHAPES(k)%n_best, SHAPES(k)%n_points, best), rules(k))
+      end do
+   end subroutine make_point_rules
+
+   !> The rule of n points.
+   pure subroutine make_point_rule(n_nodes, n, rule)
+      integer(ip), intent(in) :: n_nodes         !< of the element: place in SHAPES
+      integer(ip), intent(in) :: n               !< 1, 4 or 9
+      type(point_rule_t), intent(out) :: rule
+      real(wp) :: xi(2)
+      integer(ip) :: k
+
+      rule%n = n
+      do k = 1, n
+         call rule_point(n, k, xi, rule%weight(k))
+         rule%value(k, :n_nodes) = shape_values(n_nodes, xi)
+         rule%slope(k, :, :n_nodes) = transpose(shape_gradients(n_nodes, xi))
       end do
    end subroutine make_point_rule
 
@@ -82,7 +87,7 @@ contains
          geometry%d = elasticity_matrix(section, geometry%state)
          geometry%averages = has_mean_dilatation(section, geometry%state, geometry%shape)
       end associate
-      if (geometry%averages) geometry%mean = mean_gradients(geometry%x(:, :Q1_NODES))
+      if (geometry%averages) geometry%mean = mean_gradients(geometry%x(:, :MOST_CORNERS))
       call map_points(rule, geometry)
    end subroutine fetch_geometry
 
@@ -126,7 +131,7 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
       real(wp), intent(inout) :: s(MOST_POINTS, 3)       !< the first rule%n are set
-      real(wp) :: way(2, Q2_NODES), dilatation
+      real(wp) :: way(2, MOST_NODES), dilatation
       integer(ip) :: k, first
 
       first = fem%mesh%nodes(1, e)
@@ -142,7 +147,7 @@ contains
          call strain_points(rule%n, geometry%shape, geometry%gradient, way, s)
       end select
       if (geometry%averages) then
-         dilatation = sum(geometry%mean*way(:, :Q1_NODES))
+         dilatation = sum(geometry%mean*way(:, :MOST_CORNERS))
          do k = 1, rule%n
             s(k, 1:2) = s(k, 1:2) + 0.5_wp*(dilatation - (s(k, 1) + s(k, 2)))
          end do
@@ -152,7 +157,7 @@ contains
 
    pure subroutine strain_points(n, shape, gradient, way, e)
       integer(ip), intent(in) :: n, shape
-      real(wp), intent(in) :: gradient(MOST_POINTS, 2, Q2_NODES), way(2, Q2_NODES)
+      real(wp), intent(in) :: gradient(MOST_POINTS, 2, MOST_NODES), way(2, MOST_NODES)
       real(wp), intent(inout) :: e(MOST_POINTS, 3)  !< e11, e22, 2 e12
       integer(ip) :: k
 

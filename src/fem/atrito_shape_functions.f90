@@ -2,14 +2,15 @@
 !>
 !> Nodes: corners counter-clockwise from (-1,-1), then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre.
 module atrito_shape_functions
+   use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
    implicit none (type, external)
    private
-   public :: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, gauss_count
+   public :: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, rule_point
    public :: Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
 
    !> Places of the nodes in the tensor grid: index along xi and along eta (1: -1, 2: 0 or +1 for Q1, 3: +1).
+   integer(ip), parameter :: Q1_NODES = 4, Q2_NODES = 9
    integer(ip), parameter :: Q1_GRID(2, Q1_NODES) = reshape([1, 1, 2, 1, 2, 2, 1, 2], [2, 4])
    integer(ip), parameter :: Q2_GRID(2, Q2_NODES) = reshape([1, 1, 3, 1, 3, 3, 1, 3, 2, 1, 3, 2, 2, 3, 1, 2, 2, 2], [2, 9])
 
@@ -37,7 +38,7 @@ contains
 
    !> Values of the shape functions at a place.
    pure function shape_values(n_nodes, xi) result(n)
-      integer(ip), intent(in) :: n_nodes           !< Q1_NODES or Q2_NODES
+      integer(ip), intent(in) :: n_nodes           !< of the element: place in SHAPES
       real(wp), intent(in) :: xi(2)                !< in [-1,1]^2
       real(wp) :: n(n_nodes)
       real(wp) :: a(3), b(3)
@@ -137,12 +138,15 @@ contains
       end if
    end function face_shape_slopes
 
-   !> Points and weights of the Gauss rule with 2 or 3 points on [-1,1].
+   !> Points and weights of the Gauss rule with 1, 2 or 3 points on [-1,1].
    pure subroutine gauss_rule(n, points, weights)
-      integer(ip), intent(in) :: n                 !< 2 or 3
+      integer(ip), intent(in) :: n                 !< 1, 2 or 3
       real(wp), intent(out) :: points(n), weights(n)
 
-      if (n == 2) then
+      if (n == 1) then
+         points = 0.0_wp
+         weights = 2.0_wp
+      else if (n == 2) then
          points = [-1.0_wp, 1.0_wp]/sqrt(3.0_wp)
          weights = 1.0_wp
       else
@@ -151,27 +155,29 @@ contains
       end if
    end subroutine gauss_rule
 
-   !> Gauss points of an element along one direction: 2 for Q1, 3 for Q2.
-   pure integer(ip) function gauss_count(n_nodes)
-      integer(ip), intent(in) :: n_nodes
-
-      gauss_count = merge(2_ip, 3_ip, n_nodes == Q1_NODES)
-   end function gauss_count
-
-   !> The k-th point of an element's Gauss rule, xi fastest, from the corner at node 1.
+   !> The k-th Gauss point of an element's stiffness.
    pure subroutine gauss_point(n_nodes, k, xi, weight)
       integer(ip), intent(in) :: n_nodes
-      integer(ip), intent(in) :: k                 !< 1 .. gauss_count**2
+      integer(ip), intent(in) :: k                 !< 1 .. n_points of its shape
+      real(wp), intent(out) :: xi(2), weight
+
+      call rule_point(SHAPES(n_nodes)%n_points, k, xi, weight)
+   end subroutine gauss_point
+
+   !> The k-th of n points of a rule over a quadrilateral, xi fastest, from the corner at node 1.
+   pure subroutine rule_point(n, k, xi, weight)
+      integer(ip), intent(in) :: n                 !< 1, 4 or 9
+      integer(ip), intent(in) :: k                 !< 1 .. n
       real(wp), intent(out) :: xi(2), weight
       real(wp) :: points(3), weights(3)
-      integer(ip) :: n, i, j
+      integer(ip) :: order, i, j
 
-      n = gauss_count(n_nodes)
-      call gauss_rule(n, points(:n), weights(:n))
-      i = mod(k - 1, n) + 1
-      j = (k - 1)/n + 1
+      order = nint(sqrt(real(n, wp)), ip)
+      call gauss_rule(order, points(:order), weights(:order))
+      i = mod(k - 1, order) + 1
+      j = (k - 1)/order + 1
       xi = [points(i), points(j)]
       weight = weights(i)*weights(j)
-   end subroutine gauss_point
+   end subroutine rule_point
 
 end module atrito_shape_functions

@@ -7,13 +7,13 @@
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t
    use atrito_elasticity, only: stress_33, von_mises
+   use atrito_element_table, only: SHAPES, BEST_OF, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: mesh_t, side_count
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, COMPONENTS, clear_samples, add_sample, is_laid, lay_patch, &
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
-   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
-   use atrito_shape_functions, only: gauss_count
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
@@ -28,14 +28,10 @@ module atrito_stress_recovery
       real(wp), allocatable :: stress(:, :)        !< (COMPONENTS, n) [F/L^2]
    end type stress_field_t
 
-   !> The rules of one kind of element.
-   type :: sampling_t
-      type(point_rule_t) :: best, all              !< superconvergent points; Gauss points of the stiffness
-   end type sampling_t
-
    !> What a recovery works with.
    type :: recovery_t
-      type(sampling_t) :: sampling(2)              !< of Q1, of Q2
+      type(point_rule_t) :: best(MOST_NODES)       !< of each shape: the superconvergent points
+      type(point_rule_t) :: all(MOST_NODES)        !< and the Gauss points of the stiffness
       type(patches_t) :: patches
       real(wp), allocatable :: x(:, :, :)          !< best points less the element's first node [L], (2, points, n_elements)
       real(wp), allocatable :: s(:, :, :)          !< stresses there [F/L^2], (COMPONENTS, points, n_elements)
@@ -44,9 +40,9 @@ module atrito_stress_recovery
 
    !> How good the patch of a corner is for a node of the element: 1 the node's own, or that of its edge or its element; then the
    !> corners next to it along an edge; then across the element. Only the best rank at hand is taken. (corner, node)
-   integer(ip), parameter :: RANK_OF(Q1_NODES, Q2_NODES) = reshape([1, 2, 3, 2, 2, 1, 2, 3, 3, 2, 1, 2, 2, 3, 2, 1, &
-                                                                    1, 1, 2, 2, 2, 1, 1, 2, 2, 2, 1, 1, 1, 2, 2, 1, &
-                                                                    1, 1, 1, 1], [4, 9])
+   integer(ip), parameter :: RANK_OF(MOST_CORNERS, MOST_NODES) = reshape([1, 2, 3, 2, 2, 1, 2, 3, 3, 2, 1, 2, 2, 3, 2, 1, &
+                                                                          1, 1, 2, 2, 2, 1, 1, 2, 2, 2, 1, 1, 1, 2, 2, 1, &
+                                                                          1, 1, 1, 1], [4, 9])
    integer(ip), parameter :: RANK_NONE = 4
 
 contains
@@ -81,9 +77,9 @@ contains
       integer(ip) :: run, k
 
       call build_patches(fem, work%patches)
-      call make_sampling(Q1_NODES, work%sampling(1))
-      call make_sampling(Q2_NODES, work%sampling(2))
-      k = work%sampling(kind_of(maxval([fem%mesh%shape, Q1_NODES])))%best%n
+      call make_point_rules(work%best, best=.true.)
+      call make_point_rules(work%all, best=.false.)
+      k = max(1_ip, maxval(BEST_OF(fem%mesh%shape)))
       allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do run = 1, run_count(fem%mesh%n_elements)
@@ -103,7 +99,7 @@ contains
 
       call find_run(run, fem%mesh%n_elements, first, last)
       do e = first, last
-         associate (rule => work%sampling(kind_of(fem%mesh%shape(e)))%best)
+         associate (rule => work%best(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
             call point_stresses(fem, e, u, rule, geometry, s)
             do point = 1, rule%n
@@ -113,21 +109,6 @@ contains
          end associate
       end do
    end subroutine sample_run
-
-   pure subroutine make_sampling(n_nodes, sampling)
-      integer(ip), intent(in) :: n_nodes
-      type(sampling_t), intent(out) :: sampling
-
-      call make_point_rule(n_nodes, gauss_count(n_nodes) - 1, sampling%best)
-      call make_point_rule(n_nodes, gauss_count(n_nodes), sampling%all)
-   end subroutine make_sampling
-
-   !> Kind of an element, which is the degree of its polynomials too: 1 for Q1, 2 for Q2.
-   pure integer(ip) function kind_of(n_nodes)
-      integer(ip), intent(in) :: n_nodes
-
-      kind_of = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
-   end function kind_of
 
    !> The patches of one run of places: the stress at their nodes, and the polynomials that other nodes want.
    pure subroutine fit_run(fem, u, run, work, stress)
@@ -163,11 +144,11 @@ contains
       integer(ip) :: full, k
 
       associate (patches => work%patches)
-         full = kind_of(fem%mesh%shape(patches%element(patches%first(i))))
+         full = SHAPES(fem%mesh%shape(patches%element(patches%first(i))))%degree
          if (patches%kind(i) /= PATCH_OUTER) then
             call clear_samples(fit)
             do k = patches%first(i), patches%first(i + 1) - 1
-               call add_best_points(fem, i, patches%element(k), full, work, fit)
+               call add_best_points(fem, i, patches%element(k), work, fit)
             end do
             call lay_when_new(fem, i, patches, full, fit)
             degree = merge(full - 1, full, patches%kind(i) == PATCH_SINGLE)
@@ -175,7 +156,7 @@ contains
          end if
          call clear_samples(fit)
          do k = patches%first(i), patches%first(i + 1) - 1
-            call add_all_points(fem, u, i, patches%element(k), full, work, fit)
+            call add_all_points(fem, u, i, patches%element(k), work, fit)
          end do
          call lay_when_new(fem, i, patches, full, fit)
          degree = determined_degree(full, fit)
@@ -189,7 +170,7 @@ contains
       type(patches_t), intent(in) :: patches
       type(patch_fit_t), intent(inout) :: fit
       integer(ip), parameter :: ENOUGH = 16        !< elements round a node; more give no better coordinates
-      real(wp) :: corners(2, Q1_NODES*ENOUGH), here(2), slack
+      real(wp) :: corners(2, MOST_CORNERS*ENOUGH), here(2), slack
       integer(ip) :: j, k, n
 
       here = fem%mesh%x(:, patches%node(i))
@@ -197,7 +178,7 @@ contains
       if (is_laid(degree, slack, fit)) return
       n = 0
       do j = patches%first(i), min(patches%first(i + 1), patches%first(i) + ENOUGH) - 1
-         do k = 1, Q1_NODES
+         do k = 1, side_count(fem%mesh, patches%element(j))
             n = n + 1
             corners(:, n) = from_patch(fem%mesh, patches, i, fem%mesh%nodes(k, patches%element(j)))
          end do
@@ -215,24 +196,24 @@ contains
       x = mesh%x(:, node) - mesh%x(:, patches%node(i))
    end function from_patch
 
-   pure subroutine add_best_points(fem, i, e, degree, work, fit)
+   pure subroutine add_best_points(fem, i, e, work, fit)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i, e, degree
+      integer(ip), intent(in) :: i, e
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
       real(wp) :: first(2)
       integer(ip) :: point
 
       first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
-      do point = 1, work%sampling(degree)%best%n
+      do point = 1, work%best(fem%mesh%shape(e))%n
          call add_sample(first + work%x(:, point, e), work%s(:, point, e), fit)
       end do
    end subroutine add_best_points
 
-   pure subroutine add_all_points(fem, u, i, e, degree, work, fit)
+   pure subroutine add_all_points(fem, u, i, e, work, fit)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
-      integer(ip), intent(in) :: i, e, degree
+      integer(ip), intent(in) :: i, e
       type(recovery_t), intent(in) :: work
       type(patch_fit_t), intent(inout) :: fit
       type(point_geometry_t) :: geometry
@@ -240,7 +221,7 @@ contains
       integer(ip) :: point
 
       first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
-      associate (rule => work%sampling(degree)%all)
+      associate (rule => work%all(fem%mesh%shape(e)))
          call fetch_geometry(fem, e, rule, geometry)
          call point_stresses(fem, e, u, rule, geometry, s)
          do point = 1, rule%n
@@ -275,7 +256,7 @@ contains
       integer(ip) :: corner
 
       best_rank = RANK_NONE
-      do corner = 1, Q1_NODES
+      do corner = 1, MOST_CORNERS
          if (patches%kind(patches%place(corner, e)) == PATCH_NONE) cycle
          best_rank = min(best_rank, RANK_OF(corner, k))
       end do
@@ -290,7 +271,7 @@ contains
       integer(ip), intent(inout) :: count
       integer(ip) :: corner, i
 
-      do corner = 1, Q1_NODES
+      do corner = 1, MOST_CORNERS
          i = work%patches%place(corner, e)
          if (work%patches%kind(i) == PATCH_NONE .or. RANK_OF(corner, k) /= rank) cycle
          stress = stress + fitted_value(from_patch(mesh, work%patches, i, mesh%nodes(k, e)), work%polynomial(i))

@@ -1,10 +1,11 @@
 !> Faces of elements: which lie on the outline, and chains of them.
 module atrito_faces
+   use atrito_element_table, only: MOST_SIDES
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end, opposite_face_count, FACES
+   use atrito_mesh, only: mesh_t, side_count, face_end, opposite_face_count
    implicit none (type, external)
    private
    public :: face_list_t, node_elements_t, chain_report_t
@@ -57,7 +58,7 @@ contains
       integer(ip) :: i, face
 
       do i = 1, size(elements, kind=ip)
-         do face = 1, FACES
+         do face = 1, side_count(mesh, elements(i))
             if (is_outer_face(mesh, around, elements(i), face)) call add_face(faces_found, elements(i), face)
          end do
       end do
@@ -111,7 +112,7 @@ contains
 
    pure subroutine drop_repeated(list)
       type(face_list_t), intent(inout) :: list
-      type(id_map_t) :: seen(FACES)
+      type(id_map_t) :: seen(MOST_SIDES)
       logical, allocatable :: keep(:)
       integer(ip) :: i
       logical :: known
@@ -149,7 +150,7 @@ contains
       type(face_list_t), intent(in) :: list
       integer(ip), intent(in) :: i
 
-      last_node = mesh%nodes(face_end(list%face(i)), list%element(i))
+      last_node = mesh%nodes(face_end(mesh, list%element(i), list%face(i)), list%element(i))
    end function last_node
 
    !> Outward unit normal of the straight line between a face's corners: the direction of travel turned by -90 degrees.
@@ -158,7 +159,7 @@ contains
       integer(ip), intent(in) :: element, face
       real(wp) :: n(2), d(2)
 
-      d = mesh%x(:, mesh%nodes(face_end(face), element)) - mesh%x(:, mesh%nodes(face, element))
+      d = mesh%x(:, mesh%nodes(face_end(mesh, element, face), element)) - mesh%x(:, mesh%nodes(face, element))
       n = [d(2), -d(1)]/norm2(d)
    end function face_normal
 

@@ -1,5 +1,6 @@
-!> The mesh: nodes, quadrilateral elements and their topology.
+!> The mesh: nodes, elements and their topology.
 module atrito_mesh
+   use atrito_element_table, only: SHAPES, MOST_NODES
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
@@ -9,20 +10,16 @@ module atrito_mesh
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
    public :: opposite_face_count, nodes_of_square
-   public :: Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS, FACES, element_coordinates, signed_area
-
-   integer(ip), parameter :: Q1_NODES = 4, Q2_NODES = 9    !< nodes of an element; also the name of its shape
-   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2
-   integer(ip), parameter :: FACES = 4
+   public :: side_count, middle_node, element_coordinates, signed_area
 
    type :: mesh_t
       integer(ip) :: n_nodes = 0, n_elements = 0
       integer(ip), allocatable :: node_id(:)        !< the user's numbers
       real(wp), allocatable :: x(:, :)              !< coordinates [L], (2, n_nodes)
       integer(ip), allocatable :: element_id(:)     !< the user's numbers
-      integer(ip), allocatable :: shape(:)          !< Q1_NODES or Q2_NODES
-      integer(ip), allocatable :: state(:)          !< PLANE_STRAIN or PLANE_STRESS
-      integer(ip), allocatable :: nodes(:, :)       !< (Q2_NODES, n_elements): corners counter-clockwise, mid-sides, centre
+      integer(ip), allocatable :: shape(:)          !< place in SHAPES: how many nodes they have
+      integer(ip), allocatable :: state(:)          !< place in STATES
+      integer(ip), allocatable :: nodes(:, :)       !< (MOST_NODES, n_elements): corners counter-clockwise, mid-sides, centre
       type(id_map_t) :: node_map, element_map
    end type mesh_t
 
@@ -35,7 +32,7 @@ contains
 
       if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
       if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(Q2_NODES, 0))
+         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
       end if
       if (mesh%n_nodes + new_nodes > size(mesh%node_id)) then
          call resize_nodes(mesh, mesh%n_nodes + max(new_nodes, mesh%n_nodes/4))
@@ -65,15 +62,15 @@ contains
    pure subroutine add_element(mesh, id, state, nodes, known)
       type(mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: id                 !< > 0
-      integer(ip), intent(in) :: state              !< PLANE_STRAIN or PLANE_STRESS
-      integer(ip), intent(in) :: nodes(:)           !< places of its nodes: 4 or 9
+      integer(ip), intent(in) :: state              !< place in STATES
+      integer(ip), intent(in) :: nodes(:)           !< places of its nodes, as many as its shape has
       logical, intent(out) :: known
       integer(ip) :: e
 
       call add_id(mesh%element_map, id, mesh%n_elements + 1, known)
       if (known) return
       if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(64), mesh%shape(64), mesh%state(64), mesh%nodes(Q2_NODES, 64))
+         allocate (mesh%element_id(64), mesh%shape(64), mesh%state(64), mesh%nodes(MOST_NODES, 64))
       end if
       if (mesh%n_elements == size(mesh%element_id)) call resize_elements(mesh, 2*mesh%n_elements + 64)
       e = mesh%n_elements + 1
@@ -109,7 +106,7 @@ contains
    subroutine add_block(mesh, first_id, state, order, nodes)
       type(mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: first_id           !< > 0
-      integer(ip), intent(in) :: state              !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: state              !< place in STATES
       integer(ip), intent(in) :: order              !< 1 for Q1, 2 for Q2
       integer(ip), intent(in) :: nodes(0:, 0:)      !< places, in lines along the block, (order nx + 1, order ny + 1)
       integer(ip) :: i, j, k, e, nx, ny, before
@@ -142,7 +139,7 @@ contains
 
       if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
       if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(Q2_NODES, 0))
+         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
       end if
       if (size(mesh%node_id) > mesh%n_nodes) call resize_nodes(mesh, mesh%n_nodes)
       if (size(mesh%element_id) > mesh%n_elements) call resize_elements(mesh, mesh%n_elements)
@@ -182,22 +179,42 @@ contains
       find_element = find_id(mesh%element_map, id)
    end function find_element
 
-   !> Nodes of a face in the direction of travel (counter-clockwise round the element): 2 for Q1; first, last, middle for Q2.
+   !> Nodes of a face in the direction of travel (counter-clockwise round the element): first, last, and middle if there is one.
    pure function face_nodes(mesh, element, face) result(nodes)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element, face      !< face 1..4
       integer(ip), allocatable :: nodes(:)
 
-      nodes = [mesh%nodes(face, element), mesh%nodes(face_end(face), element)]
-      if (mesh%shape(element) == Q2_NODES) nodes = [nodes, mesh%nodes(FACES + face, element)]
+      nodes = [mesh%nodes(face, element), mesh%nodes(face_end(mesh, element, face), element)]
+      if (middle_node(mesh, element, face) > 0) nodes = [nodes, middle_node(mesh, element, face)]
    end function face_nodes
 
-   !> Local corner at which a face ends; it begins at the corner of its own number.
-   pure integer(ip) function face_end(face)
-      integer(ip), intent(in) :: face
+   !> Faces of an element, and its corners.
+   pure integer(ip) function side_count(mesh, element)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
 
-      face_end = mod(face, FACES) + 1
+      side_count = SHAPES(mesh%shape(element))%n_corners
+   end function side_count
+
+   !> Local corner at which a face ends; it begins at the corner of its own number.
+   pure integer(ip) function face_end(mesh, element, face)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face
+
+      face_end = mod(face, side_count(mesh, element)) + 1
    end function face_end
+
+   !> The node in the middle of a face; 0 where there is none.
+   pure integer(ip) function middle_node(mesh, element, face)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face
+
+      associate (shape => SHAPES(mesh%shape(element)))
+         middle_node = 0
+         if (shape%degree > 1) middle_node = mesh%nodes(shape%n_corners + face, element)
+      end associate
+   end function middle_node
 
    !> How many of the elements' faces join the same two corners the other way round, by the same middle (1 inside the mesh, 0 on its
    !> outline). The middle tells two curved faces that close a circle.
@@ -208,14 +225,16 @@ contains
       integer(ip) :: i, other, a, b, middle
 
       a = mesh%nodes(face, element)
-      b = mesh%nodes(face_end(face), element)
-      middle = mesh%nodes(FACES + face, element)      ! 0 for Q1
+      b = mesh%nodes(face_end(mesh, element, face), element)
+      middle = middle_node(mesh, element, face)
       n = 0
       do i = 1, size(elements_of_node, kind=ip)
-         do other = 1, FACES
-            if (mesh%nodes(other, elements_of_node(i)) == b .and. mesh%nodes(face_end(other), elements_of_node(i)) == a &
-                .and. mesh%nodes(FACES + other, elements_of_node(i)) == middle) n = n + 1
-         end do
+         associate (e => elements_of_node(i))
+            do other = 1, side_count(mesh, e)
+               if (mesh%nodes(other, e) == b .and. mesh%nodes(face_end(mesh, e, other), e) == a &
+                   .and. middle_node(mesh, e, other) == middle) n = n + 1
+            end do
+         end associate
       end do
    end function opposite_face_count
 
@@ -226,8 +245,8 @@ contains
       integer(ip) :: n
 
       n = size(square, 1, kind=ip)
-      nodes(:FACES) = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
-      if (n == 3) nodes(FACES + 1:) = [square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
+      nodes(:4) = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
+      if (n == 3) nodes(5:) = [square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
    end function nodes_of_square
 
    !> Coordinates [L] of an element's nodes, (2, shape).

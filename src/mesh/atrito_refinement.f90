@@ -2,10 +2,11 @@
 !> its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then
 !> those inside elements.
 module atrito_refinement
+   use atrito_element_table, only: SHAPES, MOST_NODES, MOST_SIDES
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: add_id
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: mesh_t, face_end, nodes_of_square, FACES, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: mesh_t, side_count, face_end, middle_node, nodes_of_square
    implicit none (type, external)
    private
    public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, is_refined, edge_place
@@ -29,13 +30,13 @@ contains
    pure integer(lp) function count_fine_nodes(mesh, pieces, shape) result(n)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: pieces             !< along an edge, >= 1
-      integer(ip), intent(in) :: shape              !< Q1_NODES or Q2_NODES of all fine elements; 0: that of their parents
+      integer(ip), intent(in) :: shape              !< of all fine elements; 0: that of their parents
       integer(lp) :: intervals
       integer(ip) :: e
 
       n = mesh%n_nodes
       do e = 1, mesh%n_elements
-         intervals = int(order_of(fine_shape(mesh, shape, e)), lp)*int(pieces, lp)
+         intervals = int(SHAPES(fine_shape(mesh, shape, e))%degree, lp)*int(pieces, lp)
          n = n + intervals**2 + 2*intervals         ! edges between two elements are counted twice, which is no matter here
       end do
    end function count_fine_nodes
@@ -45,7 +46,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around   !< elements round each node of mesh
       integer(ip), intent(in) :: pieces             !< 1, 2, 4, 8, ...: of each edge; even where nine-node elements become four-node
-      integer(ip), intent(in) :: shape              !< Q1_NODES or Q2_NODES of all fine elements; 0: that of their parents
+      integer(ip), intent(in) :: shape              !< of all fine elements; 0: that of their parents
       type(mesh_t), intent(out) :: fine
       type(refinement_t), intent(out) :: refinement
 
@@ -58,13 +59,6 @@ contains
       call place_nodes(mesh, refinement, fine)
       call place_elements(mesh, refinement, fine)
    end subroutine refine_mesh
-
-   !> Node intervals along an element: 1 for Q1, 2 for Q2.
-   pure integer(ip) function order_of(shape)
-      integer(ip), intent(in) :: shape
-
-      order_of = merge(1_ip, 2_ip, shape == Q1_NODES)
-   end function order_of
 
    !> Shape of the pieces of an element.
    pure integer(ip) function fine_shape(mesh, shape, element)
@@ -81,7 +75,7 @@ contains
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: element
 
-      n = order_of(fine_shape(mesh, refinement%shape, element))*refinement%pieces
+      n = SHAPES(fine_shape(mesh, refinement%shape, element))%degree*refinement%pieces
    end function element_intervals
 
    pure integer(ip) function edge_intervals(refinement, edge) result(n)
@@ -89,7 +83,11 @@ contains
       integer(ip), intent(in) :: edge
 
       n = refinement%pieces
-      if (refinement%shape == Q2_NODES .or. (refinement%shape == 0 .and. refinement%edge_node(3, edge) > 0)) n = 2*n
+      if (refinement%shape > 0) then
+         n = SHAPES(refinement%shape)%degree*n
+      else if (refinement%edge_node(3, edge) > 0) then
+         n = 2*n
+      end if
    end function edge_intervals
 
    !> The edges of all elements, each once; elements of different order do not share theirs.
@@ -99,16 +97,16 @@ contains
       type(refinement_t), intent(inout) :: refinement
       integer(ip) :: e, face, n, other, other_face
 
-      allocate (refinement%face_edge(FACES, mesh%n_elements), source=0_ip)
-      allocate (refinement%edge_node(3, FACES*mesh%n_elements), refinement%edge_element(2, FACES*mesh%n_elements), source=0_ip)
+      allocate (refinement%face_edge(MOST_SIDES, mesh%n_elements), source=0_ip)
+      n = MOST_SIDES*mesh%n_elements
+      allocate (refinement%edge_node(3, n), refinement%edge_element(2, n), source=0_ip)
       n = 0
       do e = 1, mesh%n_elements
-         do face = 1, FACES
+         do face = 1, side_count(mesh, e)
             if (refinement%face_edge(face, e) > 0) cycle
             n = n + 1
             refinement%face_edge(face, e) = n
-            refinement%edge_node(:2, n) = [mesh%nodes(face, e), mesh%nodes(face_end(face), e)]
-            if (mesh%shape(e) == Q2_NODES) refinement%edge_node(3, n) = mesh%nodes(FACES + face, e)
+            refinement%edge_node(:, n) = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e), middle_node(mesh, e, face)]
             refinement%edge_element(1, n) = e
             call find_neighbour(mesh, around, e, face, other, other_face)
             if (other == 0) cycle
@@ -130,12 +128,12 @@ contains
       integer(ip) :: k, a, b
 
       a = mesh%nodes(face, element)
-      b = mesh%nodes(face_end(face), element)
+      b = mesh%nodes(face_end(mesh, element, face), element)
       do k = around%first(a), around%first(a + 1) - 1
          other = around%list(k)
          if (mesh%shape(other) /= mesh%shape(element)) cycle
-         do other_face = 1, FACES
-            if (mesh%nodes(other_face, other) == b .and. mesh%nodes(face_end(other_face), other) == a) return
+         do other_face = 1, side_count(mesh, other)
+            if (mesh%nodes(other_face, other) == b .and. mesh%nodes(face_end(mesh, other, other_face), other) == a) return
          end do
       end do
       other = 0
@@ -159,7 +157,7 @@ contains
          refinement%inner_first(e) = n
          intervals = element_intervals(mesh, refinement, e)
          n = n + (intervals - 1)**2
-         if (mesh%shape(e) == Q2_NODES) n = n - 1
+         if (SHAPES(mesh%shape(e))%degree > 1) n = n - 1
       end do
       refinement%inner_first(e) = n
    end subroutine number_nodes
@@ -205,7 +203,7 @@ contains
       associate (nodes => mesh%nodes(:, element))
          do j = 0, n
             t = real(j, wp)/real(n, wp)
-            if (mesh%shape(element) == Q1_NODES) then
+            if (SHAPES(mesh%shape(element))%degree == 1) then
                line(:, 1) = along(mesh%x(:, nodes(1)), mesh%x(:, nodes(4)), t)
                line(:, 2) = along(mesh%x(:, nodes(2)), mesh%x(:, nodes(3)), t)
             else
@@ -217,7 +215,7 @@ contains
                k = grid(i, j)
                if (k <= mesh%n_nodes) cycle
                s = real(i, wp)/real(n, wp)
-               if (mesh%shape(element) == Q1_NODES) then
+               if (SHAPES(mesh%shape(element))%degree == 1) then
                   x(:, k) = along(line(:, 1), line(:, 2), s)
                else
                   x(:, k) = along(line(:, 1), line(:, 2), s, line(:, 3))
@@ -225,7 +223,7 @@ contains
             end do
          end do
       end associate
-      do i = 1, FACES
+      do i = 1, side_count(mesh, element)
          call map_edge(mesh, refinement, refinement%face_edge(i, element), x)
       end do
    end subroutine map_element
@@ -290,8 +288,8 @@ contains
       k = refinement%inner_first(element)
       do j = 1, n - 1
          do i = 1, n - 1
-            if (mesh%shape(element) == Q2_NODES .and. 2*i == n .and. 2*j == n) then
-               grid(i, j) = mesh%nodes(Q2_NODES, element)
+            if (SHAPES(mesh%shape(element))%degree > 1 .and. 2*i == n .and. 2*j == n) then
+               grid(i, j) = mesh%nodes(mesh%shape(element), element)
             else
                grid(i, j) = k
                k = k + 1
@@ -339,14 +337,14 @@ contains
       children = refinement%pieces**2
       n = mesh%n_elements*children
       fine%n_elements = n
-      allocate (fine%element_id(n), fine%shape(n), fine%state(n), fine%nodes(Q2_NODES, n))
+      allocate (fine%element_id(n), fine%shape(n), fine%state(n), fine%nodes(MOST_NODES, n))
       fine%nodes = 0
       keep = int(maxval(mesh%element_id(:mesh%n_elements)), lp)*int(children, lp) <= int(huge(1_ip), lp)
       k = 0
       do e = 1, mesh%n_elements
          call fill_grid(mesh, refinement, e, grid)
          shape = fine_shape(mesh, refinement%shape, e)
-         m = order_of(shape)
+         m = SHAPES(shape)%degree
          do j = 0, ubound(grid, 2, kind=ip) - m, m
             do i = 0, ubound(grid, 1, kind=ip) - m, m
                k = k + 1

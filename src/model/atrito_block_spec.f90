@@ -8,7 +8,7 @@ module atrito_block_spec
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: Q2_NODES
+   use atrito_element_table, only: SHAPES
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -45,7 +45,7 @@ contains
       logical :: good(6)
 
       call read_element_type(deck, card, n_nodes, spec%state, good(1))
-      if (n_nodes == Q2_NODES) spec%order = 2
+      spec%order = SHAPES(n_nodes)%degree
       call read_count(deck, card, 'NX', spec%n(1), good(2))
       call read_count(deck, card, 'NY', spec%n(2), good(3))
       call read_corners(deck, card, spec, good(4))

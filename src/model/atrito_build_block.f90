@@ -11,6 +11,7 @@ module atrito_build_block
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, add_draft_block, note_places, spoil_block
+   use atrito_element_table, only: SHAPES
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh

@@ -3,10 +3,11 @@ module atrito_build_elements
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors, is_unsure
+   use atrito_element_table, only: KINDS, kind_named
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: add_element, find_element, find_node, Q1_NODES, Q2_NODES, PLANE_STRAIN, PLANE_STRESS
+   use atrito_mesh, only: add_element, find_element, find_node
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
@@ -29,26 +30,15 @@ contains
    subroutine read_element_type(deck, card, n_nodes, state, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
-      integer(ip), intent(out) :: n_nodes              !< Q1_NODES or Q2_NODES
-      integer(ip), intent(out) :: state                !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(out) :: n_nodes              !< place in SHAPES
+      integer(ip), intent(out) :: state                !< place in STATES
       logical, intent(out) :: ok                       !< .false.: a type that is not built or unknown, reported by the reader
+      integer(ip) :: kind
 
-      n_nodes = Q1_NODES
-      state = PLANE_STRAIN
-      ok = .true.
-      select case (option_word(deck, card, 'TYPE'))
-      case ('CPE4')
-         state = PLANE_STRAIN
-      case ('CPS4')
-         state = PLANE_STRESS
-      case ('CPE9')
-         n_nodes = Q2_NODES
-      case ('CPS9')
-         n_nodes = Q2_NODES
-         state = PLANE_STRESS
-      case default
-         ok = .false.
-      end select
+      kind = kind_named(option_word(deck, card, 'TYPE'))
+      ok = kind > 0
+      n_nodes = KINDS(max(kind, 1_ip))%shape
+      state = KINDS(max(kind, 1_ip))%state
    end subroutine read_element_type
 
    !> *ELEMENT: number, nodes.
@@ -106,7 +96,7 @@ contains
    subroutine place_element(draft, id, state, nodes, place, ok, keyword)
       type(draft_t), intent(inout) :: draft
       integer(ip), intent(in) :: id                    !< > 0
-      integer(ip), intent(in) :: state                 !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip), intent(in) :: state                 !< place in STATES
       integer(ip), intent(in) :: nodes(:)              !< places
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(out) :: ok

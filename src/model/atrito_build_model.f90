@@ -46,7 +46,7 @@ contains
       type(model_t), intent(out) :: model
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
       integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
-      integer(ip), intent(in), optional :: shape       !< Q1_NODES or Q2_NODES of all elements; default 0: as in the deck
+      integer(ip), intent(in), optional :: shape       !< of all elements, place in SHAPES; default 0: as in the deck
       type(message_mark_t) :: mark
       integer(lp) :: limit
       integer(ip) :: depth, kind

@@ -4,11 +4,11 @@ module atrito_build_surfaces
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, count_cards, ids_text
+   use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: MOST_FACES => FACES
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
    use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -153,7 +153,7 @@ contains
    !> Faces that several lines name are faces of the surface once: a pressure would act twice on them.
    pure subroutine keep_once(faces)
       type(face_list_t), intent(inout) :: faces
-      type(id_map_t) :: seen(MOST_FACES)               ! the elements, by their face
+      type(id_map_t) :: seen(MOST_SIDES)               ! the elements, by their face
       type(face_list_t) :: once
       integer(ip) :: i
       logical :: known

@@ -3,8 +3,9 @@
 module atrito_check_edges
    use atrito_diagnostics, only: report_error
    use atrito_draft, only: draft_t, place_token, ids_text
+   use atrito_element_table, only: SHAPES, DEGREE_OF
    use atrito_kinds, only: ip
-   use atrito_mesh, only: mesh_t, face_end, FACES, Q2_NODES
+   use atrito_mesh, only: mesh_t, side_count, face_end, middle_node
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    implicit none (type, external)
@@ -21,10 +22,10 @@ contains
       type(number_list_t) :: ids
       integer(ip) :: e, first
 
-      if (all(model%mesh%shape(:model%mesh%n_elements) /= Q2_NODES)) return
+      if (all(DEGREE_OF(model%mesh%shape(:model%mesh%n_elements)) == 1)) return
       allocate (misfit(model%mesh%n_elements), source=.false.)
       do e = 1, model%mesh%n_elements
-         if (model%mesh%shape(e) == Q2_NODES) call compare_neighbours(model%mesh, draft, e, misfit)
+         if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, draft, e, misfit)
       end do
       first = findloc(misfit, .true., dim=1, kind=ip)
       if (first == 0) return
@@ -37,8 +38,8 @@ contains
                         'or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
 
-   !> Marks the neighbours of a nine-node element that have the corners of its edge and not its middle, or its middle as something
-   !> else than the middle of the same edge; of two such elements the one that comes later.
+   !> Marks the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its middle
+   !> as something else than the middle of the same edge; of two such elements the one that comes later.
    pure subroutine compare_neighbours(mesh, draft, element, misfit)
       type(mesh_t), intent(in) :: mesh
       type(draft_t), intent(in) :: draft
@@ -46,9 +47,10 @@ contains
       logical, intent(inout) :: misfit(:)
       integer(ip) :: face, k, other, middle
 
-      do face = 1, FACES
-         associate (a => mesh%nodes(face, element), b => mesh%nodes(face_end(face), element), first => draft%around%first)
-            middle = mesh%nodes(FACES + face, element)
+      do face = 1, side_count(mesh, element)
+         associate (a => mesh%nodes(face, element), b => mesh%nodes(face_end(mesh, element, face), element), &
+                    first => draft%around%first)
+            middle = middle_node(mesh, element, face)
             do k = first(middle), first(middle + 1) - 1
                other = draft%around%list(k)
                if (other == element .or. has_edge(mesh, other, b, a, middle)) cycle
@@ -71,10 +73,10 @@ contains
       integer(ip) :: face
 
       has_edge = .false.
-      do face = 1, FACES
-         if (mesh%nodes(face, element) /= a .or. mesh%nodes(face_end(face), element) /= b) cycle
+      do face = 1, side_count(mesh, element)
+         if (mesh%nodes(face, element) /= a .or. mesh%nodes(face_end(mesh, element, face), element) /= b) cycle
          has_edge = .true.
-         if (present(middle)) has_edge = mesh%nodes(FACES + face, element) == middle   ! 0 for four nodes
+         if (present(middle)) has_edge = middle_node(mesh, element, face) == middle
          if (has_edge) return
       end do
    end function has_edge

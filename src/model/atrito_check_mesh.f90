@@ -5,8 +5,8 @@ module atrito_check_mesh
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_draft, only: draft_t, place_token, ids_text, has_errors
+   use atrito_element_table, only: SHAPES, STATES, can_average
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: PLANE_STRAIN, Q1_NODES, Q2_NODES
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_refinement, only: is_refined
@@ -73,9 +73,9 @@ contains
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) <= 0) cycle
          associate (section => model%sections(model%section_of(e)))
-            if (model%mesh%state(e) /= PLANE_STRAIN) cycle
+            if (STATES(model%mesh%state(e))%is_thin) cycle
             strained(section%material) = .true.
-            if (model%mesh%shape(e) == Q2_NODES) then
+            if (SHAPES(model%mesh%shape(e))%degree > 1) then
                oscillates(section%material) = .true.
             else if (section%formulation == FORMULATION_STANDARD) then
                locks(section%material) = .true.
@@ -129,7 +129,7 @@ contains
       do e = 1, model%mesh%n_elements
          i = model%section_of(e)
          if (model%sections(i)%formulation /= FORMULATION_BBAR) cycle
-         if (model%mesh%state(e) == PLANE_STRAIN .and. model%mesh%shape(e) == Q1_NODES) cycle
+         if (can_average(model%mesh%shape(e), model%mesh%state(e))) cycle
          call add_number(elements(i), model%mesh%element_id(e))
       end do
       do i = 1, size(model%sections, kind=ip)

@@ -3,25 +3,23 @@ module atrito_check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_draft, only: draft_t, place_token
+   use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end, FACES, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: mesh_t, face_end
    use atrito_messages, only: MOST_ERRORS
-   use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point, gauss_count
+   use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point
    use atrito_strings, only: to_text
    use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
    private
-   public :: check_shapes, corner_jacobians, judge_nine_nodes, nine_node_order
+   public :: check_shapes, corner_jacobians, judge_second_degree, nearest_order
    public :: SHAPE_GOOD, SHAPE_CLOCKWISE, SHAPE_DEGENERATE, SHAPE_ORDER, SHAPE_FOLDED
 
-   !> Q1: GOOD, CLOCKWISE or DEGENERATE. Q2 also ORDER: mid-sides and centre in another order, and FOLDED: one of them too far off.
+   !> First degree: GOOD, CLOCKWISE or DEGENERATE. Second degree also ORDER: mid-sides and centre in another order, and FOLDED:
+   !> one of them too far off.
    integer(ip), parameter :: SHAPE_GOOD = 0, SHAPE_CLOCKWISE = 1, SHAPE_DEGENERATE = 2, SHAPE_ORDER = 3, SHAPE_FOLDED = 4
    !> A corner whose Jacobian is smaller than this part of the longest side squared is flat.
    real(wp), parameter :: FLAT = 1.0e-12_wp
-   integer(ip), parameter :: MIDDLES = Q2_NODES - FACES      !< mid-sides and centre
-   !> Where the nodes of a nine-node element lie in [-1,1]^2.
-   real(wp), parameter :: NODE_PLACE(2, Q2_NODES) = reshape([real(wp) :: -1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, &
-                                                                                                        -1, 0, 0, 0], [2, Q2_NODES])
 
 contains
 
@@ -89,7 +87,7 @@ contains
          call report_error(deck, place, 'E-SHAPE', name//' folds over near '//at_node// &
                            ': its mid-side nodes and centre stand in another order', &
                            expected='corners counter-clockwise, the middles of sides 1-2, 2-3, 3-4, 4-1, the centre: '// &
-                           nodes_text(mesh, e, nine_node_order(mesh%x(:, mesh%nodes(:, e)))), keyword='ELEMENT')
+                           nodes_text(mesh, e, nearest_order(mesh%x(:, mesh%nodes(:mesh%shape(e), e)))), keyword='ELEMENT')
       case (SHAPE_FOLDED)
          call report_error(deck, place, 'E-SHAPE', name//' folds over: '//at_node//', the '//role_text(mesh, e, node)// &
                            ', lies too far off', expected='a mid-side node in the middle half of its side, the centre '// &
@@ -97,18 +95,18 @@ contains
       end select
    end subroutine report_shape
 
-   !> What a node of a nine-node element is.
+   !> What a node of an element of the second degree is.
    pure function role_text(mesh, e, node) result(text)
       type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, node               !< node > 4
+      integer(ip), intent(in) :: e, node               !< no corner
       character(len=:), allocatable :: text
       integer(ip) :: side
 
       text = 'centre'
-      if (node == Q2_NODES) return
-      side = node - FACES
+      side = node - SHAPES(mesh%shape(e))%n_corners
+      if (side > SHAPES(mesh%shape(e))%n_corners) return
       text = 'middle of the side from node '//to_text(mesh%node_id(mesh%nodes(side, e)))//' to node '// &
-             to_text(mesh%node_id(mesh%nodes(face_end(side), e)))
+             to_text(mesh%node_id(mesh%nodes(face_end(mesh, e, side), e)))
    end function role_text
 
    !> The nodes of an element in some order.
@@ -128,25 +126,26 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: e
       integer(ip), intent(out) :: shape                !< SHAPE_*
-      integer(ip), intent(out) :: node                 !< 1..9, the worst one
-      real(wp) :: x(2, Q2_NODES)
-      integer(ip) :: k
+      integer(ip), intent(out) :: node                 !< the worst one
+      real(wp) :: x(2, MOST_NODES)
+      integer(ip) :: k, n
 
-      do k = 1, mesh%shape(e)
+      n = mesh%shape(e)
+      do k = 1, n
          x(:, k) = mesh%x(:, mesh%nodes(k, e))
       end do
-      if (mesh%shape(e) == Q1_NODES) then
-         call judge_corners(x(:, :FACES), shape, node)
+      if (SHAPES(n)%degree == 1) then
+         call judge_corners(x(:, :n), shape, node)
       else
-         call judge_nine_nodes(x, shape, node)
+         call judge_second_degree(x(:, :n), shape, node)
       end if
    end subroutine judge_shape
 
    pure subroutine judge_corners(x, shape, corner)
-      real(wp), intent(in) :: x(2, FACES)              !< [L]
+      real(wp), intent(in) :: x(:, :)                  !< (2, corners) [L]
       integer(ip), intent(out) :: shape                !< SHAPE_*
       integer(ip), intent(out) :: corner               !< the worst one
-      real(wp) :: jacobian(FACES)
+      real(wp) :: jacobian(size(x, 2))
 
       jacobian = corner_jacobians(x)
       corner = minloc(jacobian, dim=1, kind=ip)
@@ -158,43 +157,46 @@ contains
 
    !> Cross product of the two sides at each corner over the longest side squared; 1 for a square.
    pure function corner_jacobians(x) result(jacobian)
-      real(wp), intent(in) :: x(2, FACES)              !< corners [L]
-      real(wp) :: jacobian(FACES)
-      real(wp) :: side(2, FACES), longest
-      integer(ip) :: k
+      real(wp), intent(in) :: x(:, :)                  !< (2, corners) [L]
+      real(wp) :: jacobian(size(x, 2))
+      real(wp) :: side(2, MOST_CORNERS), longest
+      integer(ip) :: k, n
 
-      side(:, :FACES - 1) = x(:, 2:) - x(:, :FACES - 1)
-      side(:, FACES) = x(:, 1) - x(:, FACES)
+      n = size(x, 2, kind=ip)
+      side = 0.0_wp
+      side(:, :n - 1) = x(:, 2:) - x(:, :n - 1)
+      side(:, n) = x(:, 1) - x(:, n)
       longest = max(maxval(abs(side)), tiny(1.0_wp))
       side = side/longest
-      do k = 1, FACES
-         associate (before => side(:, modulo(k - 2, FACES) + 1), after => side(:, k))
+      do k = 1, n
+         associate (before => side(:, modulo(k - 2, n) + 1), after => side(:, k))
             jacobian(k) = before(1)*after(2) - before(2)*after(1)
          end associate
       end do
    end function corner_jacobians
 
-   !> A nine-node element is good when its Jacobian is positive at its integration points and nodes; at a node it may be 0, since
-   !> mid-side nodes at a quarter of the sides are a known way to the tip of a crack. If it is not good, the likely cause: the
-   !> corners, as for four nodes; else the order of the others, if another order would do; else the one that is farthest off.
-   pure subroutine judge_nine_nodes(x, shape, node)
-      real(wp), intent(in) :: x(2, Q2_NODES)           !< [L]
+   !> An element of the second degree is good when its Jacobian is positive at its integration points and nodes; at a node it may be
+   !> 0, since mid-side nodes at a quarter of the sides are a known way to the tip of a crack. If it is not good, the likely cause:
+   !> the corners, as in the first degree; else the order of the others, if another order would do; else the one that is farthest off.
+   pure subroutine judge_second_degree(x, shape, node)
+      real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
       integer(ip), intent(out) :: shape                !< SHAPE_*
-      integer(ip), intent(out) :: node                 !< 1..9, the worst one
-      real(wp) :: away(2, MIDDLES)
-      integer(ip) :: k, order(Q2_NODES)
+      integer(ip), intent(out) :: node                 !< the worst one
+      real(wp) :: away(2, size(x, 2))
+      integer(ip) :: k, order(size(x, 2)), corners
 
+      corners = SHAPES(size(x, 2))%n_corners
       shape = SHAPE_GOOD
       node = 0
       if (has_straight_sides(x)) then
-         call judge_corners(x(:, :FACES), shape, node)
+         call judge_corners(x(:, :corners), shape, node)
          if (shape == SHAPE_GOOD) return
       end if
       shape = SHAPE_GOOD
       call find_fold(x, node)
       if (node == 0) return
-      order = nine_node_order(x)
-      call judge_corners(x(:, :FACES), shape, k)
+      order = nearest_order(x)
+      call judge_corners(x(:, :corners), shape, k)
       if (shape /= SHAPE_GOOD) then
          node = k
          return
@@ -205,85 +207,86 @@ contains
          return
       end if
       shape = SHAPE_FOLDED
-      away = x(:, FACES + 1:) - straight_places(x(:, :FACES))
-      node = FACES + maxloc(norm2(away/maxval(abs(away)), dim=1), dim=1, kind=ip)
-   end subroutine judge_nine_nodes
+      away = x - straight_places(x)
+      away(:, :corners) = 0.0_wp
+      node = maxloc(norm2(away/maxval(abs(away)), dim=1), dim=1, kind=ip)
+   end subroutine judge_second_degree
 
    !> Whether mid-sides and centre are where those of straight sides are: then the corners say all of the element.
    pure logical function has_straight_sides(x) result(straight)
-      real(wp), intent(in) :: x(2, Q2_NODES)           !< [L]
+      real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
       real(wp), parameter :: SHARE = 1.0e-6_wp         !< of the element
-      real(wp) :: tolerance
-      integer(ip) :: k
 
-      straight = .false.
-      tolerance = SHARE*max(maxval(abs(x(:, 3) - x(:, 1))), maxval(abs(x(:, 4) - x(:, 2))))
-      do k = 1, FACES
-         if (any(abs(x(:, FACES + k) - 0.5_wp*(x(:, k) + x(:, mod(k, FACES) + 1))) > tolerance)) return
-      end do
-      straight = all(abs(x(:, Q2_NODES) - 0.25_wp*(x(:, 1) + x(:, 2) + x(:, 3) + x(:, 4))) <= tolerance)
+      associate (corners => x(:, :SHAPES(size(x, 2))%n_corners))
+         straight = all(abs(x - straight_places(x)) <= SHARE*maxval(maxval(corners, dim=2) - minval(corners, dim=2)))
+      end associate
    end function has_straight_sides
 
    !> The node at or next to which the Jacobian is least and too small; 0: it is good everywhere.
    pure subroutine find_fold(x, node)
-      real(wp), intent(in) :: x(2, Q2_NODES)
+      real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
       integer(ip), intent(out) :: node
-      real(wp) :: y(2, Q2_NODES), least, jacobian, xi(2), weight, limit
-      integer(ip) :: k
+      real(wp) :: y(2, size(x, 2)), least, jacobian, xi(2), weight, limit
+      integer(ip) :: k, n
 
-      y = x - spread(x(:, 1), 2, Q2_NODES)
+      n = size(x, 2, kind=ip)
+      y = x - spread(x(:, 1), 2, n)
       y = y/max(maxval(abs(y)), tiny(1.0_wp))
       node = 0
       least = FLAT
-      do k = 1, Q2_NODES + gauss_count(Q2_NODES)**2
-         if (k <= Q2_NODES) then
-            xi = NODE_PLACE(:, k)
+      do k = 1, n + SHAPES(n)%n_points
+         if (k <= n) then
+            xi = SHAPES(n)%place(:, k)
             limit = -FLAT
          else
-            call gauss_point(Q2_NODES, k - Q2_NODES, xi, weight)
+            call gauss_point(n, k - n, xi, weight)
             limit = FLAT
          end if
          jacobian = jacobian_at(y, xi)
          if (jacobian >= min(least, limit)) cycle
          least = jacobian
-         node = minloc(norm2(NODE_PLACE - spread(xi, 2, Q2_NODES), dim=1), dim=1, kind=ip)
+         node = minloc(norm2(SHAPES(n)%place(:, :n) - spread(xi, 2, n), dim=1), dim=1, kind=ip)
       end do
    end subroutine find_fold
 
    pure real(wp) function jacobian_at(x, xi) result(jacobian)
-      real(wp), intent(in) :: x(2, Q2_NODES), xi(2)
+      real(wp), intent(in) :: x(:, :), xi(2)
       real(wp) :: j(2, 2)
 
-      j = matmul(x, shape_gradients(Q2_NODES, xi))
+      j = matmul(x, shape_gradients(size(x, 2, kind=ip), xi))
       jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
    end function jacobian_at
 
-   !> Places of mid-sides and centre in the quadrilateral with straight sides.
-   pure function straight_places(corners) result(x)
-      real(wp), intent(in) :: corners(2, FACES)
-      real(wp) :: x(2, MIDDLES)
+   !> Places of the nodes in the element with the same corners and straight sides.
+   pure function straight_places(x) result(straight)
+      real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
+      real(wp) :: straight(2, size(x, 2))
       integer(ip) :: k
 
-      do k = 1, MIDDLES
-         x(:, k) = matmul(corners, shape_values(Q1_NODES, NODE_PLACE(:, FACES + k)))
-      end do
+      associate (shape => SHAPES(size(x, 2)))
+         do k = 1, shape%n_nodes
+            straight(:, k) = matmul(x(:, :shape%n_corners), shape_values(shape%n_corners, shape%place(:, k)))
+         end do
+      end associate
    end function straight_places
 
-   !> The order in which the mid-sides and the centre lie nearest to where they belong: 1, 2, 3, 4 and five others.
-   pure function nine_node_order(x) result(order)
-      real(wp), intent(in) :: x(2, Q2_NODES)           !< [L]
-      integer(ip) :: order(Q2_NODES)
-      real(wp) :: place(2, MIDDLES), distance(Q2_NODES), scale
-      integer(ip) :: k
+   !> The order in which the nodes behind the corners lie nearest to where they belong: the corners, and the others.
+   pure function nearest_order(x) result(order)
+      real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
+      integer(ip) :: order(size(x, 2))
+      real(wp) :: place(2, size(x, 2)), distance(size(x, 2)), scale
+      integer(ip) :: k, n, corners
 
-      order(:FACES) = [(k, k=1, FACES)]
-      place = straight_places(x(:, :FACES))
-      scale = max(maxval(abs(x - spread(x(:, 1), 2, Q2_NODES))), tiny(1.0_wp))
-      do k = 1, MIDDLES
-         distance = norm2((x - spread(place(:, k), 2, Q2_NODES))/scale, dim=1)
-         distance(order(:FACES + k - 1)) = huge(1.0_wp)
-         order(FACES + k) = minloc(distance, dim=1, kind=ip)
+      n = size(x, 2, kind=ip)
+      corners = SHAPES(n)%n_corners
+      order(:corners) = [(k, k=1, corners)]
+      place = straight_places(x)
+      scale = max(maxval(abs(x - spread(x(:, 1), 2, n))), tiny(1.0_wp))
+      do k = corners + 1, n
+         distance = norm2((x - spread(place(:, k), 2, n))/scale, dim=1)
+         distance(order(:k - 1)) = huge(1.0_wp)
+         order(k) = minloc(distance, dim=1, kind=ip)
       end do
-   end function nine_node_order
+   end function nearest_order
 
 end module atrito_check_shapes

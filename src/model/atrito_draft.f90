@@ -30,7 +30,7 @@ module atrito_draft
    type :: block_t
       character(len=:), allocatable :: name
       integer(ip) :: card = 0                          !< place in deck%cards
-      integer(ip) :: state = 0                         !< PLANE_STRAIN or PLANE_STRESS
+      integer(ip) :: state = 0                         !< place in STATES
       integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2
       integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM

@@ -5,9 +5,10 @@ module atrito_refine_model
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_draft, only: draft_t, note_place
+   use atrito_element_table, only: DEGREE_OF
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
-   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: mesh_t
    use atrito_model_memory, only: fits_memory
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
    use atrito_sets, only: set_count
@@ -22,15 +23,15 @@ contains
    !> element come four of four nodes, on the same nodes; of one of four nodes comes one of nine.
    subroutine refine_model(levels, shape, draft)
       integer(ip), intent(in) :: levels                !< >= 0; each quadrilateral into 4**levels
-      integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES for all elements; 0: their own
+      integer(ip), intent(in) :: shape                 !< for all elements, place in SHAPES; 0: their own
       type(draft_t), intent(inout) :: draft
       type(mesh_t) :: coarse
       integer(ip) :: i, pieces
 
       pieces = 2**levels
-      if (shape == Q1_NODES .and. any(draft%model%mesh%shape == Q2_NODES)) then
+      if (DEGREE_OF(max(shape, 1_ip)) == 1 .and. any(DEGREE_OF(draft%model%mesh%shape) > 1)) then
          pieces = 2*pieces
-         if (any(draft%model%mesh%shape == Q1_NODES)) then
+         if (any(DEGREE_OF(draft%model%mesh%shape) == 1)) then
             call report_deck_error(draft%deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
                                    expected='a mesh of one kind')
             return

@@ -1,8 +1,9 @@
 !> What was understood of a deck, for the listing and for `atrito check`.
 module atrito_model_report
+   use atrito_element_table, only: KINDS, kind_of
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
-   use atrito_mesh, only: face_end, Q1_NODES, PLANE_STRAIN
+   use atrito_mesh, only: face_end
    use atrito_sets, only: set_count
    use atrito_model, only: model_t, interaction_t, FORMULATION_NAME, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
                            FRICTION_NONLOCAL, LOAD_PRESSURE, SURFACE_SEGMENTS
@@ -56,17 +57,16 @@ contains
    pure function element_types(model) result(text)
       type(model_t), intent(in) :: model
       character(len=:), allocatable :: text
-      character(len=4), parameter :: NAMES(4) = ['CPE4', 'CPS4', 'CPE9', 'CPS9']
-      integer(ip) :: counts(4), e, kind
+      integer(ip) :: counts(size(KINDS)), e, kind
 
       counts = 0
       do e = 1, model%mesh%n_elements
-         kind = merge(1, 2, model%mesh%state(e) == PLANE_STRAIN) + merge(0, 2, model%mesh%shape(e) == Q1_NODES)
+         kind = kind_of(model%mesh%shape(e), model%mesh%state(e))
          counts(kind) = counts(kind) + 1
       end do
       text = ''
-      do kind = 1, 4
-         if (counts(kind) > 0) text = text//', '//to_text(counts(kind))//' '//NAMES(kind)
+      do kind = 1, size(KINDS, kind=ip)
+         if (counts(kind) > 0) text = text//', '//to_text(counts(kind))//' '//trim(KINDS(kind)%name)
       end do
       if (len(text) > 0) text = ' ('//text(3:)//')'
    end function element_types
@@ -220,7 +220,7 @@ contains
       e = model%element_loads%element(i)
       face = model%element_loads%face(i)
       a = model%mesh%x(:, model%mesh%nodes(face, e))
-      b = model%mesh%x(:, model%mesh%nodes(face_end(face), e))
+      b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
       push = model%element_loads%value(1, i)*model%sections(model%section_of(e))%thickness
       call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
    end subroutine add_pressure

@@ -1,18 +1,19 @@
 !> The field file, docs/user/fields.md: <deck name>.h5 with the arrays, and <deck name>.xdmf beside it, by which it is opened.
 module atrito_write_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use atrito_element_table, only: SHAPES, MOST_NODES
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t, text_file_t, reserve_file, open_text, put_line, close_text
-   use atrito_mesh, only: mesh_t, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t
    use atrito_results, only: results_t, contact_result_t
    use atrito_table, only: origin_t
    use atrito_write_tables, only: origin_of, stress_rows, STRESS_NAMES
    use atrito_hdf5, only: hdf5_file_t, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
-   use atrito_xdmf, only: xdmf_grid_t, begin_grid, add_field, compose_xdmf, cell_nodes, CENTRE_NODE, CENTRE_CELL
+   use atrito_xdmf, only: xdmf_grid_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
    implicit none (type, external)
    private
    public :: write_fields, list_field_files
@@ -87,19 +88,21 @@ contains
       type(hdf5_file_t), intent(inout) :: file
       type(mesh_t), intent(in) :: mesh
       type(xdmf_grid_t), allocatable, intent(out) :: grids(:)
+      integer(ip) :: k
 
       call put_places(file, '/mesh/coordinates', mesh%x)
       call put_integers(file, '/mesh/node', 'number of the node', mesh%node_id)
       allocate (grids(0))
-      call put_shape(file, mesh, Q1_NODES, 'Q1', 'Quadrilateral', grids)
-      call put_shape(file, mesh, Q2_NODES, 'Q2', 'Quadrilateral_9', grids)
+      do k = 1, MOST_NODES
+         if (SHAPES(k)%n_nodes > 0) call put_shape(file, mesh, k, trim(SHAPES(k)%name), trim(SHAPES(k)%topology), grids)
+      end do
    end subroutine put_mesh
 
    !> The elements of one shape, if there are any.
    subroutine put_shape(file, mesh, shape, name, topology, grids)
       type(hdf5_file_t), intent(inout) :: file
       type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES
+      integer(ip), intent(in) :: shape                 !< place in SHAPES
       character(len=*), intent(in) :: name, topology
       type(xdmf_grid_t), allocatable, intent(inout) :: grids(:)
       type(xdmf_grid_t) :: grid
@@ -120,13 +123,11 @@ contains
       character(len=*), intent(in) :: group
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: shape, n              !< n: how many there are of this shape
-      integer(ip), allocatable :: order(:)
       integer(ip) :: e
 
-      order = cell_nodes(shape)
       call begin_dataset(file, group//'/nodes', shape, n, .false., 'rows of the nodes, counted from 0', '-')
       do e = 1, mesh%n_elements
-         if (mesh%shape(e) == shape) call put_row(file, mesh%nodes(order, e) - 1)
+         if (mesh%shape(e) == shape) call put_row(file, mesh%nodes(:shape, e) - 1)
       end do
       call begin_dataset(file, group//'/element', 1_ip, n, .false., 'number of the element', '-')
       do e = 1, mesh%n_elements

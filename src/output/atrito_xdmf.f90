@@ -2,10 +2,9 @@
 module atrito_xdmf
    use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
    implicit none (type, external)
    private
-   public :: xdmf_grid_t, xdmf_field_t, begin_grid, add_field, compose_xdmf, cell_nodes, CENTRE_NODE, CENTRE_CELL
+   public :: xdmf_grid_t, xdmf_field_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
 
    character(len=*), parameter :: CENTRE_NODE = 'Node', CENTRE_CELL = 'Cell'
 
@@ -66,16 +65,6 @@ contains
       longer(n + 1)%is_real = is_real
       call move_alloc(longer, grid%fields)
    end subroutine add_field
-
-   !> Which of an element's nodes stands at each place of an XDMF cell (Quadrilateral, Quadrilateral_9: VTK's order). Both count the
-   !> corners counter-clockwise, then the mid-sides from that between the first two corners, then the centre.
-   pure function cell_nodes(shape) result(order)
-      integer(ip), intent(in) :: shape                 !< Q1_NODES or Q2_NODES
-      integer(ip), allocatable :: order(:)
-      integer(ip) :: i
-
-      order = [(i, i=1, merge(Q2_NODES, Q1_NODES, shape == Q2_NODES))]
-   end function cell_nodes
 
    !> Composes the file: the grids of one step.
    subroutine compose_xdmf(program, warning, step, data_file, grids, lines)

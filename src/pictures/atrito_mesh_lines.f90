@@ -3,11 +3,12 @@
 !> Data files hold edges as polylines of place and displacement, so that the script can choose the scale. Each edge is there once.
 module atrito_mesh_lines
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use atrito_element_table, only: MOST_SIDES
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_faces, only: node_elements_t, list_node_elements
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end, FACES, Q2_NODES
+   use atrito_mesh, only: mesh_t, face_end, side_count, middle_node
    use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real
    use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, put_terminal, put_plot, N_COLOURS
@@ -94,12 +95,12 @@ contains
 
       call find_bodies(mesh, bodies)
       call find_neighbours(mesh, neighbour)
-      allocate (lines%element(FACES*mesh%n_elements), lines%face(FACES*mesh%n_elements), source=0_ip)
+      allocate (lines%element(MOST_SIDES*mesh%n_elements), lines%face(MOST_SIDES*mesh%n_elements), source=0_ip)
       allocate (lines%first(2*bodies%n + 1), lines%kind(2*bodies%n), lines%body(2*bodies%n), source=1_ip)
       do kind = LINE_INNER, LINE_OUTER
          if (kind == LINE_INNER .and. only_outline) cycle
          do body = 1, bodies%n
-            call add_edges(bodies%list(body)%elements, neighbour, section_of, kind, lines)
+            call add_edges(mesh, bodies%list(body)%elements, neighbour, section_of, kind, lines)
             if (lines%n + 1 == lines%first(lines%n_runs + 1)) cycle
             lines%n_runs = lines%n_runs + 1
             lines%kind(lines%n_runs) = kind
@@ -112,27 +113,28 @@ contains
    !> The element beyond each face; 0 where there is none.
    subroutine find_neighbours(mesh, neighbour)
       type(mesh_t), intent(in) :: mesh
-      integer(ip), allocatable, intent(out) :: neighbour(:, :)  !< (FACES, n_elements)
+      integer(ip), allocatable, intent(out) :: neighbour(:, :)  !< (MOST_SIDES, n_elements)
       type(node_elements_t) :: around
       integer(ip) :: e, face, i, other, a, b
 
       around = list_node_elements(mesh)
-      allocate (neighbour(FACES, mesh%n_elements), source=0_ip)
+      allocate (neighbour(MOST_SIDES, mesh%n_elements), source=0_ip)
       do e = 1, mesh%n_elements
-         do face = 1, FACES
+         do face = 1, side_count(mesh, e)
             a = mesh%nodes(face, e)
-            b = mesh%nodes(face_end(face), e)
+            b = mesh%nodes(face_end(mesh, e, face), e)
             do i = around%first(a), around%first(a + 1) - 1
-               do other = 1, FACES
+               do other = 1, side_count(mesh, around%list(i))
                   if (mesh%nodes(other, around%list(i)) == b .and. &
-                      mesh%nodes(face_end(other), around%list(i)) == a) neighbour(face, e) = around%list(i)
+                      mesh%nodes(face_end(mesh, around%list(i), other), around%list(i)) == a) neighbour(face, e) = around%list(i)
                end do
             end do
          end do
       end do
    end subroutine find_neighbours
 
-   pure subroutine add_edges(elements, neighbour, section_of, kind, lines)
+   pure subroutine add_edges(mesh, elements, neighbour, section_of, kind, lines)
+      type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: elements(:)        !< of a body
       integer(ip), intent(in) :: neighbour(:, :), section_of(:)
       integer(ip), intent(in) :: kind               !< LINE_INNER or LINE_OUTER
@@ -141,7 +143,7 @@ contains
 
       do i = 1, size(elements, kind=ip)
          e = elements(i)
-         do face = 1, FACES
+         do face = 1, side_count(mesh, e)
             beyond = neighbour(face, e)
             if (beyond > 0 .and. beyond < e) cycle
             its_kind = LINE_OUTER
@@ -213,9 +215,9 @@ contains
       integer :: i, n_pieces
 
       v(:, 1) = at_node(mesh, u, mesh%nodes(face, element))
-      v(:, 2) = at_node(mesh, u, mesh%nodes(face_end(face), element))
+      v(:, 2) = at_node(mesh, u, mesh%nodes(face_end(mesh, element, face), element))
       v(:, 3) = 0.5_wp*(v(:, 1) + v(:, 2))
-      if (mesh%shape(element) == Q2_NODES) v(:, 3) = at_node(mesh, u, mesh%nodes(FACES + face, element))
+      if (middle_node(mesh, element, face) > 0) v(:, 3) = at_node(mesh, u, middle_node(mesh, element, face))
       n_pieces = merge(1, PIECES, is_straight(v, sizes))
       do i = 0, n_pieces
          t = 2.0_wp*real(i, wp)/real(n_pieces, wp) - 1.0_wp

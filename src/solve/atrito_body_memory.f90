@@ -2,8 +2,8 @@
 module atrito_body_memory
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_bodies, only: order_by_dissection
+   use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: Q1_NODES
    use atrito_multifrontal, only: element_store_t, elimination_t
    use atrito_results, only: body_result_t
    use atrito_solver_choice, only: STORAGE_SPARSE
@@ -97,12 +97,13 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: before, e
       real(wp) :: side, apart(2)
-      integer(ip) :: k
+      integer(ip) :: k, last
 
       are_equal = fem%mesh%shape(before) == fem%mesh%shape(e)
       if (.not. are_equal) return
+      last = SHAPES(fem%mesh%shape(e))%n_corners
       associate (x => fem%mesh%x, old => fem%mesh%nodes(:, before), new => fem%mesh%nodes(:, e))
-         side = maxval(abs(x(:, new(2)) - x(:, new(1)))) + maxval(abs(x(:, new(Q1_NODES)) - x(:, new(1))))
+         side = maxval(abs(x(:, new(2)) - x(:, new(1)))) + maxval(abs(x(:, new(last)) - x(:, new(1))))
          do k = 2, fem%mesh%shape(e)
             apart = (x(:, new(k)) - x(:, new(1))) - (x(:, old(k)) - x(:, old(1)))
             are_equal = are_equal .and. maxval(abs(apart)) <= SAME*side

@@ -9,16 +9,15 @@ module atrito_recovery
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
    use atrito_elasticity, only: stress_33, von_mises
+   use atrito_element_table, only: SHAPES, MOST_NODES
    use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: Q1_NODES, Q2_NODES
    use atrito_model, only: model_t
-   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rule, fetch_geometry, point_stresses
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_points, only: contact_points_t
    use atrito_range, only: unit_of
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
-   use atrito_shape_functions, only: gauss_count
    use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
    use atrito_threads, only: is_shared, run_count, find_run
    implicit none (type, external)
@@ -210,7 +209,7 @@ contains
       type(model_t), intent(in) :: model
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
-      type(point_rule_t) :: rules(2)
+      type(point_rule_t) :: rules(MOST_NODES)
       logical, allocatable :: wanted(:)
       integer(ip) :: rows(run_count(fem%mesh%n_elements) + 1) !< filled before each run of elements
       integer(ip) :: run
@@ -221,8 +220,7 @@ contains
          if (requests%stress) wanted = requests%element_s
          if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
       end associate
-      call make_point_rule(Q1_NODES, gauss_count(Q1_NODES), rules(1))
-      call make_point_rule(Q2_NODES, gauss_count(Q2_NODES), rules(2))
+      call make_point_rules(rules, best=.false.)
       call count_rows(fem, wanted, rows)
       associate (n => rows(size(rows)))
          allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
@@ -245,7 +243,7 @@ contains
          call find_run(run, fem%mesh%n_elements, first, last)
          rows(run + 1) = rows(run)
          do e = first, last
-            if (wanted(e)) rows(run + 1) = rows(run + 1) + gauss_count(fem%mesh%shape(e))**2
+            if (wanted(e)) rows(run + 1) = rows(run + 1) + SHAPES(fem%mesh%shape(e))%n_points
          end do
       end do
    end subroutine count_rows
@@ -255,7 +253,7 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: run
       logical, intent(in) :: wanted(:)
-      type(point_rule_t), intent(in) :: rules(2)
+      type(point_rule_t), intent(in) :: rules(MOST_NODES)
       integer(ip), intent(in) :: filled              !< rows before those of this run
       type(results_t), intent(inout) :: results
       type(point_geometry_t) :: geometry
@@ -264,7 +262,7 @@ contains
       row = filled
       call find_run(run, fem%mesh%n_elements, first, last)
       do e = first, last
-         if (wanted(e)) call add_element(fem, e, rules(merge(1, 2, fem%mesh%shape(e) == Q1_NODES)), geometry, row, results)
+         if (wanted(e)) call add_element(fem, e, rules(fem%mesh%shape(e)), geometry, row, results)
       end do
    end subroutine add_stresses
 

@@ -6,12 +6,11 @@
 !> kept for a next run.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
+   use atrito_element_table, only: SHAPES, BEST_OF
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: Q1_NODES
    use atrito_model, only: model_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
-   use atrito_shape_functions, only: gauss_count
    use atrito_solver_choice, only: STORAGE_SPARSE
    implicit none (type, external)
    private
@@ -103,8 +102,7 @@ contains
                                 POINT_BYTES = 250_lp
       integer(lp) :: samples
 
-      samples = 1
-      if (any(model%mesh%shape /= Q1_NODES)) samples = 4
+      samples = maxval(BEST_OF(model%mesh%shape))
       bytes = NODE_BYTES*model%mesh%n_nodes + (ELEMENT_BYTES + samples*SAMPLE_BYTES)*model%mesh%n_elements &
               + ROW_BYTES*stress_rows(model) + POINT_BYTES*data%line%n
    end function recovery_bytes
@@ -122,7 +120,7 @@ contains
             wanted = .false.
             if (requests%stress) wanted = requests%element_s(e)
             if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s(e)
-            if (wanted) rows = rows + gauss_count(model%mesh%shape(e))**2
+            if (wanted) rows = rows + SHAPES(model%mesh%shape(e))%n_points
          end do
       end associate
    end function stress_rows

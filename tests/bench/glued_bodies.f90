@@ -8,7 +8,7 @@ module glued_bodies
    use atrito_bodies, only: bodies_t, find_bodies
    use atrito_coordinate_matrix, only: coordinate_matrix_t, add_element_matrix
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: mesh_t, Q2_NODES
+   use atrito_mesh, only: mesh_t
    use atrito_model, only: model_t
    use atrito_points, only: contact_points_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
@@ -271,8 +271,8 @@ contains
       type(coordinate_matrix_t), intent(inout) :: matrix
       real(wp), intent(inout) :: load(:, :)         !< (n, 1)
       type(stiffness_cache_t) :: cache
-      real(wp) :: turned(2*Q2_NODES, 2*Q2_NODES)
-      integer(ip) :: equations(2*Q2_NODES), e, n
+      real(wp) :: turned(2*9_ip, 2*9_ip)
+      integer(ip) :: equations(2*9_ip), e, n
 
       do e = 1, fem%mesh%n_elements
          n = 2*fem%mesh%shape(e)

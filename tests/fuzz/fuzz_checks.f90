@@ -5,7 +5,7 @@ module fuzz_checks
    use atrito_kinds, only: ip
    use atrito_messages, only: message_t, count_messages, get_message, format_message, sort_messages, SEVERITY_ERROR, &
                               SEVERITY_NOTE
-   use atrito_mesh, only: Q1_NODES, Q2_NODES, signed_area
+   use atrito_mesh, only: signed_area
    use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_sets, only: set_list_t, set_count
@@ -113,7 +113,7 @@ contains
       if (any(model%mesh%node_id < 1) .or. any(model%mesh%element_id < 1)) fault = 'a number that is not positive'
       if (.not. all(ieee_is_finite(model%mesh%x))) fault = 'a coordinate that is no number'
       do e = 1, model%mesh%n_elements
-         if (all(model%mesh%shape(e) /= [Q1_NODES, Q2_NODES])) fault = 'an element of no shape'
+         if (all(model%mesh%shape(e) /= [4_ip, 9_ip])) fault = 'an element of no shape'
          if (allocated(fault)) return
          associate (nodes => model%mesh%nodes(:model%mesh%shape(e), e))
             if (any(nodes < 1) .or. any(nodes > n)) fault = 'an element with a node that does not exist'

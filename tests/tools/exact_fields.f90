@@ -7,8 +7,8 @@
 !> Ring: Lame's solution, phi = A z/2 and psi = B/z.
 module exact_fields
    use atrito_elasticity, only: elastic_t
+   use atrito_element_table, only: PLANE_STRESS
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: PLANE_STRESS
    implicit none (type, external)
    private
    public :: field_t, make_field, exact_solution

@@ -3,17 +3,18 @@ module fem_cases
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: find_bodies, number_equations
    use atrito_elasticity, only: elastic_t
+   use atrito_element_table, only: PLANE_STRAIN
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: add_element, add_node, nodes_of_square, trim_mesh, PLANE_STRAIN, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: add_element, add_node, nodes_of_square, trim_mesh
    implicit none (type, external)
    private
    public :: SHAPES, PLACES, node_places, distorted, linear_field, row_of_elements, dense_stiffness, grid_of_elements
 
-   integer(ip), parameter :: SHAPES(2) = [Q1_NODES, Q2_NODES]
+   integer(ip), parameter :: SHAPES(2) = [4_ip, 9_ip]
    !> Places in the parent element where functions are tried.
    real(wp), parameter :: PLACES(2, 4) = reshape([0.0_wp, 0.0_wp, 0.3_wp, -0.7_wp, -1.0_wp, 0.45_wp, 0.9_wp, 1.0_wp], [2, 4])
    !> Places of the nodes: corners, mid-sides, centre.
-   real(wp), parameter :: GRID(2, Q2_NODES) = reshape([-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, &
+   real(wp), parameter :: GRID(2, 9_ip) = reshape([-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, &
                                                        0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, &
                                                        0.0_wp, 0.0_wp], [2, 9])
 
@@ -80,7 +81,7 @@ contains
 
    !> nx x ny elements of one section on [0, nx] x [0, ny], nodes row by row; no bodies, no equations.
    subroutine grid_of_elements(n_nodes, nx, ny, fem)
-      integer(ip), intent(in) :: n_nodes               !< Q1_NODES or Q2_NODES
+      integer(ip), intent(in) :: n_nodes               !< 4_ip or 9_ip
       integer(ip), intent(in) :: nx, ny
       type(fem_t), intent(out) :: fem
       integer(ip), parameter :: SOME(3) = [1, 2, 3]
@@ -88,7 +89,7 @@ contains
       logical :: known
 
       allocate (fem%mesh)
-      p = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
+      p = merge(1_ip, 2_ip, n_nodes == 4_ip)
       row = p*nx + 1
       do j = 0, p*ny
          do i = 0, p*nx

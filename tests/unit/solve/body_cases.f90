@@ -9,10 +9,11 @@ module body_cases
    use atrito_dense, only: norm_one
    use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
+   use atrito_element_table, only: PLANE_STRAIN
    use atrito_faces, only: face_list_t, add_face
    use atrito_friction_law, only: friction_law_t, FRICTION_NONLOCAL, KERNEL_POINTS
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: mesh_t, add_element, add_node, element_coordinates, trim_mesh, PLANE_STRAIN
+   use atrito_mesh, only: mesh_t, add_element, add_node, element_coordinates, trim_mesh
    use atrito_points, only: contact_points_t, pair_surfaces
    implicit none (type, external)
    private

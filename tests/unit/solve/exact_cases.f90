@@ -4,12 +4,13 @@
 !> s22 - s11 + 2 i s12 = 2 conj(z) phi''. No body force.
 module exact_cases
    use atrito_elasticity, only: compliance_matrix, elastic_t, elasticity_matrix
+   use atrito_element_table, only: PLANE_STRAIN
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: add_element, add_node, element_coordinates, nodes_of_square, trim_mesh, PLANE_STRAIN, Q1_NODES, Q2_NODES
+   use atrito_mesh, only: add_element, add_node, element_coordinates, nodes_of_square, trim_mesh
    use atrito_model, only: model_t, FORMULATION_BBAR
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t
-   use atrito_shape_functions, only: gauss_count, gauss_point, shape_gradients, shape_values
+   use atrito_shape_functions, only: gauss_point, shape_gradients, shape_values
    use atrito_solve, only: solve_options_t, solve_static
    use atrito_status, only: status_t
    implicit none (type, external)
@@ -92,7 +93,7 @@ contains
       integer(ip) :: square(3, 3), p, i, j, k, l, m
       logical :: known
 
-      p = merge(1_ip, 2_ip, n_nodes == Q1_NODES)
+      p = merge(1_ip, 2_ip, n_nodes == 4_ip)
       m = p*n + 1
       do j = 0, m - 1
          do i = 0, m - 1
@@ -154,7 +155,7 @@ contains
       do e = 1, model%mesh%n_elements
          n = model%mesh%shape(e)
          nodal = results%nodal_stress([1, 2, 4], model%mesh%nodes(:n, e))
-         do k = 1, gauss_count(n)**2
+         do k = 1, n
             call gauss_point(n, k, xi, weight)
             weight = weight*jacobian(element_coordinates(model%mesh, e), xi)
             x = matmul(element_coordinates(model%mesh, e), shape_values(n, xi))
@@ -220,7 +221,7 @@ contains
       mean_dilatation = 0.0_wp
       area = 0.0_wp
       do k = 1, 4
-         call gauss_point(Q1_NODES, k, xi, weight)
+         call gauss_point(4_ip, k, xi, weight)
          weight = weight*jacobian(element_coordinates(model%mesh, e), xi)
          strain = strain_at(model, u, e, xi)
          mean_dilatation = mean_dilatation + weight*(strain(1) + strain(2))

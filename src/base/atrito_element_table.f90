@@ -1,0 +1,82 @@
+!> The table of elements, which all rooms ask: their shapes, and their names in decks and field files.
+!>
+!> A shape is named by its number of nodes. A new element is a row of SHAPES or KINDS, and its shape functions and Gauss rule in
+!> atrito_shape_functions.
+module atrito_element_table
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: element_shape_t, element_kind_t, plane_state_t, SHAPES, KINDS, STATES, PLANE_STRAIN, PLANE_STRESS
+   public :: DEGREE_OF, BEST_OF, MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average
+
+   integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
+
+   type :: element_shape_t
+      integer(ip) :: n_nodes = 0                 !< 0: no element has so many nodes
+      integer(ip) :: n_corners = 0               !< and sides; the corners come first, counter-clockwise
+      integer(ip) :: degree = 0                  !< of the displacements along a side: 2 with a node in its middle
+      integer(ip) :: n_points = 0                !< Gauss points of the stiffness
+      integer(ip) :: n_best = 0                  !< points at which stresses are superconvergent
+      character(len=2) :: name = ''              !< in field files
+      character(len=15) :: topology = ''         !< in XDMF; its order of nodes is ours
+      real(wp) :: place(2, MOST_NODES) = 0.0_wp  !< of the nodes, in [-1,1]^2
+   end type element_shape_t
+
+   type :: plane_state_t
+      character(len=3) :: prefix = ''            !< of the names of its elements
+      character(len=12) :: name = ''
+      logical :: is_thin = .false.               !< no stress across the plane; else no strain
+   end type plane_state_t
+
+   type :: element_kind_t
+      character(len=4) :: name = ''              !< in decks
+      integer(ip) :: shape = 0                   !< place in SHAPES: the number of nodes
+      integer(ip) :: state = 0                   !< place in STATES
+      logical :: own = .false.                   !< Abaqus has none of this name
+   end type element_kind_t
+
+   type(element_shape_t), parameter :: NO_SHAPE = element_shape_t()
+   integer, private :: i
+   !> Corners, middles of the sides, centre.
+   real(wp), parameter :: SQUARE(2, MOST_NODES) = reshape([real(wp) :: -1, -1, 1, -1, 1, 1, -1, 1, &
+                                                                                   0, -1, 1, 0, 0, 1, -1, 0, 0, 0], [2, MOST_NODES])
+   type(element_shape_t), parameter :: SHAPES(MOST_NODES) = &
+                                       [(NO_SHAPE, i=1, 3), element_shape_t(4, 4, 1, 4, 1, 'Q1', 'Quadrilateral', SQUARE), &
+                                        (NO_SHAPE, i=5, 8), element_shape_t(9, 4, 2, 9, 4, 'Q2', 'Quadrilateral_9', SQUARE)]
+
+   !> Columns by themselves: of all elements of a mesh, SHAPES(shape)%degree would copy the rows.
+   integer(ip), parameter :: DEGREE_OF(MOST_NODES) = SHAPES%degree, BEST_OF(MOST_NODES) = SHAPES%n_best
+
+   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2
+   type(plane_state_t), parameter :: STATES(2) = [plane_state_t('CPE', 'plane strain', .false.), &
+                                                  plane_state_t('CPS', 'plane stress', .true.)]
+
+   type(element_kind_t), parameter :: KINDS(4) = &
+                                      [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
+                                   element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), element_kind_t('CPS9', 9, PLANE_STRESS, .true.)]
+
+contains
+
+   !> Place in KINDS of a name in capitals; 0: there is none.
+   pure integer(ip) function kind_named(name)
+      character(len=*), intent(in) :: name
+
+      kind_named = findloc(KINDS%name, name, dim=1, kind=ip)
+   end function kind_named
+
+   !> Place in KINDS of a shape in a plane state.
+   pure integer(ip) function kind_of(shape, state)
+      integer(ip), intent(in) :: shape, state
+
+      kind_of = findloc(KINDS%shape == shape .and. KINDS%state == state, .true., dim=1, kind=ip)
+   end function kind_of
+
+   !> Whether the strains of an element may have one dilatation, its mean (B-bar): the first degree without strain across the plane.
+   !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock.
+   pure logical function can_average(shape, state)
+      integer(ip), intent(in) :: shape, state
+
+      can_average = SHAPES(shape)%degree == 1 .and. .not. STATES(state)%is_thin
+   end function can_average
+
+end module atrito_element_table
