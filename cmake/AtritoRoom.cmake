@@ -12,9 +12,10 @@ set(ATRITO_WARNINGS -Wall -Wextra -Wimplicit-interface -Wimplicit-procedure -Wun
 
 add_library(atrito_options INTERFACE)
 target_compile_options(atrito_options INTERFACE
-   $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-std=f2018 -fimplicit-none -ffree-line-length-132 ${ATRITO_WARNINGS}>)
+   $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-std=f2018 -fimplicit-none -ffree-line-length-132 ${ATRITO_WARNINGS}>
+   $<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:-std=c11 -Wall -Wextra>)
 if(ATRITO_WERROR)
-   target_compile_options(atrito_options INTERFACE $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-Werror>)
+   target_compile_options(atrito_options INTERFACE $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-Werror> $<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:-Werror>)
 endif()
 if(ATRITO_CHECKS)
    target_compile_options(atrito_options INTERFACE $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:
@@ -22,7 +23,7 @@ if(ATRITO_CHECKS)
 endif()
 if(ATRITO_SANITIZE)
    # add_compile_options and not atrito_options: everything that is linked must agree on it, the tests as well
-   add_compile_options($<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-fsanitize=address,undefined>
+   add_compile_options(-fsanitize=address,undefined
       $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-fcheck=all,no-array-temps> -g -fno-omit-frame-pointer)
    add_link_options(-fsanitize=address,undefined)
 endif()

@@ -8,10 +8,7 @@ module atrito_driver
                                   TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
    use atrito_console, only: print_lines, print_messages, print_status
-   use atrito_files, only: ignore_broken_pipe
-   use atrito_heap, only: keep_freed_memory
    use atrito_help, only: help_overview, help_keyword, help_manual
-   use atrito_interrupts, only: guard_interrupts
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_libraries, only: version_lines
@@ -23,11 +20,12 @@ module atrito_driver
    use atrito_run, only: run_deck, load_model, solve_options
    use atrito_solve, only: survey_scene
    use atrito_stability_limit, only: run_limit
-   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE
+   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE, STATUS_INTERNAL
    use atrito_strings, only: string_t, join, upper_case, nearest_names
    use atrito_study, only: run_study
    use atrito_sweep, only: run_sweep
-   use atrito_threads, only: set_threads, sleep_soon
+   use atrito_system, only: guard_interrupts, ignore_failed_writes, keep_freed_memory
+   use atrito_threads, only: set_threads
    use atrito_timers, only: reset_timers
    use atrito_usage, only: compose_usage, compose_options
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -48,8 +46,8 @@ contains
       logical :: ok
 
       call keep_freed_memory()
-      call guard_interrupts()
-      call ignore_broken_pipe()
+      call guard_interrupts(STATUS_INTERNAL)
+      call ignore_failed_writes()
       call set_blas_threads(1_ip)
       call set_threads(1_ip)
       call clear_messages()
@@ -62,7 +60,6 @@ contains
          call print_lines([string_t('    see:      atrito --help')], error_unit)
          return
       end if
-      if (command%threads > 1 .and. any(command%task == [TASK_RUN, TASK_STUDY, TASK_LIMIT])) call sleep_soon(command%threads)
       select case (command%task)
       case (TASK_RUN)
          call run_deck(command, store, code)

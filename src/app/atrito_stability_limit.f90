@@ -33,7 +33,7 @@ module atrito_stability_limit
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_table, only: origin_t
    use atrito_threads, only: set_threads
-   use atrito_timers, only: processor_seconds
+   use atrito_system, only: processor_seconds
    implicit none (type, external)
    private
    public :: run_limit

@@ -15,7 +15,7 @@ module atrito_sweep
    use atrito_overlay_plots, only: write_overlay_plots
    use atrito_page, only: page_t, print_page
    use atrito_plot_files, only: plot_folder, remove_plots
-   use atrito_processes, only: begin_worker, end_worker, await_workers, share_integers
+   use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_FILE, STATUS_INTERNAL
@@ -23,7 +23,8 @@ module atrito_sweep
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
    use atrito_table, only: origin_t
-   use atrito_timers, only: reset_timers, processor_seconds
+   use atrito_system, only: await_workers, processor_seconds
+   use atrito_timers, only: reset_timers
    implicit none (type, external)
    private
    public :: run_sweep

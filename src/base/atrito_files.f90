@@ -3,18 +3,18 @@
 !> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_intptr_t, c_long, c_null_char, &
-                                                                             c_null_funptr, c_null_ptr, c_ptr, c_size_t
-   use atrito_interrupts, only: hold_interrupts, release_interrupts, note_file, forget_file, forget_folder
+   use, intrinsic :: iso_c_binding, only: c_associated, c_null_char, c_null_ptr, c_ptr, c_size_t
    use atrito_kinds, only: ip, lp
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
-   use atrito_renaming, only: find_obstacle, rename_all, TEMPORARY
+   use atrito_renaming, only: find_obstacle, replace_files, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
+   use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_file, c_close_file, hold_interrupts, &
+                            release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
    public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
-             remove_empty_folder, check_folder, ignore_broken_pipe
+             remove_empty_folder, check_folder
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, close_text, NEW_LINE_CHARACTER
    public :: end_files, commit_files, discard_files
 
@@ -26,7 +26,7 @@ module atrito_files
    end type file_set_t
 
    !> A text file being written through a buffer. The run-time library of gfortran does not tell when a full disk keeps a file
-   !> from being written, C does: hence fopen, fwrite and fclose.
+   !> from being written, C does.
    type :: text_file_t
       type(c_ptr) :: stream = c_null_ptr
       character(len=:), allocatable :: path            !< temporary path
@@ -40,49 +40,9 @@ module atrito_files
    character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
    !> The places in a text are default integers: one of 2 GB is larger than any deck or table.
    integer(lp), parameter :: LARGEST_FILE = 2000000000_lp
+   integer(lp), parameter :: NO_LENGTH = -2_lp               !< of a pipe or a terminal
    !> A text has no zero byte; of a file with one in its first bytes no more than these is read.
    integer, parameter :: FIRST_BYTES = 65536
-
-   interface
-      type(c_ptr) function c_realpath(path, resolved) bind(C, name='realpath')
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-         character(kind=c_char), intent(out) :: resolved(*)
-      end function c_realpath
-      integer(c_int) function c_open(path, flags) bind(C, name='open')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: flags
-      end function c_open
-      integer(c_long) function c_lseek(descriptor, offset, from) bind(C, name='lseek')
-         import :: c_int, c_long
-         integer(c_int), value :: descriptor, from
-         integer(c_long), value :: offset
-      end function c_lseek
-      integer(c_int) function c_close(descriptor) bind(C, name='close')
-         import :: c_int
-         integer(c_int), value :: descriptor
-      end function c_close
-      type(c_ptr) function c_fopen(path, mode) bind(C, name='fopen')
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function c_fopen
-      integer(c_size_t) function c_fwrite(text, size, n, stream) bind(C, name='fwrite')
-         import :: c_char, c_ptr, c_size_t
-         character(kind=c_char), intent(in) :: text(*)
-         integer(c_size_t), value :: size, n
-         type(c_ptr), value :: stream
-      end function c_fwrite
-      integer(c_int) function c_fclose(stream) bind(C, name='fclose')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fclose
-      type(c_funptr) function c_signal(number, handler) bind(C, name='signal')
-         import :: c_funptr, c_int
-         integer(c_int), value :: number
-         type(c_funptr), value :: handler
-      end function c_signal
-   end interface
 
 contains
 
@@ -113,22 +73,16 @@ contains
    subroutine judge_file(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
-      integer(c_int), parameter :: READ_AT_ONCE = 2048_c_int      ! O_RDONLY + O_NONBLOCK of Linux: a pipe does not wait either
-      integer(c_int), parameter :: FROM_END = 2_c_int
-      integer(c_int) :: descriptor, ignored
-      integer(c_long) :: length
+      integer(lp) :: length
 
       if (is_folder(path)) then
          call set_status(status, STATUS_FILE, path//': is a folder')
          return
       end if
-      descriptor = c_open(path//c_null_char, READ_AT_ONCE)
-      if (descriptor < 0) return                                  ! the reason is told by the opening that follows
-      length = c_lseek(descriptor, 0_c_long, FROM_END)
-      ignored = c_close(descriptor)
-      if (length < 0) then
+      length = c_file_length(path//c_null_char)
+      if (length == NO_LENGTH) then
          call set_status(status, STATUS_FILE, path//': is a pipe or a terminal; a plain file is expected')
-      else if (int(length, lp) > LARGEST_FILE) then
+      else if (length > LARGEST_FILE) then
          call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
       end if
    end subroutine judge_file
@@ -178,13 +132,12 @@ contains
    function true_path(path) result(true)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: true
-      integer, parameter :: LONGEST = 4096                        ! PATH_MAX of Linux; elsewhere it is 1024
-      character(len=LONGEST) :: buffer
+      character(len=4096) :: buffer
+      integer :: length
 
       true = path
-      if (len(path) >= LONGEST) return
-      buffer = ' '
-      if (c_associated(c_realpath(path//c_null_char, buffer))) true = buffer(:index(buffer, c_null_char) - 1)
+      length = c_true_path(path//c_null_char, buffer, len(buffer))
+      if (length > 0) true = buffer(:length)
    end function true_path
 
    !> Begins a set of files in a folder, which is made where it is missing.
@@ -196,30 +149,7 @@ contains
       set%folder = folder
       allocate (set%names(0))
       call make_folder(folder, status, set%made)
-      call ignore_size_limit()
    end subroutine begin_files
-
-   !> A reader of the output that goes away (`| head -1`) shall not end a run: writing to it fails, and nobody minds.
-   subroutine ignore_broken_pipe()
-      integer(c_int), parameter :: SIGPIPE = 13_c_int             ! Linux and BSD
-
-      call ignore_signal(SIGPIPE)
-   end subroutine ignore_broken_pipe
-
-   !> A limit on the size of files (ulimit -f) shall come back from fwrite, as a full disk does, and not end the program.
-   subroutine ignore_size_limit()
-      integer(c_int), parameter :: SIGXFSZ = 25_c_int             ! Linux and BSD
-
-      call ignore_signal(SIGXFSZ)
-   end subroutine ignore_size_limit
-
-   subroutine ignore_signal(number)
-      integer(c_int), intent(in) :: number
-      integer(c_intptr_t), parameter :: SIG_IGN = 1_c_intptr_t
-      type(c_funptr) :: previous
-
-      previous = c_signal(number, transfer(SIG_IGN, c_null_funptr))
-   end subroutine ignore_signal
 
    !> Takes a file into the set that is written by other means, under the temporary path that is given back.
    subroutine reserve_file(set, name, path)
@@ -230,7 +160,7 @@ contains
       call append_string(set%names, name)
       path = set%folder//'/'//name//TEMPORARY
       call remove_file(path)
-      call note_file(path)
+      call note_path(path)
    end subroutine reserve_file
 
    !> Opens a file of the set under its temporary name. A failure is kept in the file until close_text.
@@ -242,7 +172,7 @@ contains
       file%final_path = set%folder//'/'//name
       allocate (character(len=BUFFER_LENGTH) :: file%buffer)
       call reserve_file(set, name, file%path)
-      file%stream = c_fopen(file%path//c_null_char, 'wb'//c_null_char)
+      file%stream = c_create_file(file%path//c_null_char)
       if (.not. c_associated(file%stream)) call set_status(file%status, STATUS_FILE, file%final_path//': cannot be written')
    end subroutine open_text
 
@@ -267,13 +197,12 @@ contains
    subroutine put_lines(file, lines)
       type(text_file_t), intent(inout) :: file
       character(len=*), contiguous, intent(in) :: lines(:)
-      integer(c_size_t) :: written, length
+      integer(c_size_t) :: length
 
       call flush_buffer(file)
       length = len(lines, kind=c_size_t)*size(lines, kind=c_size_t)
       if (.not. is_ok(file%status) .or. length == 0) return
-      written = c_fwrite(lines, 1_c_size_t, length, file%stream)
-      if (written /= length) call fail_to_write(file)
+      if (c_write_file(file%stream, lines, length) == 0) call fail_to_write(file)
    end subroutine put_lines
 
    subroutine flush_buffer(file)
@@ -286,12 +215,11 @@ contains
    subroutine put_text(file, text)
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: text
-      integer(c_size_t) :: written, length
+      integer(c_size_t) :: length
 
       length = len(text, kind=c_size_t)
       if (.not. is_ok(file%status) .or. length == 0) return
-      written = c_fwrite(text, 1_c_size_t, length, file%stream)
-      if (written /= length) call fail_to_write(file)
+      if (c_write_file(file%stream, text, length) == 0) call fail_to_write(file)
    end subroutine put_text
 
    subroutine fail_to_write(file)
@@ -307,7 +235,7 @@ contains
 
       call flush_buffer(file)
       if (c_associated(file%stream)) then
-         if (c_fclose(file%stream) /= 0_c_int .and. is_ok(file%status)) call fail_to_write(file)
+         if (c_close_file(file%stream) == 0 .and. is_ok(file%status)) call fail_to_write(file)
          file%stream = c_null_ptr
       end if
       status = file%status
@@ -337,20 +265,12 @@ contains
       type(file_set_t), intent(in) :: set
       type(string_t), intent(in) :: stale(:)        !< names without folder
       type(status_t), intent(out) :: status
-      integer :: i
 
       call find_obstacle(set%folder, set%names, stale, status)
       if (is_ok(status)) then
          call hold_interrupts()
-         call rename_all(set%folder, set%names, status)
-         if (is_ok(status)) then
-            do i = 1, size(stale)
-               if (is_in(set, stale(i)%s)) cycle
-               call remove_file(set%folder//'/'//stale(i)%s)
-               call remove_file(set%folder//'/'//stale(i)%s//TEMPORARY)   ! of a run that was killed
-            end do
-            call keep_files(set)
-         end if
+         call replace_files(set%folder, set%names, stale, status)
+         if (is_ok(status)) call keep_files(set)
          call release_interrupts()
       end if
       if (.not. is_ok(status)) call discard_files(set)
@@ -362,24 +282,13 @@ contains
       integer :: i
 
       do i = 1, size(set%names)
-         call forget_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
+         call forget_path(set%folder//'/'//set%names(i)%s//TEMPORARY)
       end do
       if (.not. allocated(set%made)) return
       do i = 1, size(set%made)
-         call forget_folder(set%made(i)%s)
+         call forget_path(set%made(i)%s)
       end do
    end subroutine keep_files
-
-   pure logical function is_in(set, name)
-      type(file_set_t), intent(in) :: set
-      character(len=*), intent(in) :: name
-      integer(ip) :: i
-
-      is_in = .false.
-      do i = 1, int(size(set%names), ip)
-         is_in = is_in .or. set%names(i)%s == name
-      end do
-   end function is_in
 
    !> Removes what was written under temporary names, and the folders that were made for it.
    subroutine discard_files(set)
@@ -389,7 +298,7 @@ contains
       if (.not. allocated(set%names)) return
       do i = 1, size(set%names)
          call remove_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
-         call forget_file(set%folder//'/'//set%names(i)%s//TEMPORARY)
+         call forget_path(set%folder//'/'//set%names(i)%s//TEMPORARY)
       end do
       call remove_folders(set%made)
    end subroutine discard_files

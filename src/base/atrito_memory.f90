@@ -1,28 +1,16 @@
 !> How much memory the machine has to give, so that a scene that needs more is refused before it is allocated: Linux promises
 !> more than it has, and ends the program when the promise is called in.
 module atrito_memory
-   use, intrinsic :: iso_c_binding, only: c_int, c_long
    use atrito_files, only: read_system_line
    use atrito_kinds, only: ip, lp, wp
    use atrito_strings, only: to_text
+   use atrito_system, only: address_space_limit
    implicit none (type, external)
    private
    public :: available_memory, resident_memory, memory_text
 
    integer(lp), parameter :: KIB = 1024_lp
    integer(lp), parameter :: UNLIMITED = huge(1_lp)
-
-   interface
-      integer(c_int) function c_getrlimit(resource, limits) bind(C, name='getrlimit')
-         import :: c_int, c_long
-         integer(c_int), value :: resource
-         integer(c_long), intent(out) :: limits(2)     !< soft, hard
-      end function c_getrlimit
-
-      integer(c_int) function c_getpagesize() bind(C, name='getpagesize')
-         import :: c_int
-      end function c_getpagesize
-   end interface
 
 contains
 
@@ -35,26 +23,20 @@ contains
 
    !> Memory that the process holds now [bytes], libraries included; 0 where the system does not tell.
    integer(lp) function resident_memory() result(bytes)
-      character(len=:), allocatable :: line            ! pages of the whole address space, then of what is there of it
-      logical :: found
-
-      bytes = 0_lp
-      call read_system_line('/proc/self/statm', '', line, found)
-      if (found) bytes = int(c_getpagesize(), lp)*leading_number(line(index(line, ' ') + 1:))
+      bytes = count_of('/proc/self/status', 'VmRSS:', KIB)
+      if (bytes == UNLIMITED) bytes = 0_lp
    end function resident_memory
 
    !> Address space below the limit that `ulimit -v` sets [bytes].
    integer(lp) function address_space_left() result(bytes)
-      integer(c_int), parameter :: ADDRESS_SPACE = 9_c_int       ! RLIMIT_AS of Linux
-      integer(c_long) :: limits(2)
-      integer(lp) :: used
+      integer(lp) :: limit, used
 
       bytes = UNLIMITED
-      if (c_getrlimit(ADDRESS_SPACE, limits) /= 0_c_int) return
-      if (limits(1) < 0_c_long) return                           ! infinity, which is -1
+      limit = address_space_limit()
+      if (limit < 0_lp) return
       used = count_of('/proc/self/status', 'VmSize:', KIB)
       if (used == UNLIMITED) used = 0_lp
-      bytes = max(0_lp, int(limits(1), lp) - used)
+      bytes = max(0_lp, limit - used)
    end function address_space_left
 
    !> The number that follows a label at the beginning of a line of a file; UNLIMITED where there is none.

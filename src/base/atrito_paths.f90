@@ -1,46 +1,17 @@
 !> Files and folders by their names: what is there, what can be made, what is removed.
 module atrito_paths
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
-   use atrito_interrupts, only: hold_interrupts, release_interrupts, note_folder, forget_folder
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use atrito_status, only: status_t, set_status, STATUS_FILE
    use atrito_strings, only: string_t, append_string
-   use atrito_system_errors, only: last_error, NO_SUCH_FILE, NOT_A_FOLDER
+   use atrito_system, only: c_is_folder, c_may_write, c_make_folder, c_judge_folder, c_remove_file, c_remove_folder, &
+                            hold_interrupts, release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
    public :: file_exists, is_folder, may_write, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
 
-   integer(c_int), parameter :: FOLDER_MODE = int(o'777', c_int)
-   integer(c_int), parameter :: TO_WRITE = 2_c_int, TO_WRITE_AND_SEARCH = 3_c_int, TO_USE = 7_c_int
+   !> What keeps a run from writing into a folder (judge_folder).
+   integer, parameter :: NOTHING = 0, IS_MISSING = 1, IS_BELOW_A_FILE = 2, NOT_READABLE = 3
    integer, parameter :: MOST_TRIES = 5
-
-   interface
-      integer(c_int) function c_mkdir(path, mode) bind(C, name='mkdir')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_mkdir
-      integer(c_int) function c_access(path, mode) bind(C, name='access')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_access
-      integer(c_int) function c_unlink(path) bind(C, name='unlink')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_unlink
-      type(c_ptr) function c_opendir(path) bind(C, name='opendir')
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_opendir
-      integer(c_int) function c_closedir(folder) bind(C, name='closedir')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: folder
-      end function c_closedir
-      integer(c_int) function c_rmdir(path) bind(C, name='rmdir')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_rmdir
-   end interface
 
 contains
 
@@ -52,23 +23,19 @@ contains
 
    logical function is_folder(path)
       character(len=*), intent(in) :: path
-      type(c_ptr) :: folder
-      integer(c_int) :: ignored
 
-      folder = c_opendir(path//c_null_char)
-      is_folder = c_associated(folder)
-      if (is_folder) ignored = c_closedir(folder)
+      is_folder = c_is_folder(path//c_null_char) == 1
    end function is_folder
 
    !> Whether this user may write into a file that is there.
    logical function may_write(path)
       character(len=*), intent(in) :: path
 
-      may_write = c_access(path//c_null_char, TO_WRITE) == 0_c_int
+      may_write = c_may_write(path//c_null_char) == 1
    end function may_write
 
    !> Makes a folder and those above it where they are missing. Those that were made are appended to `made`, and noted: an
-   !> interrupted program removes them where they are empty, until remove_folders or forget_folder.
+   !> interrupted program removes them where they are empty, until remove_folders or forget_path.
    !>
    !> Another run may remove what it made just then: hence several tries. status: STATUS_FILE.
    subroutine make_folder(path, status, made)
@@ -93,9 +60,9 @@ contains
       logical :: is_new
 
       call hold_interrupts()
-      is_new = c_mkdir(path//c_null_char, FOLDER_MODE) == 0_c_int
+      is_new = c_make_folder(path//c_null_char) == 1
       if (is_new .and. present(made)) then
-         call note_folder(path)
+         call note_path(path)
          call append_string(made, path)
       end if
       call release_interrupts()
@@ -109,25 +76,24 @@ contains
       if (.not. allocated(made)) return
       do i = size(made), 1, -1
          call remove_empty_folder(made(i)%s)
-         call forget_folder(made(i)%s)
+         call forget_path(made(i)%s)
       end do
    end subroutine remove_folders
 
    !> Whether files can be written into a folder that is there, or into one that is to be made. (They may fail all the same: a disk
-   !> may be full.) One question to the system decides: between two, another run may make the folder or remove it.
-   !> status: STATUS_FILE.
+   !> may be full.) status: STATUS_FILE.
    recursive subroutine check_folder(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
-      integer(c_int) :: error
+      integer :: obstacle
 
-      if (c_access(path//'/.'//c_null_char, TO_USE) == 0_c_int) return
-      error = last_error()
-      if (error == NOT_A_FOLDER .and. file_exists(path)) then
+      obstacle = c_judge_folder(path//'/.'//c_null_char)
+      if (obstacle == NOTHING) return
+      if (obstacle == IS_BELOW_A_FILE .and. file_exists(path)) then
          call set_status(status, STATUS_FILE, path//': is no folder that can be read and written into')
-      else if (error == NO_SUCH_FILE .or. error == NOT_A_FOLDER) then
+      else if (obstacle == IS_MISSING .or. obstacle == IS_BELOW_A_FILE) then
          if (len(path) > 1) call check_folder(parent_of(path), status)
-      else if (c_access(path//c_null_char, TO_WRITE_AND_SEARCH) == 0_c_int) then
+      else if (obstacle == NOT_READABLE) then
          call set_status(status, STATUS_FILE, path//': the folder cannot be read')
       else
          call set_status(status, STATUS_FILE, path//': the folder cannot be written into')
@@ -148,17 +114,15 @@ contains
    !> Removes a file; one that is not there is no failure.
    subroutine remove_file(path)
       character(len=*), intent(in) :: path
-      integer(c_int) :: ignored
 
-      ignored = c_unlink(path//c_null_char)
+      call c_remove_file(path//c_null_char)
    end subroutine remove_file
 
    !> Removes a folder; one that is not empty stays.
    subroutine remove_empty_folder(path)
       character(len=*), intent(in) :: path
-      integer(c_int) :: ignored
 
-      ignored = c_rmdir(path//c_null_char)
+      call c_remove_folder(path//c_null_char)
    end subroutine remove_empty_folder
 
 end module atrito_paths

@@ -1,25 +1,19 @@
 !> Files that were written under temporary names get their final ones, all of them or none.
+!>
+!> By plain renaming, which every file system has. First the former files step aside, then the new ones take their names, then the
+!> former ones go. So a failure can be taken back; and a process that is killed in the middle leaves each former or each new file
+!> whole, under its own name or its temporary one, and no new file beside a former one.
 module atrito_renaming
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use atrito_paths, only: file_exists, is_folder, may_write, remove_file
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_strings, only: string_t
+   use atrito_strings, only: string_t, append_string
+   use atrito_system, only: c_rename
    implicit none (type, external)
    private
-   public :: find_obstacle, rename_all, TEMPORARY
+   public :: find_obstacle, replace_files, TEMPORARY
 
-   character(len=*), parameter :: TEMPORARY = '.part', FORMER = '.old'
-
-   interface
-      integer(c_int) function c_link(old, new) bind(C, name='link')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: old(*), new(*)
-      end function c_link
-      integer(c_int) function c_rename(old, new) bind(C, name='rename')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: old(*), new(*)
-      end function c_rename
-   end interface
+   character(len=*), parameter :: TEMPORARY = '.part', FORMER = '.old'//TEMPORARY
 
 contains
 
@@ -55,44 +49,86 @@ contains
       call set_status(status, STATUS_FILE, path//': is write-protected; nothing is replaced')
    end subroutine find_protection
 
-   !> Renames all files, or none. The former ones keep a second name until all is done.
-   subroutine rename_all(folder, names, status)
+   !> Gives all new files their names and removes the stale ones. status: STATUS_FILE, and then the former files are back.
+   subroutine replace_files(folder, names, stale, status)
       character(len=*), intent(in) :: folder
-      type(string_t), intent(in) :: names(:)        !< without folder
+      type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
+      type(string_t), intent(in) :: stale(:)        !< of former files that have no successor; a name may be among the new ones, too
       type(status_t), intent(out) :: status
-      character(len=:), allocatable :: path
-      logical :: has_former(size(names))
+      type(string_t), allocatable :: paths(:)       ! gfortran 12 spoils the lengths in one of fixed size
+      logical :: is_aside(size(names) + size(stale))
       integer :: i, done
 
-      done = 0
+      allocate (paths(0))
       do i = 1, size(names)
-         path = folder//'/'//names(i)%s
-         call remove_file(path//FORMER//TEMPORARY)
-         has_former(i) = c_link(path//c_null_char, path//FORMER//TEMPORARY//c_null_char) == 0_c_int
-         if (c_rename(path//TEMPORARY//c_null_char, path//c_null_char) /= 0_c_int) then
-            call set_status(status, STATUS_FILE, path//': cannot be written')
-            exit
-         end if
-         done = i
+         call append_string(paths, folder//'/'//names(i)%s)
       end do
-      do i = 1, size(names)
-         path = folder//'/'//names(i)%s
-         if (.not. is_ok(status) .and. i <= done) call take_back(path, has_former(i))
-         call remove_file(path//FORMER//TEMPORARY)
+      do i = 1, size(stale)
+         call append_string(paths, folder//'/'//stale(i)%s)
       end do
-   end subroutine rename_all
-
-   !> Gives a name back to the file that had it before.
-   subroutine take_back(path, has_former)
-      character(len=*), intent(in) :: path
-      logical, intent(in) :: has_former
-      integer(c_int) :: ignored
-
-      if (has_former) then
-         ignored = c_rename(path//FORMER//TEMPORARY//c_null_char, path//c_null_char)
+      call move_aside(paths, is_aside, status)
+      call name_new_files(paths(:size(names)), done, status)
+      if (is_ok(status)) then
+         do i = 1, size(paths)
+            call remove_file(paths(i)%s//FORMER)
+            call remove_file(paths(i)%s//TEMPORARY)          ! of a run that was killed
+         end do
       else
-         call remove_file(path)
+         call take_back(paths, is_aside, done, status)
       end if
+   end subroutine replace_files
+
+   !> Gives former files their second name; a folder with the name of a stale file is somebody else's.
+   subroutine move_aside(paths, is_aside, status)
+      type(string_t), intent(in) :: paths(:)
+      logical, intent(out) :: is_aside(:)
+      type(status_t), intent(out) :: status
+      integer :: i
+
+      is_aside = .false.
+      do i = 1, size(paths)
+         if (is_folder(paths(i)%s)) cycle
+         is_aside(i) = renamed(paths(i)%s, paths(i)%s//FORMER)
+         if (is_aside(i) .or. .not. file_exists(paths(i)%s)) cycle
+         call set_status(status, STATUS_FILE, paths(i)%s//': cannot be replaced')
+         return
+      end do
+   end subroutine move_aside
+
+   subroutine name_new_files(paths, done, status)
+      type(string_t), intent(in) :: paths(:)
+      integer, intent(out) :: done                  !< files that have their names
+      type(status_t), intent(inout) :: status       !< nothing is done where it is not STATUS_OK
+
+      done = 0
+      do while (is_ok(status) .and. done < size(paths))
+         if (renamed(paths(done + 1)%s//TEMPORARY, paths(done + 1)%s)) then
+            done = done + 1
+         else
+            call set_status(status, STATUS_FILE, paths(done + 1)%s//': cannot be written')
+         end if
+      end do
+   end subroutine name_new_files
+
+   !> The names go back to the files that had them before.
+   subroutine take_back(paths, is_aside, done, status)
+      type(string_t), intent(in) :: paths(:)
+      logical, intent(in) :: is_aside(:)
+      integer, intent(in) :: done
+      type(status_t), intent(inout) :: status
+      integer :: i
+
+      do i = 1, size(paths)
+         if (i <= done) call remove_file(paths(i)%s)
+         if (.not. is_aside(i)) cycle
+         if (.not. renamed(paths(i)%s//FORMER, paths(i)%s)) status%text = status%text//'; the former one is '//paths(i)%s//FORMER
+      end do
    end subroutine take_back
+
+   logical function renamed(from, to)
+      character(len=*), intent(in) :: from, to
+
+      renamed = c_rename(from//c_null_char, to//c_null_char) == 1
+   end function renamed
 
 end module atrito_renaming

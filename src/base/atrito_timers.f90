@@ -1,10 +1,9 @@
-!> Wall and processor time by phase, and the peak memory. With the message store the only module state.
+!> Wall and processor time by phase.
 module atrito_timers
-   use, intrinsic :: iso_c_binding, only: c_int, c_long
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: phase_time_t, start_phase, stop_phase, get_phases, reset_timers, peak_memory, processor_seconds
+   public :: phase_time_t, start_phase, stop_phase, get_phases, reset_timers
 
    type :: phase_time_t
       character(len=16) :: name = ''
@@ -17,17 +16,6 @@ module atrito_timers
    type(phase_time_t) :: phases(MOST_PHASES)
    real(wp) :: wall_at_start(MOST_PHASES) = 0.0_wp, cpu_at_start(MOST_PHASES) = 0.0_wp
    integer :: n_phases = 0
-
-   integer, parameter :: RUSAGE_LENGTH = 36, MAXRSS = 5 !< struct rusage of Linux: two timevals (4 longs), then ru_maxrss in KiB
-   integer(c_int), parameter :: RUSAGE_CHILDREN = -1_c_int, RUSAGE_SELF = 0_c_int
-
-   interface
-      integer(c_int) function c_getrusage(who, usage) bind(C, name='getrusage')
-         import :: c_int, c_long
-         integer(c_int), value :: who
-         integer(c_long), intent(out) :: usage(*)
-      end function c_getrusage
-   end interface
 
 contains
 
@@ -91,27 +79,5 @@ contains
       wall = real(ticks, wp)/real(rate, wp)
       call cpu_time(cpu)
    end subroutine read_clocks
-
-   !> Processor time of this process and of the workers that have ended [s]; 0 where the system does not tell.
-   real(wp) function processor_seconds() result(seconds)
-      integer(c_long) :: usage(RUSAGE_LENGTH)
-      integer(c_int) :: who
-
-      seconds = 0.0_wp
-      do who = RUSAGE_CHILDREN, RUSAGE_SELF
-         usage = 0
-         if (c_getrusage(who, usage) /= 0_c_int) cycle
-         seconds = seconds + real(usage(1) + usage(3), wp) + 1.0e-6_wp*real(usage(2) + usage(4), wp)
-      end do
-   end function processor_seconds
-
-   !> Largest resident memory of the process so far [bytes]; 0 where the system does not tell.
-   integer(lp) function peak_memory() result(bytes)
-      integer(c_long) :: usage(RUSAGE_LENGTH)
-
-      bytes = 0_lp
-      usage = 0
-      if (c_getrusage(RUSAGE_SELF, usage) == 0_c_int) bytes = int(usage(MAXRSS), lp)*1024_lp
-   end function peak_memory
 
 end module atrito_timers

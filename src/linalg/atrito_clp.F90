@@ -4,7 +4,7 @@
 !> with the version in it). What it is asked for has been in its interface since version 1.
 module atrito_clp
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_f_procpointer, c_funptr, c_int, c_ptr
-   use atrito_dynamic_library, only: find_routine
+   use atrito_system, only: find_routine
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip
    use atrito_linear_program, only: linear_program_t, linear_solution_t, LP_OPTIMAL, LP_INFEASIBLE, LP_UNBOUNDED, LP_FAILED, &

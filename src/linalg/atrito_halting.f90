@@ -3,7 +3,8 @@
 !> C's feholdexcept and fesetenv, not ieee_set_halting_mode: a Fortran procedure restores the halting modes of its caller when
 !> it returns (F2018, 17.6), so that a helper cannot switch them off for anybody else.
 module atrito_halting
-   use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
+   use, intrinsic :: iso_c_binding, only: c_int64_t
+   use atrito_system, only: c_suspend_halting, c_restore_halting
    implicit none (type, external)
    private
    public :: halting_t, suspend_halting, restore_halting
@@ -14,33 +15,20 @@ module atrito_halting
       integer(c_int64_t) :: environment(32) = 0_c_int64_t
    end type halting_t
 
-   interface
-      integer(c_int) function c_feholdexcept(environment) bind(C, name='feholdexcept')
-         import :: c_int, c_int64_t
-         integer(c_int64_t), intent(inout) :: environment(*)
-      end function c_feholdexcept
-      integer(c_int) function c_fesetenv(environment) bind(C, name='fesetenv')
-         import :: c_int, c_int64_t
-         integer(c_int64_t), intent(in) :: environment(*)
-      end function c_fesetenv
-   end interface
-
 contains
 
    !> Saves the environment, clears the exception flags and stops the halting on any exception.
    subroutine suspend_halting(saved)
       type(halting_t), intent(out) :: saved
-      integer(c_int) :: ignored
 
-      ignored = c_feholdexcept(saved%environment)
+      call c_suspend_halting(saved%environment)
    end subroutine suspend_halting
 
    !> Back to what suspend_halting found: flags and halting modes.
    subroutine restore_halting(saved)
       type(halting_t), intent(in) :: saved
-      integer(c_int) :: ignored
 
-      ignored = c_fesetenv(saved%environment)
+      call c_restore_halting(saved%environment)
    end subroutine restore_halting
 
 end module atrito_halting

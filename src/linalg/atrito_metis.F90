@@ -3,15 +3,14 @@
 !> The library is loaded when it is asked for, not with the program: CMake says which file that is (ATRITO_METIS_LIBRARY, its name
 !> with the version in it) and its version (ATRITO_METIS_VERSION), and sees to it that its integers have 32 bits.
 module atrito_metis
-   use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int, c_int32_t, c_null_ptr, c_ptr
-   use atrito_dynamic_library, only: find_routine
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int32_t, c_null_ptr, c_ptr
    use atrito_kinds, only: ip
+   use atrito_system, only: find_routine, terminate
    implicit none (type, external)
    private
    public :: halve_graph, has_metis, metis_version, metis_trouble
 
    integer(c_int32_t), parameter :: METIS_OK = 1, METIS_ERROR = -4, N_OPTIONS = 40
-   integer(c_int), parameter :: SIGTERM = 15_c_int
    !> Places in the list of options, counted from one.
    integer(c_int32_t), parameter :: SEED = 9, UFACTOR = 17
 
@@ -30,13 +29,6 @@ module atrito_metis
       end function set_options
    end interface
 
-   interface
-      integer(c_int) function c_raise(number) bind(C, name='raise')
-         import :: c_int
-         integer(c_int), value :: number
-      end function c_raise
-   end interface
-
 contains
 
    !> Cuts a graph in halves, these in halves, and so on: 2**n_levels parts, of whose numbers from zero the highest bit tells the
@@ -52,7 +44,6 @@ contains
       procedure(partition), pointer :: cut_up
       procedure(set_options), pointer :: begin_options
       integer(c_int32_t) :: options(N_OPTIONS), cut, code
-      integer(c_int) :: ignored
 
       done = has_metis()
       if (.not. done) return
@@ -65,7 +56,7 @@ contains
       code = cut_up(size(first, kind=ip) - 1, 1_ip, first - 1_ip, neighbour - 1_ip, vertex_weight, c_null_ptr, edge_weight, &
                     2_ip**n_levels, c_null_ptr, c_null_ptr, options, cut, part)
       ! while it works METIS takes SIGTERM for an error of its own: it was meant for the program
-      if (code == METIS_ERROR) ignored = c_raise(SIGTERM)
+      if (code == METIS_ERROR) call terminate()
       done = code == METIS_OK
    end subroutine halve_graph
 

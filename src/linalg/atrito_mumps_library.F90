@@ -5,7 +5,7 @@
 !> dmumps_struc has the layout of the header compiled in) and its version (ATRITO_MUMPS_VERSION).
 module atrito_mumps_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
-   use atrito_dynamic_library, only: find_routine
+   use atrito_system, only: find_routine
    implicit none (type, external)
    private
    public :: dmumps_struc, call_mumps, load_mumps, has_mumps, mumps_name, mumps_trouble

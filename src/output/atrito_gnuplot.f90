@@ -2,7 +2,6 @@
 !>
 !> Pictures are an extra: whatever goes wrong here is a warning, W-PLOT, never a failed run.
 module atrito_gnuplot
-   use atrito_interrupts, only: note_file, forget_file
    use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
@@ -10,6 +9,7 @@ module atrito_gnuplot
    use atrito_messages, only: add_warning
    use atrito_plot_files, only: LOG_NAME
    use atrito_processes, only: run_command
+   use atrito_system, only: note_path, forget_path
    implicit none (type, external)
    private
    public :: draw_pictures, shell_quoted, plot_command, first_complaint
@@ -29,7 +29,7 @@ contains
 
       allocate (drawn(0))
       if (size(names) == 0) return
-      call note_file(folder//'/'//LOG_NAME)
+      call note_path(folder//'/'//LOG_NAME)
       do i = 1, size(names)
          call begin_picture(folder//'/'//names(i)%s//'.png')
          call begin_picture(folder//'/'//names(i)%s//'.svg')
@@ -37,10 +37,10 @@ contains
       call run_command(plot_command(folder, names), exit_code)
       do i = 1, size(names)
          if (has_pictures(folder//'/'//names(i)%s)) call append_string(drawn, names(i)%s)
-         call forget_file(folder//'/'//names(i)%s//'.png')
-         call forget_file(folder//'/'//names(i)%s//'.svg')
+         call forget_path(folder//'/'//names(i)%s//'.png')
+         call forget_path(folder//'/'//names(i)%s//'.svg')
       end do
-      call forget_file(folder//'/'//LOG_NAME)
+      call forget_path(folder//'/'//LOG_NAME)
       call judge_outcome(folder, exit_code, size(drawn) == size(names))
    end subroutine draw_pictures
 
@@ -48,7 +48,7 @@ contains
       character(len=*), intent(in) :: path
 
       call remove_file(path)
-      call note_file(path)
+      call note_path(path)
    end subroutine begin_picture
 
    logical function has_pictures(path)

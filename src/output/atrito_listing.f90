@@ -6,7 +6,8 @@ module atrito_listing
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
    use atrito_messages, only: count_messages, get_message, format_message
-   use atrito_timers, only: phase_time_t, get_phases, peak_memory
+   use atrito_system, only: peak_memory
+   use atrito_timers, only: phase_time_t, get_phases
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
    use atrito_results, only: chatter_t, results_t, scene_t, balance_t, iteration_t

@@ -4,7 +4,8 @@ module atrito_screen
    use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
-   use atrito_timers, only: phase_time_t, get_phases, peak_memory
+   use atrito_system, only: peak_memory
+   use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t, METHOD_NAME
    use atrito_results, only: results_t, scene_t
    use atrito_page, only: page_t, begin_page, add_line, add_rule, left, right, number, bytes, plural

@@ -4,7 +4,8 @@ module atrito_write_tables
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
-   use atrito_timers, only: phase_time_t, get_phases, peak_memory
+   use atrito_system, only: peak_memory
+   use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_number_text, only: trimmed_real

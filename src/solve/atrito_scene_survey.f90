@@ -4,7 +4,6 @@ module atrito_scene_survey
    use atrito_body_memory, only: estimate_body_memory, count_body_memory
    use atrito_condensed_body, only: choose_storage
    use atrito_contact_form, only: contact_form_name, CONTACT_SPARSE
-   use atrito_heap, only: reusable_memory
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory, resident_memory
    use atrito_model, only: model_t
@@ -16,7 +15,7 @@ module atrito_scene_survey
    use atrito_solver_choice, only: STORAGE_SPARSE
    use atrito_status, only: status_t
    use atrito_strings, only: to_text, append_string
-   use atrito_timers, only: peak_memory
+   use atrito_system, only: peak_memory, reusable_memory
    implicit none (type, external)
    private
    public :: describe_scene, count_fronts, check_scene

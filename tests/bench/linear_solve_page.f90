@@ -4,7 +4,8 @@ module linear_solve_page
    use atrito_libraries, only: library_t, list_libraries, USED
    use atrito_page, only: page_t, begin_page, add_line, add_rule, add_entry, left, bytes, number
    use atrito_strings, only: to_text
-   use atrito_timers, only: phase_time_t, get_phases, peak_memory, processor_seconds
+   use atrito_system, only: peak_memory, processor_seconds
+   use atrito_timers, only: phase_time_t, get_phases
    use glued_bodies, only: NUMBERING_TEXTS
    use linear_solve, only: plan_t, solve_facts_t, METIS, SOLVE_PHASES
    implicit none (type, external)

@@ -4,7 +4,7 @@
 !> The library is loaded when it is asked for. CMake says which file that is (BENCH_METIS_LIBRARY); without METIS there is no such name.
 module metis_order
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int, c_null_ptr, c_ptr
-   use atrito_dynamic_library, only: find_routine
+   use atrito_system, only: find_routine
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t

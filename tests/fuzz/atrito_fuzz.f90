@@ -19,7 +19,8 @@ program atrito_fuzz
    use atrito_solve, only: solve_static, solve_options_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_timers, only: peak_memory, reset_timers
+   use atrito_system, only: peak_memory
+   use atrito_timers, only: reset_timers
    use fuzz_checks, only: check_reading, check_model, check_results
    use fuzz_mutations, only: mutate_deck
    use fuzz_random, only: random_t, begin_random, random_integer

@@ -2,9 +2,9 @@
 program interrupt_probe
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t, c_ptr, c_null_ptr, c_f_pointer
    use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, commit_files
-   use atrito_interrupts, only: guard_interrupts, hold_interrupts, release_interrupts
-   use atrito_status, only: status_t, is_ok
+   use atrito_status, only: status_t, is_ok, STATUS_INTERNAL
    use atrito_strings, only: string_t
+   use atrito_system, only: guard_interrupts, hold_interrupts, release_interrupts
    implicit none (type, external)
    integer(c_int), parameter :: SIGTERM = 15_c_int
    character(len=:), allocatable :: mode, folder
@@ -21,7 +21,7 @@ program interrupt_probe
 
    mode = argument(1)
    folder = argument(2)
-   call guard_interrupts()
+   call guard_interrupts(STATUS_INTERNAL)
    call write_files(set, status)
    if (.not. is_ok(status)) stop 5, quiet = .true.
    select case (mode)

@@ -1,0 +1,467 @@
+/* What the program asks of the system: paths, files, locks, signals, processes, memory (POSIX; Linux where it says so).
+ *
+ * The numbers and structures of the system stand in its headers, and here alone the compiler sees them. atrito_system.f90 has
+ * the Fortran interfaces. Texts come as C strings. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <fenv.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+/* ---- paths ---- */
+
+int atrito_is_folder(const char *path) {
+   struct stat is;
+   return stat(path, &is) == 0 && S_ISDIR(is.st_mode);
+}
+
+int atrito_may_write(const char *path) { return access(path, W_OK) == 0; }
+
+/* What keeps a run from writing into a folder: 0 nothing, 1 it is not there, 2 something above it is no folder, 3 it cannot be
+ * read, 4 it cannot be written into. One question to the system decides: between two, another run may make the folder or remove
+ * it. */
+int atrito_judge_folder(const char *path) {
+   if (access(path, R_OK | W_OK | X_OK) == 0)
+      return 0;
+   if (errno == ENOENT)
+      return 1;
+   if (errno == ENOTDIR)
+      return 2;
+   return access(path, W_OK | X_OK) == 0 ? 3 : 4;
+}
+
+/* 1: the folder is new. */
+int atrito_make_folder(const char *path) { return mkdir(path, S_IRWXU | S_IRWXG | S_IRWXO) == 0; }
+
+void atrito_remove_file(const char *path) { unlink(path); }
+
+void atrito_remove_folder(const char *path) { rmdir(path); }
+
+/* 1: done. */
+int atrito_rename(const char *from, const char *to) { return rename(from, to) == 0; }
+
+/* The path without links, `.` and `..`: its length, 0 where there is no such file or no room for its path. */
+int atrito_true_path(const char *path, char *out, int room) {
+   char *resolved = realpath(path, NULL);
+   size_t n = resolved ? strlen(resolved) : 0;
+
+   if (n > (size_t)room)
+      n = 0;
+   if (n > 0)
+      memcpy(out, resolved, n);
+   free(resolved);
+   return (int)n;
+}
+
+/* ---- files ---- */
+
+/* The length of a file; -1: it cannot be opened, -2: it has none, being a pipe or a terminal. A pipe that nobody writes into
+ * does not keep the program waiting. */
+int64_t atrito_file_length(const char *path) {
+   int file = open(path, O_RDONLY | O_NONBLOCK);
+   if (file < 0)
+      return -1;
+   off_t length = lseek(file, 0, SEEK_END);
+   close(file);
+   return length < 0 ? -2 : length;
+}
+
+void *atrito_create_file(const char *path) { return fopen(path, "wb"); }
+
+/* 1: all of it is written, as far as is known by now. */
+int atrito_write_file(void *file, const char *text, size_t length) { return fwrite(text, 1, length, file) == length; }
+
+int atrito_close_file(void *file) { return fclose(file) == 0; }
+
+/* A reader of the output that goes away (`| head -1`) and a limit on the size of files (`ulimit -f`) shall come back from
+ * writing, as a full disk does, and not end the program. */
+void atrito_ignore_failed_writes(void) {
+   signal(SIGPIPE, SIG_IGN);
+   signal(SIGXFSZ, SIG_IGN);
+}
+
+/* ---- locks on folders ---- */
+
+/* A descriptor, for atrito_lock_folder; -1: the folder cannot be opened. Programs that this one starts inherit it: the lock
+ * lasts until they have ended, too. */
+int atrito_open_folder(const char *path) { return open(path, O_RDONLY | O_DIRECTORY); }
+
+void atrito_close_folder(int folder) { close(folder); }
+
+/* Whether the folder that was opened still has this path: the run that had it may have removed it. */
+int atrito_is_same_folder(int folder, const char *path) {
+   struct stat opened, is;
+   return fstat(folder, &opened) == 0 && stat(path, &is) == 0 && opened.st_ino == is.st_ino && opened.st_dev == is.st_dev;
+}
+
+/* Locks a folder, waiting for others no longer than so many seconds. 0: they have it still; 1: it is locked, or cannot be
+ * because the file system has no locks. */
+int atrito_lock_folder(int folder, double seconds) {
+   enum { TICK = 20 };                              /* ms */
+
+   for (double waited = 0; flock(folder, LOCK_EX | LOCK_NB) != 0; waited += TICK / 1000.0) {
+      if (errno != EWOULDBLOCK)
+         return 1;
+      if (waited >= seconds)
+         return 0;
+      poll(NULL, 0, TICK);
+   }
+   return 1;
+}
+
+/* ---- what happens when the program is ended ----
+ *
+ * From outside (SIGINT, SIGTERM, SIGHUP) or by a fault of its own (SIGSEGV and the like): files that are not complete are
+ * removed, and folders that were made for them and are empty, and workers end first.
+ *
+ * A factorisation may take minutes, so a handler does all this at once rather than set a flag for the next phase. It calls
+ * nothing but what POSIX calls async-signal-safe; what is to be removed stands ready. atrito_hold_interrupts puts off the end
+ * where half of the work would be worse than all or none of it. */
+
+static const int endings[] = {SIGHUP, SIGINT, SIGTERM};
+static const int faults[] = {SIGILL, SIGBUS, SIGFPE, SIGSEGV};
+enum { ENDINGS = sizeof endings / sizeof *endings, FAULTS = sizeof faults / sizeof *faults };
+
+static char **paths;                                /* to be removed; folders stand before what is in them */
+static pid_t *children;                             /* processes, and groups of processes as negative numbers */
+static int n_paths, n_children;
+static volatile sig_atomic_t held;                  /* depth of atrito_hold_interrupts */
+static volatile sig_atomic_t waiting;               /* a signal that came meanwhile */
+static pthread_t main_thread;
+static int is_silent;                               /* a worker leaves the word to the process that made it */
+static void (*former_handler[FAULTS])(int);
+static int fault_code;                              /* exit code of a fault */
+static int on_guard;                                /* between atrito_guard_exit and atrito_release_exit */
+/* The stack on which a handler runs when that of the main thread has overflown. */
+static _Alignas(16) char spare_stack[262144];
+
+static void say(const char *text) {
+   ssize_t ignored = is_silent ? 0 : write(STDERR_FILENO, text, strlen(text));
+   (void)ignored;
+}
+
+static void remove_unfinished(void) {
+   for (int i = n_paths - 1; i >= 0; i--)
+      if (unlink(paths[i]) != 0)
+         rmdir(paths[i]);
+}
+
+static void await_worker(pid_t process) {
+   for (int i = 0; i < 500; i++) {
+      if (waitpid(process, NULL, WNOHANG) != 0)
+         return;
+      poll(NULL, 0, 10);
+   }
+   kill(process, SIGKILL);
+   waitpid(process, NULL, 0);
+}
+
+/* Waits for the first process of a group, then until the others are gone, too. */
+static void await_group(pid_t process) {
+   waitpid(process, NULL, 0);
+   for (int i = 0; i < 200 && kill(-process, 0) == 0; i++)
+      poll(NULL, 0, 10);
+}
+
+/* Workers are asked to end and clean up themselves; groups, which are programs that draw, just end. */
+static void end_children(void) {
+   for (int i = 0; i < n_children; i++) {
+      kill(children[i], children[i] < 0 ? SIGKILL : SIGTERM);
+      if (children[i] > 0)
+         kill(children[i], SIGCONT);
+   }
+   for (int i = 0; i < n_children; i++) {
+      if (children[i] > 0)
+         await_worker(children[i]);
+      else
+         await_group(-children[i]);
+   }
+}
+
+static void end_by(int number) {
+   held++;                                          /* a second signal changes nothing */
+   end_children();
+   remove_unfinished();
+   say("atrito: error [E-INTERRUPTED] ");
+   say(number == SIGINT ? "interrupted" : number == SIGTERM ? "terminated" : "the terminal hung up");
+   say("; files that were not complete are removed\n");
+   _exit(128 + number);
+}
+
+/* Threads of the parallel regions may be given the signal; `held` speaks for the main thread alone. */
+static void obey(int number) {
+   if (!pthread_equal(pthread_self(), main_thread))
+      pthread_kill(main_thread, number);
+   else if (held > 0)
+      waiting = number;
+   else
+      end_by(number);
+}
+
+static void fail(int number) {
+   end_children();
+   remove_unfinished();
+   for (int i = 0; i < FAULTS; i++) {
+      void (*former)(int) = former_handler[i];
+      if (faults[i] != number || !former)
+         continue;
+      former_handler[i] = NULL;                     /* once, should it fail itself */
+      former(number);
+   }
+   say("atrito: error [E-INTERNAL] a fault of the program ended it; files that were not complete are removed\n");
+   _exit(fault_code);
+}
+
+/* The handler of the run-time library, which tells where the fault was, is called too. One of another kind, which a sanitizer
+ * sets, is left alone. */
+static void guard_fault(int i) {
+   struct sigaction action = {.sa_handler = fail, .sa_flags = SA_ONSTACK}, former;
+
+   sigaction(faults[i], NULL, &former);
+   if (former.sa_flags & SA_SIGINFO)
+      return;
+   if (former.sa_handler != SIG_DFL && former.sa_handler != SIG_IGN)
+      former_handler[i] = former.sa_handler;
+   sigaction(faults[i], &action, NULL);
+}
+
+/* From now on this holds. Called once, by the main thread. A signal that is ignored already (nohup, a job in the background of a
+ * script) stays so. */
+void atrito_guard_interrupts(int code) {
+   struct sigaction action = {.sa_handler = obey, .sa_flags = SA_RESTART}, present;
+   stack_t stack = {.ss_sp = spare_stack, .ss_size = sizeof spare_stack};
+
+   main_thread = pthread_self();
+   fault_code = code;
+   for (int i = 0; i < ENDINGS; i++)
+      if (sigaction(endings[i], NULL, &present) == 0 && present.sa_handler != SIG_IGN)
+         sigaction(endings[i], &action, NULL);
+   sigaltstack(&stack, NULL);
+   for (int i = 0; i < FAULTS; i++)
+      guard_fault(i);
+   atexit(remove_unfinished);
+}
+
+/* Puts off the end by a signal until atrito_release_interrupts. Calls may be nested. */
+void atrito_hold_interrupts(void) {
+   held++;
+   atomic_signal_fence(memory_order_seq_cst);
+}
+
+void atrito_release_interrupts(void) {
+   atomic_signal_fence(memory_order_seq_cst);
+   if (--held == 0 && waiting)
+      end_by(waiting);
+}
+
+/* A file, or a folder that is empty by then, that is to be removed when the program ends before atrito_forget_path. */
+void atrito_note_path(const char *path) {
+   atrito_hold_interrupts();
+   char *copy = strdup(path);
+   char **longer = realloc(paths, sizeof *paths * (size_t)(n_paths + 1));
+   if (longer)
+      paths = longer;
+   if (longer && copy)
+      paths[n_paths++] = copy;
+   atrito_release_interrupts();
+}
+
+void atrito_forget_path(const char *path) {
+   int i = n_paths - 1;
+
+   atrito_hold_interrupts();
+   while (i >= 0 && strcmp(paths[i], path) != 0)
+      i--;
+   if (i >= 0) {
+      free(paths[i]);
+      n_paths--;
+      memmove(paths + i, paths + i + 1, sizeof *paths * (size_t)(n_paths - i));
+   }
+   atrito_release_interrupts();
+}
+
+/* A child that ends with this process; a group of processes as the negative number of its first one. Called while interrupts are
+ * held. */
+static void note_child(pid_t child) {
+   pid_t *longer = realloc(children, sizeof *children * (size_t)(n_children + 1));
+   if (!longer)
+      return;
+   children = longer;
+   children[n_children++] = child;
+}
+
+static void forget_child(pid_t child) {
+   atrito_hold_interrupts();
+   for (int i = 0; i < n_children; i++)
+      if (children[i] == child)
+         children[i--] = children[--n_children];
+   atrito_release_interrupts();
+}
+
+/* The run-time library ends the program (an array that cannot be allocated, an index out of its range) with exit codes that mean
+ * something else here: 2 is an error in the deck. Until atrito_release_exit such an end has this code. */
+static void change_code(void) {
+   if (on_guard)
+      _exit(fault_code);
+}
+
+void atrito_guard_exit(int code) {
+   fault_code = code;
+   on_guard = 1;
+   atexit(change_code);
+}
+
+void atrito_release_exit(void) { on_guard = 0; }
+
+/* SIGTERM to this process, for a library that took it for something of its own. */
+void atrito_terminate(void) { raise(SIGTERM); }
+
+/* ---- processes ---- */
+
+/* A copy of this process: 0 in the copy; its number, or -1 where none can be made, in this one. Files and children are those of
+ * the process that made it. */
+int atrito_begin_worker(void) {
+   atrito_hold_interrupts();
+   pid_t id = fork();
+   if (id == 0) {
+      n_paths = n_children = 0;
+      waiting = 0;
+      is_silent = 1;
+   } else if (id > 0) {
+      note_child(id);
+   }
+   atrito_release_interrupts();
+   return id;
+}
+
+/* At once, without the end of the run-time library. */
+void atrito_end_worker(void) { _exit(0); }
+
+void atrito_await_workers(void) {
+   pid_t id;
+   while ((id = wait(NULL)) > 0)
+      forget_child(id);
+}
+
+/* Has the shell run a command and waits for its end: the exit code, 128 and the number of the signal that ended it, or 127 where
+ * there is no shell. The command is a group of processes of its own: a signal from the terminal comes to this process alone,
+ * which ends it. */
+int atrito_run_command(const char *command) {
+   enum { NO_PROGRAM = 127 };                       /* the shell's code for a program that is not there */
+   int state, code = NO_PROGRAM;
+
+   atrito_hold_interrupts();
+   pid_t id = fork();
+   if (id == 0) {
+      setpgid(0, 0);
+      execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+      _exit(NO_PROGRAM);
+   }
+   if (id > 0) {
+      setpgid(id, id);                              /* here, too: nobody knows who comes first */
+      note_child(-id);
+   }
+   atrito_release_interrupts();
+   if (id < 0)
+      return code;
+   if (waitpid(id, &state, 0) == id)
+      code = WIFSIGNALED(state) ? 128 + WTERMSIG(state) : WEXITSTATUS(state);
+   forget_child(-id);
+   return code;
+}
+
+/* Memory of zeros that all workers to come see and change; NULL: the system has none. */
+void *atrito_share_memory(size_t bytes) {
+   void *memory = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+   return memory == MAP_FAILED ? NULL : memory;
+}
+
+/* ---- libraries ---- */
+
+/* A routine by its symbol; NULL where the library cannot be loaded or has none of that name. The library stays loaded. */
+void *atrito_find_routine(const char *file, const char *symbol) {
+   void *library = dlopen(file, RTLD_LAZY);
+   return library ? dlsym(library, symbol) : NULL;
+}
+
+/* ---- time and memory ---- */
+
+/* Processor time of this process and of its children that have ended [s]. */
+double atrito_processor_seconds(void) {
+   static const int whose[] = {RUSAGE_CHILDREN, RUSAGE_SELF};
+   double seconds = 0;
+   struct rusage use;
+
+   for (int i = 0; i < 2; i++)
+      if (getrusage(whose[i], &use) == 0)
+         seconds += (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+                    1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+   return seconds;
+}
+
+/* Largest resident memory of the process so far [bytes]; 0 where the system does not tell. Linux counts KiB. */
+int64_t atrito_peak_memory(void) {
+   struct rusage use;
+   return getrusage(RUSAGE_SELF, &use) == 0 ? (int64_t)use.ru_maxrss * 1024 : 0;
+}
+
+/* What `ulimit -v` allows [bytes]; -1: no limit. */
+int64_t atrito_address_space_limit(void) {
+   struct rlimit limit;
+   return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? (int64_t)limit.rlim_cur : -1;
+}
+
+/* Keeps the memory that the program gives back to the C library for what it asks for next.
+ *
+ * Left to itself the GNU library takes every large array from the system and gives it back there: the system clears each page
+ * anew when it is touched, which took a fifth of the processor time of a large run. In one growing heap a page is cleared once:
+ * the page faults of a run are its peak memory, and that is no larger (docs/developer/solvers.md). To be called before the first
+ * large array is allocated. */
+enum { HEAP_GROWS_BY = 1048576 };
+
+void atrito_keep_freed_memory(void) {
+#ifdef __GLIBC__
+   mallopt(M_MMAP_MAX, 0);
+   mallopt(M_TRIM_THRESHOLD, -1);
+   mallopt(M_TOP_PAD, HEAP_GROWS_BY);
+#endif
+}
+
+/* Memory that the process holds and that will serve again [bytes], without what may not have been touched yet; 0 where the
+ * library does not tell. */
+int64_t atrito_reusable_memory(void) {
+   int64_t bytes = 0;
+#ifdef __GLIBC__
+#if __GLIBC_PREREQ(2, 33)
+   bytes = (int64_t)mallinfo2().fordblks - HEAP_GROWS_BY;
+#endif
+#endif
+   return bytes > 0 ? bytes : 0;
+}
+
+/* ---- floating-point exceptions ---- */
+
+/* Saves the environment (in 256 bytes), clears the exception flags and stops the halting on any exception. */
+void atrito_suspend_halting(void *environment) {
+   _Static_assert(sizeof(fenv_t) <= 256, "halting_t of atrito_halting.f90 is too small");
+   feholdexcept(environment);
+}
+
+void atrito_restore_halting(const void *environment) { fesetenv(environment); }

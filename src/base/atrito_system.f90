@@ -1,0 +1,148 @@
+!> What the program asks of the system: the interfaces of atrito_system.c, where it is said what each routine does.
+!>
+!> Names with c_ take C strings, which end with c_null_char. Answers that are 0 or 1 are no and yes.
+module atrito_system
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
+   implicit none (type, external)
+   private
+   public :: c_is_folder, c_may_write, c_judge_folder, c_make_folder, c_remove_file, c_remove_folder, c_rename, c_true_path
+   public :: c_file_length, c_create_file, c_write_file, c_close_file, ignore_failed_writes
+   public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
+   public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit, terminate
+   public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
+   public :: processor_seconds, peak_memory, address_space_limit, keep_freed_memory, reusable_memory
+   public :: c_suspend_halting, c_restore_halting
+
+   abstract interface
+      subroutine act() bind(C)
+      end subroutine act
+      subroutine act_on_path(path) bind(C)
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine act_on_path
+      subroutine take_number(number) bind(C)
+         import :: c_int
+         integer(c_int), value :: number
+      end subroutine take_number
+      integer(c_int) function ask() bind(C)
+         import :: c_int
+      end function ask
+      integer(c_int) function ask_path(path) bind(C)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function ask_path
+      integer(c_int64_t) function ask_bytes() bind(C)
+         import :: c_int64_t
+      end function ask_bytes
+   end interface
+
+   procedure(ask_path), bind(C, name='atrito_is_folder') :: c_is_folder
+   procedure(ask_path), bind(C, name='atrito_may_write') :: c_may_write
+   procedure(ask_path), bind(C, name='atrito_judge_folder') :: c_judge_folder
+   procedure(ask_path), bind(C, name='atrito_make_folder') :: c_make_folder
+   procedure(act_on_path), bind(C, name='atrito_remove_file') :: c_remove_file
+   procedure(act_on_path), bind(C, name='atrito_remove_folder') :: c_remove_folder
+   procedure(act), bind(C, name='atrito_ignore_failed_writes') :: ignore_failed_writes
+   procedure(ask_path), bind(C, name='atrito_open_folder') :: c_open_folder
+   procedure(take_number), bind(C, name='atrito_close_folder') :: c_close_folder
+   procedure(take_number), bind(C, name='atrito_guard_interrupts') :: guard_interrupts
+   procedure(act), bind(C, name='atrito_hold_interrupts') :: hold_interrupts
+   procedure(act), bind(C, name='atrito_release_interrupts') :: release_interrupts
+   procedure(act_on_path), bind(C, name='atrito_note_path') :: c_note_path
+   procedure(act_on_path), bind(C, name='atrito_forget_path') :: c_forget_path
+   procedure(take_number), bind(C, name='atrito_guard_exit') :: guard_exit
+   procedure(act), bind(C, name='atrito_release_exit') :: release_exit
+   procedure(act), bind(C, name='atrito_terminate') :: terminate
+   procedure(ask), bind(C, name='atrito_begin_worker') :: c_begin_worker
+   procedure(act), bind(C, name='atrito_end_worker') :: c_end_worker
+   procedure(act), bind(C, name='atrito_await_workers') :: await_workers
+   procedure(ask_path), bind(C, name='atrito_run_command') :: c_run_command
+   procedure(ask_bytes), bind(C, name='atrito_peak_memory') :: peak_memory
+   procedure(ask_bytes), bind(C, name='atrito_address_space_limit') :: address_space_limit
+   procedure(act), bind(C, name='atrito_keep_freed_memory') :: keep_freed_memory
+   procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
+
+   interface
+      integer(c_int) function c_rename(from, to) bind(C, name='atrito_rename')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function c_rename
+      integer(c_int) function c_true_path(path, resolved, room) bind(C, name='atrito_true_path')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: resolved(*)
+         integer(c_int), value :: room
+      end function c_true_path
+      integer(c_int64_t) function c_file_length(path) bind(C, name='atrito_file_length')
+         import :: c_char, c_int64_t
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_file_length
+      type(c_ptr) function c_create_file(path) bind(C, name='atrito_create_file')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_create_file
+      integer(c_int) function c_write_file(file, text, length) bind(C, name='atrito_write_file')
+         import :: c_char, c_int, c_ptr, c_size_t
+         type(c_ptr), value :: file
+         character(kind=c_char), intent(in) :: text(*)
+         integer(c_size_t), value :: length
+      end function c_write_file
+      integer(c_int) function c_close_file(file) bind(C, name='atrito_close_file')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: file
+      end function c_close_file
+      integer(c_int) function c_is_same_folder(folder, path) bind(C, name='atrito_is_same_folder')
+         import :: c_char, c_int
+         integer(c_int), value :: folder
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_is_same_folder
+      integer(c_int) function c_lock_folder(folder, seconds) bind(C, name='atrito_lock_folder')
+         import :: c_double, c_int
+         integer(c_int), value :: folder
+         real(c_double), value :: seconds
+      end function c_lock_folder
+      type(c_ptr) function c_share_memory(bytes) bind(C, name='atrito_share_memory')
+         import :: c_ptr, c_size_t
+         integer(c_size_t), value :: bytes
+      end function c_share_memory
+      type(c_funptr) function c_find_routine(file, symbol) bind(C, name='atrito_find_routine')
+         import :: c_char, c_funptr
+         character(kind=c_char), intent(in) :: file(*), symbol(*)
+      end function c_find_routine
+      real(c_double) function processor_seconds() bind(C, name='atrito_processor_seconds')
+         import :: c_double
+      end function processor_seconds
+      subroutine c_suspend_halting(environment) bind(C, name='atrito_suspend_halting')
+         import :: c_int64_t
+         integer(c_int64_t), intent(inout) :: environment(*)
+      end subroutine c_suspend_halting
+      subroutine c_restore_halting(environment) bind(C, name='atrito_restore_halting')
+         import :: c_int64_t
+         integer(c_int64_t), intent(in) :: environment(*)
+      end subroutine c_restore_halting
+   end interface
+
+contains
+
+   !> A routine of a library by the name of its symbol; null where the library cannot be loaded or has none of that name. The
+   !> library stays: asking again costs next to nothing.
+   type(c_funptr) function find_routine(file, symbol) result(routine)
+      character(len=*), intent(in) :: file, symbol
+
+      routine = c_find_routine(file//c_null_char, symbol//c_null_char)
+   end function find_routine
+
+   !> A file, or a folder that is empty by then, that is to be removed when the program ends before forget_path.
+   subroutine note_path(path)
+      character(len=*), intent(in) :: path
+
+      call c_note_path(path//c_null_char)
+   end subroutine note_path
+
+   subroutine forget_path(path)
+      character(len=*), intent(in) :: path
+
+      call c_forget_path(path//c_null_char)
+   end subroutine forget_path
+
+end module atrito_system
