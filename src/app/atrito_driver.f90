@@ -24,7 +24,7 @@ module atrito_driver
    use atrito_strings, only: string_t, join, upper_case, nearest_names
    use atrito_study, only: run_study
    use atrito_sweep, only: run_sweep
-   use atrito_system, only: guard_interrupts, ignore_failed_writes, keep_freed_memory
+   use atrito_system, only: guard_interrupts, keep_freed_memory
    use atrito_threads, only: set_threads
    use atrito_timers, only: reset_timers
    use atrito_usage, only: compose_usage, compose_options
@@ -47,7 +47,6 @@ contains
 
       call keep_freed_memory()
       call guard_interrupts(STATUS_INTERNAL)
-      call ignore_failed_writes()
       call set_blas_threads(1_ip)
       call set_threads(1_ip)
       call clear_messages()

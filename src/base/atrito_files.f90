@@ -1,4 +1,4 @@
-!> Files and folders. The only `open` and `close` of the program.
+!> Text files, in and out. The only `open` and `close` of the Fortran sources.
 !>
 !> Output is written in whole sets: every file of a set first goes to a temporary name beside its final one; when all of them
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
@@ -9,7 +9,7 @@ module atrito_files
    use atrito_renaming, only: find_obstacle, replace_files, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
-   use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_file, c_close_file, hold_interrupts, &
+   use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_line, c_write_text, c_close_file, hold_interrupts, &
                             release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
@@ -25,18 +25,14 @@ module atrito_files
       type(string_t), allocatable :: made(:)           !< folders that were made for it
    end type file_set_t
 
-   !> A text file being written through a buffer. The run-time library of gfortran does not tell when a full disk keeps a file
-   !> from being written, C does.
+   !> A text file being written. The run-time library of gfortran does not tell when a full disk keeps a file from being written, C
+   !> does.
    type :: text_file_t
       type(c_ptr) :: stream = c_null_ptr
-      character(len=:), allocatable :: path            !< temporary path
       character(len=:), allocatable :: final_path      !< for messages
-      character(len=:), allocatable :: buffer
-      integer :: used = 0
       type(status_t) :: status                         !< first failure; later calls do nothing
    end type text_file_t
 
-   integer, parameter :: BUFFER_LENGTH = 65536
    character(len=1), parameter :: NEW_LINE_CHARACTER = achar(10)
    !> The places in a text are default integers: one of 2 GB is larger than any deck or table.
    integer(lp), parameter :: LARGEST_FILE = 2000000000_lp
@@ -120,7 +116,7 @@ contains
       do
          read (unit, '(a)', iostat=ios) buffer
          if (ios /= 0) exit
-         found = index(buffer, label) == 1
+         found = buffer(:len(label)) == label
          if (found) exit
       end do
       close (unit)
@@ -168,11 +164,11 @@ contains
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name
       type(text_file_t), intent(out) :: file
+      character(len=:), allocatable :: path
 
       file%final_path = set%folder//'/'//name
-      allocate (character(len=BUFFER_LENGTH) :: file%buffer)
-      call reserve_file(set, name, file%path)
-      file%stream = c_create_file(file%path//c_null_char)
+      call reserve_file(set, name, path)
+      file%stream = c_create_file(path//c_null_char)
       if (.not. c_associated(file%stream)) call set_status(file%status, STATUS_FILE, file%final_path//': cannot be written')
    end subroutine open_text
 
@@ -180,47 +176,19 @@ contains
    subroutine put_line(file, line)
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: line
-      integer :: length
 
-      length = len(line) + 1
-      if (file%used + length > BUFFER_LENGTH) call flush_buffer(file)
-      if (length > BUFFER_LENGTH) then
-         call put_text(file, line//NEW_LINE_CHARACTER)
-      else
-         file%buffer(file%used + 1:file%used + length - 1) = line
-         file%buffer(file%used + length:file%used + length) = NEW_LINE_CHARACTER
-         file%used = file%used + length
-      end if
+      if (.not. is_ok(file%status)) return
+      if (c_write_line(file%stream, line, len(line, kind=c_size_t)) == 0) call fail_to_write(file)
    end subroutine put_line
 
    !> Writes some lines, each of which ends with NEW_LINE_CHARACTER.
    subroutine put_lines(file, lines)
       type(text_file_t), intent(inout) :: file
       character(len=*), contiguous, intent(in) :: lines(:)
-      integer(c_size_t) :: length
 
-      call flush_buffer(file)
-      length = len(lines, kind=c_size_t)*size(lines, kind=c_size_t)
-      if (.not. is_ok(file%status) .or. length == 0) return
-      if (c_write_file(file%stream, lines, length) == 0) call fail_to_write(file)
+      if (.not. is_ok(file%status)) return
+      if (c_write_text(file%stream, lines, len(lines, kind=c_size_t)*size(lines, kind=c_size_t)) == 0) call fail_to_write(file)
    end subroutine put_lines
-
-   subroutine flush_buffer(file)
-      type(text_file_t), intent(inout) :: file
-
-      call put_text(file, file%buffer(:file%used))
-      file%used = 0
-   end subroutine flush_buffer
-
-   subroutine put_text(file, text)
-      type(text_file_t), intent(inout) :: file
-      character(len=*), intent(in) :: text
-      integer(c_size_t) :: length
-
-      length = len(text, kind=c_size_t)
-      if (.not. is_ok(file%status) .or. length == 0) return
-      if (c_write_file(file%stream, text, length) == 0) call fail_to_write(file)
-   end subroutine put_text
 
    subroutine fail_to_write(file)
       type(text_file_t), intent(inout) :: file
@@ -233,7 +201,6 @@ contains
       type(text_file_t), intent(inout) :: file
       type(status_t), intent(out) :: status
 
-      call flush_buffer(file)
       if (c_associated(file%stream)) then
          if (c_close_file(file%stream) == 0 .and. is_ok(file%status)) call fail_to_write(file)
          file%stream = c_null_ptr

@@ -4,7 +4,7 @@ module atrito_paths
    use atrito_status, only: status_t, set_status, STATUS_FILE
    use atrito_strings, only: string_t, append_string
    use atrito_system, only: c_is_folder, c_may_write, c_make_folder, c_judge_folder, c_remove_file, c_remove_folder, &
-                            hold_interrupts, release_interrupts, note_path, forget_path
+                            forget_path
    implicit none (type, external)
    private
    public :: file_exists, is_folder, may_write, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
@@ -59,13 +59,8 @@ contains
       type(string_t), allocatable, intent(inout), optional :: made(:)
       logical :: is_new
 
-      call hold_interrupts()
-      is_new = c_make_folder(path//c_null_char) == 1
-      if (is_new .and. present(made)) then
-         call note_path(path)
-         call append_string(made, path)
-      end if
-      call release_interrupts()
+      is_new = c_make_folder(path//c_null_char, merge(1, 0, present(made))) == 1
+      if (is_new .and. present(made)) call append_string(made, path)
    end subroutine make_one_folder
 
    !> Removes the folders that were made, where they are empty.

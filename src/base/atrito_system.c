@@ -47,9 +47,6 @@ int atrito_judge_folder(const char *path) {
    return access(path, W_OK | X_OK) == 0 ? 3 : 4;
 }
 
-/* 1: the folder is new. */
-int atrito_make_folder(const char *path) { return mkdir(path, S_IRWXU | S_IRWXG | S_IRWXO) == 0; }
-
 void atrito_remove_file(const char *path) { unlink(path); }
 
 void atrito_remove_folder(const char *path) { rmdir(path); }
@@ -86,16 +83,13 @@ int64_t atrito_file_length(const char *path) {
 void *atrito_create_file(const char *path) { return fopen(path, "wb"); }
 
 /* 1: all of it is written, as far as is known by now. */
-int atrito_write_file(void *file, const char *text, size_t length) { return fwrite(text, 1, length, file) == length; }
+int atrito_write_text(void *file, const char *text, size_t length) { return fwrite(text, 1, length, file) == length; }
+
+int atrito_write_line(void *file, const char *text, size_t length) {
+   return fwrite(text, 1, length, file) == length && putc('\n', file) != EOF;
+}
 
 int atrito_close_file(void *file) { return fclose(file) == 0; }
-
-/* A reader of the output that goes away (`| head -1`) and a limit on the size of files (`ulimit -f`) shall come back from
- * writing, as a full disk does, and not end the program. */
-void atrito_ignore_failed_writes(void) {
-   signal(SIGPIPE, SIG_IGN);
-   signal(SIGXFSZ, SIG_IGN);
-}
 
 /* ---- locks on folders ---- */
 
@@ -243,13 +237,16 @@ static void guard_fault(int i) {
 }
 
 /* From now on this holds. Called once, by the main thread. A signal that is ignored already (nohup, a job in the background of a
- * script) stays so. */
+ * script) stays so. A reader of the output that goes away (`| head -1`) and a limit on the size of files (`ulimit -f`) come back
+ * from writing, as a full disk does. */
 void atrito_guard_interrupts(int code) {
    struct sigaction action = {.sa_handler = obey, .sa_flags = SA_RESTART}, present;
    stack_t stack = {.ss_sp = spare_stack, .ss_size = sizeof spare_stack};
 
    main_thread = pthread_self();
    fault_code = code;
+   signal(SIGPIPE, SIG_IGN);
+   signal(SIGXFSZ, SIG_IGN);
    for (int i = 0; i < ENDINGS; i++)
       if (sigaction(endings[i], NULL, &present) == 0 && present.sa_handler != SIG_IGN)
          sigaction(endings[i], &action, NULL);
@@ -281,6 +278,16 @@ void atrito_note_path(const char *path) {
    if (longer && copy)
       paths[n_paths++] = copy;
    atrito_release_interrupts();
+}
+
+/* 1: the folder is new. is_noted: it is noted then. */
+int atrito_make_folder(const char *path, int is_noted) {
+   atrito_hold_interrupts();
+   int is_new = mkdir(path, S_IRWXU | S_IRWXG | S_IRWXO) == 0;
+   if (is_new && is_noted)
+      atrito_note_path(path);
+   atrito_release_interrupts();
+   return is_new;
 }
 
 void atrito_forget_path(const char *path) {

@@ -6,7 +6,7 @@ module atrito_system
    implicit none (type, external)
    private
    public :: c_is_folder, c_may_write, c_judge_folder, c_make_folder, c_remove_file, c_remove_folder, c_rename, c_true_path
-   public :: c_file_length, c_create_file, c_write_file, c_close_file, ignore_failed_writes
+   public :: c_file_length, c_create_file, c_write_line, c_write_text, c_close_file
    public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit, terminate
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
@@ -34,15 +34,21 @@ module atrito_system
       integer(c_int64_t) function ask_bytes() bind(C)
          import :: c_int64_t
       end function ask_bytes
+      integer(c_int) function write_to(file, text, length) bind(C)
+         import :: c_char, c_int, c_ptr, c_size_t
+         type(c_ptr), value :: file
+         character(kind=c_char), intent(in) :: text(*)
+         integer(c_size_t), value :: length
+      end function write_to
    end interface
 
    procedure(ask_path), bind(C, name='atrito_is_folder') :: c_is_folder
    procedure(ask_path), bind(C, name='atrito_may_write') :: c_may_write
    procedure(ask_path), bind(C, name='atrito_judge_folder') :: c_judge_folder
-   procedure(ask_path), bind(C, name='atrito_make_folder') :: c_make_folder
    procedure(act_on_path), bind(C, name='atrito_remove_file') :: c_remove_file
    procedure(act_on_path), bind(C, name='atrito_remove_folder') :: c_remove_folder
-   procedure(act), bind(C, name='atrito_ignore_failed_writes') :: ignore_failed_writes
+   procedure(write_to), bind(C, name='atrito_write_line') :: c_write_line
+   procedure(write_to), bind(C, name='atrito_write_text') :: c_write_text
    procedure(ask_path), bind(C, name='atrito_open_folder') :: c_open_folder
    procedure(take_number), bind(C, name='atrito_close_folder') :: c_close_folder
    procedure(take_number), bind(C, name='atrito_guard_interrupts') :: guard_interrupts
@@ -63,6 +69,11 @@ module atrito_system
    procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
 
    interface
+      integer(c_int) function c_make_folder(path, is_noted) bind(C, name='atrito_make_folder')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: is_noted
+      end function c_make_folder
       integer(c_int) function c_rename(from, to) bind(C, name='atrito_rename')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: from(*), to(*)
@@ -81,12 +92,6 @@ module atrito_system
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
       end function c_create_file
-      integer(c_int) function c_write_file(file, text, length) bind(C, name='atrito_write_file')
-         import :: c_char, c_int, c_ptr, c_size_t
-         type(c_ptr), value :: file
-         character(kind=c_char), intent(in) :: text(*)
-         integer(c_size_t), value :: length
-      end function c_write_file
       integer(c_int) function c_close_file(file) bind(C, name='atrito_close_file')
          import :: c_int, c_ptr
          type(c_ptr), value :: file

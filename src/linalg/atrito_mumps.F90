@@ -12,9 +12,8 @@
 !> guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
 module atrito_mumps
    use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
-   use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mumps_library, only: dmumps_struc, call_mumps, load_mumps, mumps_trouble
+   use atrito_mumps_library, only: dmumps_struc, begin_mumps, run_mumps
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_storage, only: storage_t, factor_report_t, ALL_DIGITS, smallest_ratio
@@ -33,7 +32,6 @@ module atrito_mumps
 
    type, extends(storage_t) :: mumps_t
       private
-      procedure(call_mumps), pointer, nopass :: mumps => null()
       type(instance_t), pointer :: instance => null()
       real(wp), allocatable :: scale(:)          !< (n) of rows and columns; 1 for the kept ones
    contains
@@ -49,7 +47,7 @@ module atrito_mumps
    end type mumps_t
 
    ! JOB
-   integer, parameter :: BEGIN = -1, ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
+   integer, parameter :: ANALYSE_AND_FACTOR = 4, FACTOR_AGAIN = 2, SOLVE = 3, FINISH = -2
    ! ICNTL(26)
    integer, parameter :: INTERIOR_ALONE = 0, CONDENSE = 1, EXPAND = 2
    ! INFOG(1)
@@ -72,19 +70,12 @@ contains
       self%n = profile%n
       self%n_kept = profile%n_kept
       self%report = factor_report_t()
-      call load_mumps(self%mumps)
-      if (.not. associated(self%mumps)) then
-         call set_status(status, STATUS_INTERNAL, mumps_trouble())
+      allocate (self%instance)
+      call begin_mumps(self%instance%mumps, status)
+      if (.not. is_ok(status)) then
+         deallocate (self%instance)
          return
       end if
-      allocate (self%instance)
-      associate (mumps => self%instance%mumps)
-         mumps%comm = 0
-         mumps%par = 1
-         mumps%sym = 1                            ! positive definite: pivots in the order of the analysis
-         call run(self, BEGIN)
-         call set_controls(self)
-      end associate
       if (allocated(profile%elimination%place)) self%instance%place = profile%elimination%place
       call begin_matrix(self%instance%matrix, self%n, profile%entries, no_memory)
       if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the sparse matrix')
@@ -113,10 +104,10 @@ contains
          self%report%digits_lost = ALL_DIGITS
          call set_status(status, STATUS_SINGULAR, 'the matrix is singular: equation '//to_text(empty)//' is empty')
       else
-         call run(self, ANALYSE_AND_FACTOR)
+         call run_mumps(self%instance%mumps, ANALYSE_AND_FACTOR)
          if (self%instance%mumps%infog(1) == NO_ROOM) then
             self%instance%mumps%icntl(14) = 200
-            call run(self, FACTOR_AGAIN)
+            call run_mumps(self%instance%mumps, FACTOR_AGAIN)
          end if
          call judge_pivots(self, status)
       end if
@@ -181,18 +172,6 @@ contains
       end associate
    end subroutine add_kept
 
-   pure subroutine set_controls(self)
-      class(mumps_t), intent(inout) :: self
-
-      associate (icntl => self%instance%mumps%icntl)
-         icntl(1:4) = 0                           ! prints nothing
-         icntl(6) = 0                             ! no column permutation
-         icntl(7) = 0                             ! approximate minimum degree where no order is given
-         icntl(8) = 0                             ! scaled already
-         icntl(12) = 1                            ! the plain symmetric analysis
-      end associate
-   end subroutine set_controls
-
    !> Fills the report and the status from what MUMPS says.
    subroutine judge_pivots(self, status)
       class(mumps_t), intent(inout) :: self
@@ -255,7 +234,7 @@ contains
                if (mumps%irn(k) == mumps%jcn(k)) mumps%a(k) = mumps%a(k) + shift
             end do
          end associate
-         call run(self, FACTOR_AGAIN)
+         call run_mumps(self%instance%mumps, FACTOR_AGAIN)
          if (self%instance%mumps%infog(1) < 0) return
       end if
       allocate (x(self%n, 1), y(self%n))
@@ -352,7 +331,7 @@ contains
             mumps%rhs(first + 1:first + n) = x(:, j)*self%scale
             if (mode == EXPAND) mumps%redrhs(int(j - 1, lp)*int(n_kept, lp) + 1:int(j, lp)*int(n_kept, lp)) = x(n_interior + 1:, j)
          end do
-         call run(self, SOLVE)
+         call run_mumps(self%instance%mumps, SOLVE)
          do j = 1, loads
             first = int(j - 1, lp)*int(n, lp)
             if (mode == CONDENSE) then
@@ -364,18 +343,6 @@ contains
          deallocate (mumps%rhs, mumps%redrhs)
       end associate
    end subroutine solve_with
-
-   !> One call of MUMPS, which raises harmless floating-point exceptions.
-   subroutine run(self, job)
-      class(mumps_t), intent(in) :: self
-      integer, intent(in) :: job
-      type(halting_t) :: halting
-
-      call suspend_halting(halting)
-      self%instance%mumps%job = job
-      call self%mumps(self%instance%mumps)
-      call restore_halting(halting)
-   end subroutine run
 
    !> The factor as MUMPS counts it, and the rest.
    pure integer(lp) function mumps_memory(self)
@@ -413,7 +380,7 @@ contains
          nullify (mumps%irn, mumps%jcn, mumps%a, mumps%perm_in)    ! of the instance, and go with it
          if (associated(mumps%schur)) deallocate (mumps%schur, mumps%listvar_schur)
       end associate
-      call run(self, FINISH)
+      call run_mumps(self%instance%mumps, FINISH)
       deallocate (self%instance)
    end subroutine free_instance
 

@@ -1,14 +1,16 @@
 !> The library of MUMPS: its one routine and the type of its argument.
 !>
 !> It is loaded when it is asked for, not with the program: starting would cost a millisecond more for it and for what it needs, and
-!> most scenes do without. CMake says which file that is (ATRITO_MUMPS_LIBRARY, its name with the version in it, so that
-!> dmumps_struc has the layout of the header compiled in) and its version (ATRITO_MUMPS_VERSION).
+!> most scenes do without. CMake says which file that is (ATRITO_MUMPS_LIBRARY, its name with the version in it) and which version
+!> the header has whose dmumps_struc is compiled in (ATRITO_MUMPS_VERSION).
 module atrito_mumps_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
+   use atrito_halting, only: halting_t, suspend_halting, restore_halting
+   use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    use atrito_system, only: find_routine
    implicit none (type, external)
    private
-   public :: dmumps_struc, call_mumps, load_mumps, has_mumps, mumps_name, mumps_trouble
+   public :: dmumps_struc, begin_mumps, run_mumps, has_mumps, mumps_name, mumps_trouble
 
    include 'dmumps_struc.h'
 
@@ -18,6 +20,8 @@ module atrito_mumps_library
          type(dmumps_struc), intent(inout) :: instance
       end subroutine call_mumps
    end interface
+
+   integer, parameter :: BEGIN = -1              ! JOB
 
 contains
 
@@ -42,6 +46,58 @@ contains
 
       text = 'the library '//ATRITO_MUMPS_LIBRARY//' cannot be loaded'
    end function mumps_trouble
+
+   !> An instance for a symmetric positive definite matrix whose diagonal is about 1.
+   !>
+   !> status: STATUS_INTERNAL: there is no library, or it is of a version whose dmumps_struc may be another one. Such an instance is
+   !> left alone.
+   subroutine begin_mumps(instance, status)
+      type(dmumps_struc), intent(inout) :: instance
+      type(status_t), intent(out) :: status
+
+      if (.not. has_mumps()) then
+         call set_status(status, STATUS_INTERNAL, mumps_trouble())
+         return
+      end if
+      instance%comm = 0
+      instance%par = 1
+      instance%sym = 1                           ! positive definite: pivots in the order of the analysis
+      instance%version_number = ''
+      call run_mumps(instance, BEGIN)
+      if (instance%version_number /= ATRITO_MUMPS_VERSION) then
+         call set_status(status, STATUS_INTERNAL, version_text(instance%version_number))
+         return
+      end if
+      instance%icntl(1:4) = 0                    ! prints nothing
+      instance%icntl(6) = 0                      ! no column permutation
+      instance%icntl(7) = 0                      ! approximate minimum degree where no order is given
+      instance%icntl(8) = 0                      ! scaled already
+      instance%icntl(12) = 1                     ! the plain symmetric analysis
+   end subroutine begin_mumps
+
+   pure function version_text(found) result(text)
+      character(len=*), intent(in) :: found
+      character(len=:), allocatable :: text
+
+      text = 'another version'
+      if (verify(trim(found), '0123456789.') == 0 .and. len_trim(found) > 0) text = 'version '//trim(found)
+      text = 'the library '//ATRITO_MUMPS_LIBRARY//' is '//text//' of MUMPS, and this program was built for '// &
+             ATRITO_MUMPS_VERSION//': build it anew'
+   end function version_text
+
+   !> One call of MUMPS, which raises harmless floating-point exceptions.
+   subroutine run_mumps(instance, job)
+      type(dmumps_struc), intent(inout) :: instance
+      integer, intent(in) :: job
+      procedure(call_mumps), pointer :: mumps
+      type(halting_t) :: halting
+
+      call load_mumps(mumps)
+      call suspend_halting(halting)
+      instance%job = job
+      call mumps(instance)
+      call restore_halting(halting)
+   end subroutine run_mumps
 
    !> Not associated where the library is not installed. Loading it again costs next to nothing.
    subroutine load_mumps(mumps)

@@ -11,10 +11,9 @@ module linear_solve
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t
    use atrito_assembly, only: fem_t
    use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, finish_matrix
-   use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t
-   use atrito_mumps_library, only: dmumps_struc, call_mumps, load_mumps, mumps_trouble
+   use atrito_mumps_library, only: dmumps_struc, begin_mumps, run_mumps
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_scene_builder, only: build_scene
@@ -53,7 +52,7 @@ module linear_solve
    end type solve_facts_t
 
    ! JOB
-   integer, parameter :: BEGIN = -1, ANALYSE = 1, FACTOR = 2, SOLVE = 3, FINISH = -2
+   integer, parameter :: ANALYSE = 1, FACTOR = 2, SOLVE = 3, FINISH = -2
    ! INFOG(1)
    integer, parameter :: ZERO_PIVOT = -10, NO_ROOM = -9
    integer(lp), parameter :: MEGABYTE = 1000000_lp
@@ -199,16 +198,15 @@ contains
       real(wp), intent(inout) :: x(:, :)            !< (n, 1): nodal forces in, displacements out
       type(solve_facts_t), intent(inout) :: facts
       type(status_t), intent(out) :: status
-      procedure(call_mumps), pointer :: mumps
       type(dmumps_struc) :: instance
 
-      call analyse_matrix(matrix, place, mumps, instance, facts, status)
+      call analyse_matrix(matrix, place, instance, facts, status)
       if (.not. is_ok(status)) return
       call start_phase('factor')
-      call run(mumps, instance, FACTOR)
+      call run_mumps(instance, FACTOR)
       if (instance%infog(1) == NO_ROOM) then
          instance%icntl(14) = 200
-         call run(mumps, instance, FACTOR)
+         call run_mumps(instance, FACTOR)
       end if
       call stop_phase('factor')
       call judge(instance, status)
@@ -218,12 +216,12 @@ contains
          call start_phase('solve')
          allocate (instance%rhs(matrix%n))
          instance%rhs = x(:, 1)*scale
-         call run(mumps, instance, SOLVE)
+         call run_mumps(instance, SOLVE)
          x(:, 1) = instance%rhs*scale
          deallocate (instance%rhs)
          call stop_phase('solve')
       end if
-      call finish_instance(mumps, instance)
+      call finish_instance(instance)
    end subroutine solve_by_mumps
 
    !> The matrix of glued bodies as far as its analysis.
@@ -235,7 +233,6 @@ contains
       real(wp), intent(out) :: operations
       type(status_t), intent(out) :: status
       type(coordinate_matrix_t), target :: matrix
-      procedure(call_mumps), pointer :: mumps
       type(dmumps_struc) :: instance
       type(solve_facts_t) :: facts
       real(wp), allocatable :: x(:, :), scale(:)
@@ -243,28 +240,23 @@ contains
       operations = 0.0_wp
       x = load
       call assemble(fem, glued, matrix, x, scale, status)
-      if (is_ok(status)) call analyse_matrix(matrix, place, mumps, instance, facts, status)
+      if (is_ok(status)) call analyse_matrix(matrix, place, instance, facts, status)
       if (.not. is_ok(status)) return
       operations = facts%operations
-      call finish_instance(mumps, instance)
+      call finish_instance(instance)
    end subroutine analyse_alone
 
    !> Shows the matrix to MUMPS, and the order where there is one, and has it analysed.
-   subroutine analyse_matrix(matrix, place, mumps, instance, facts, status)
+   subroutine analyse_matrix(matrix, place, instance, facts, status)
       type(coordinate_matrix_t), intent(in), target :: matrix
       integer(ip), allocatable, intent(in), target :: place(:)
-      procedure(call_mumps), pointer, intent(out) :: mumps
       type(dmumps_struc), intent(out) :: instance
       type(solve_facts_t), intent(inout) :: facts
       type(status_t), intent(out) :: status
 
       call start_phase('analyse')
-      call load_mumps(mumps)
-      if (.not. associated(mumps)) then
-         call set_status(status, STATUS_INTERNAL, mumps_trouble())
-         return
-      end if
-      call begin_instance(mumps, instance)
+      call begin_mumps(instance, status)
+      if (.not. is_ok(status)) return
       instance%n = matrix%n
       instance%nnz = int(matrix%entries, lp)
       instance%irn => matrix%row
@@ -274,40 +266,12 @@ contains
          instance%perm_in => place
          instance%icntl(7) = 1                      ! the order that is given
       end if
-      call run(mumps, instance, ANALYSE)
+      call run_mumps(instance, ANALYSE)
       call stop_phase('analyse')
       if (instance%infog(1) < 0) call judge(instance, status)
       facts%entries = instance%nnz
       facts%operations = instance%rinfog(1)
    end subroutine analyse_matrix
-
-   subroutine begin_instance(mumps, instance)
-      procedure(call_mumps), pointer, intent(in) :: mumps
-      type(dmumps_struc), intent(inout) :: instance
-
-      instance%comm = 0
-      instance%par = 1
-      instance%sym = 1                              ! positive definite
-      call run(mumps, instance, BEGIN)
-      instance%icntl(1:4) = 0                       ! prints nothing
-      instance%icntl(6) = 0                         ! no column permutation
-      instance%icntl(7) = 0                         ! AMD where no order is given
-      instance%icntl(8) = 0                         ! scaled already
-      instance%icntl(12) = 1                        ! the plain symmetric analysis
-   end subroutine begin_instance
-
-   !> MUMPS raises harmless floating-point exceptions.
-   subroutine run(mumps, instance, job)
-      procedure(call_mumps), pointer, intent(in) :: mumps
-      type(dmumps_struc), intent(inout) :: instance
-      integer, intent(in) :: job
-      type(halting_t) :: halting
-
-      call suspend_halting(halting)
-      instance%job = job
-      call mumps(instance)
-      call restore_halting(halting)
-   end subroutine run
 
    !> The diagonal is about 1, so the smallest pivot tells the digits lost.
    subroutine judge(instance, status)
@@ -325,12 +289,11 @@ contains
       if (singular) call set_status(status, STATUS_SINGULAR, 'the bodies are free to move although glued together')
    end subroutine judge
 
-   subroutine finish_instance(mumps, instance)
-      procedure(call_mumps), pointer, intent(in) :: mumps
+   subroutine finish_instance(instance)
       type(dmumps_struc), intent(inout) :: instance
 
       nullify (instance%irn, instance%jcn, instance%a, instance%perm_in)    ! they are the caller's
-      call run(mumps, instance, FINISH)
+      call run_mumps(instance, FINISH)
    end subroutine finish_instance
 
    !> A number as MUMPS tells it: a negative one counts millions.
