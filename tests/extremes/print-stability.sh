@@ -80,7 +80,7 @@ FAULT_ROWS=$work/rows
 export FAULT_ROWS
 : >"$FAULT_ROWS"
 deck=$tests/../input/ex1-plate-on-rigid-support.inp
-for script in input_trouble file_trouble; do sh "$tests/tools/$script.sh" "$atrito" "$deck" >said.txt 2>&1 || echo "| **$script** | | failed |" >>"$FAULT_ROWS"; done
+for script in input_trouble file_trouble renaming; do sh "$tests/tools/$script.sh" "$atrito" "$deck" >said.txt 2>&1 || echo "| **$script** | | failed |" >>"$FAULT_ROWS"; done
 sh "$tests/tools/interrupts.sh" "$atrito" "$build/tests/tools/interrupt_probe" "$tests/../input/ex3-pillar-in-ground.inp" >said.txt 2>&1 ||
    echo '| **interrupts** | | failed |' >>"$FAULT_ROWS"
 sh "$tests/tools/two_runs.sh" "$atrito" "$deck" >said.txt 2>&1 || cat said.txt >&2
