@@ -96,8 +96,8 @@ contains
          from = from + fronts%record(k + 2)
          k = k + 2 + fronts%record(k + 2)
       end do
-      call eliminate_load(order, n_pivots, fronts%factors(c)%columns, &
-                          by_threads .and. packed_length(order, n_pivots) > LARGE_SUPERNODE, front)
+      if (n_pivots > 0) call eliminate_load(order, n_pivots, fronts%factors(c)%columns, &
+                                            by_threads .and. packed_length(order, n_pivots) > LARGE_SUPERNODE, front)
       x(fronts%first(p):fronts%first(p) + n - 1) = front(:n)
       call push(stack, front(n + 1:))
    end subroutine forward_supernode
@@ -157,8 +157,8 @@ contains
       front(:n) = x(fronts%first(p):fronts%first(p) + n - 1)
       front(n + 1:) = stack%entries(stack%top - m + 1:stack%top)
       stack%top = stack%top - m
-      call solve_back(order, n_pivots, fronts%factors(c)%columns, &
-                      by_threads .and. packed_length(order, n_pivots) > LARGE_SUPERNODE, front)
+      if (n_pivots > 0) call solve_back(order, n_pivots, fronts%factors(c)%columns, &
+                                        by_threads .and. packed_length(order, n_pivots) > LARGE_SUPERNODE, front)
       x(fronts%first(p):fronts%first(p) + n - 1) = front(:n)
       k = fronts%start(c) + HEADER
       do i = 1, fronts%record(fronts%start(c) + 3)
