@@ -267,7 +267,8 @@ contains
       character(len=*), intent(in) :: name
       character(len=1), intent(in) :: mark
 
-      has_mark = index(name, mark) == 1 .or. index(name, mark, back=.true.) == max(len(name), 1)
+      has_mark = len(name) > 0
+      if (has_mark) has_mark = name(1:1) == mark .or. name(len(name):) == mark
    end function has_mark
 
    pure function without_marks(name) result(bare)
@@ -275,8 +276,7 @@ contains
       character(len=:), allocatable :: bare
       character(len=*), parameter :: MARKS = '-+!.()[]'
 
-      bare = ''
-      if (verify(name, MARKS) > 0) bare = name(verify(name, MARKS):verify(name, MARKS, back=.true.))
+      bare = name(max(verify(name, MARKS), 1):verify(name, MARKS, back=.true.))
    end function without_marks
 
    pure function text_or(text) result(given)

@@ -1,5 +1,5 @@
-!> What the builders share while a model grows: the deck, the model so far, and what nobody needs afterwards: places in the deck, and
-!> which names and numbers an error has spoiled.
+!> What the builders share while a model grows: the deck, the model so far, and what nobody needs afterwards, as places in the deck,
+!> and which names and numbers an error has spoiled.
 !>
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.

@@ -73,10 +73,10 @@ contains
       end if
       is_possible = greatest + (n - int(draft%model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
       if (.not. is_possible) call report_deck_error(draft%deck, 'E-REFINE', '--refine '//to_text(levels)// &
-          ': the numbers of the new '//'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
-          expected='smaller node numbers')
+                          ': the numbers of the new '//'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
+                                                    expected='smaller node numbers')
       if (is_possible) is_possible = fits_memory(nowhere, draft, n, int(draft%model%mesh%n_elements, lp)*int(pieces, &
-          lp)**2)
+                                                                                                             lp)**2)
    end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.

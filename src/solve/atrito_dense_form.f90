@@ -71,7 +71,7 @@ contains
       problem%is_coarse = controls%is_coarse
       call solve_contact_line(problem, data%line, controls, data%reporter, solution, status)
       if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, data%reporter, &
-          solution, status)
+                                                                 solution, status)
       if (is_ok(status)) results%contraction_estimate = estimate_contraction(problem, data%line, solution%bounds%d, &
                                                                              solution%state%state)
       call stop_phase('iterate')

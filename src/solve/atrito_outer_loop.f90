@@ -307,7 +307,7 @@ contains
       case (NEWTON_FROM_LAST)
          ! Newton's matrix cannot be factored where rows depend on each other
          if (.not. allocated(solution%rows) .and. .not. solution%inner%moves) call iterate_newton(task%problem, task%line, &
-             task%controls, solution)
+                                                                                                  task%controls, solution)
       case (SMALL_STEPS)
          anderson%mixing = LAST_RESORT_MIXING
          patient%controls%max_iterations = LAST_RESORT_FACTOR*task%controls%max_iterations

@@ -80,7 +80,7 @@ contains
       solution%verdict = 'the outer loop did not converge in '//to_text(task%controls%max_iterations)//' iterations (residual ' &
                          //to_text(solution%residual, 3)//')'
       if (is_too_much(task, solution%history)) solution%verdict = 'the loop was given up after ' &
-                                                                               //to_text(solution%history%n)//' linear solves'
+                                                                  //to_text(solution%history%n)//' linear solves'
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
 

@@ -256,8 +256,8 @@ contains
       do attempt = 1, size(PATIENT)
          if (results%converged .and. results%law_holds) return
          patient_controls = controls_t(PATIENT(attempt)%method, controls%tolerance, &
-                                             PATIENT(attempt)%times*controls%max_iterations, PATIENT(attempt)%relaxation, &
-                                             PATIENT(attempt)%is_coarse, controls%most_entries)
+                                       PATIENT(attempt)%times*controls%max_iterations, PATIENT(attempt)%relaxation, &
+                                       PATIENT(attempt)%is_coarse, controls%most_entries)
          call try_form(data, PATIENT(attempt)%form, patient_controls, store, results, solution)
       end do
    end subroutine try_others
