@@ -44,7 +44,7 @@ contains
       character(len=*), intent(in) :: file          !< the deck, as the user wrote it
       type(message_t) :: message
       character(len=15), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
-                                                                                                'E-SINGULAR', 'E-FILE']
+                                                                                                             'E-SINGULAR', 'E-FILE']
 
       if (.not. allocated(status%text)) return
       message%id = 'E-INTERNAL'
