@@ -43,24 +43,17 @@ contains
       type(status_t), intent(in) :: status
       character(len=*), intent(in) :: file          !< the deck, as the user wrote it
       type(message_t) :: message
+      character(len=15), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
+                                                                                                             'E-SINGULAR', 'E-FILE']
 
       if (.not. allocated(status%text)) return
-      message%id = status_id(status%code)
+      message%id = 'E-INTERNAL'
+      if (status%code <= STATUS_FILE) message%id = trim(IDS(status%code))
       message%file = file
       if (status%code == STATUS_FILE .or. status%code == STATUS_USAGE) message%file = PROGRAM_NAME
       message%text = status%text
       call print_lines(format_message(message), error_unit)
    end subroutine print_status
-
-   pure function status_id(code) result(id)
-      integer, intent(in) :: code
-      character(len=:), allocatable :: id
-      character(len=15), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
-                                                                                                             'E-SINGULAR', 'E-FILE']
-
-      id = 'E-INTERNAL'
-      if (code <= STATUS_FILE) id = trim(IDS(code))
-   end function status_id
 
    !> A failure to print is nobody's error.
    subroutine print_lines(lines, unit)

@@ -72,7 +72,8 @@ contains
       real(wp) :: excess
 
       call system_clock(began)
-      limit%watched = watched_text(command%watched)
+      limit%watched = 'largest displacement'
+      if (command%watched(1) > 0) limit%watched = 'u'//to_text(command%watched(2))//' of node '//to_text(command%watched(1))
       allocate (limit%values(0))
       call begin_search(limit%ends(1), limit%ends(2), limit%tolerance, search)
       call ask_all(command, search, limit, code)
@@ -215,14 +216,6 @@ contains
                          //': the deck has no node '//to_text(watched(1)))
       end if
    end subroutine watch
-
-   pure function watched_text(watched) result(text)
-      integer(ip), intent(in) :: watched(2)
-      character(len=:), allocatable :: text
-
-      text = 'largest displacement'
-      if (watched(1) > 0) text = 'u'//to_text(watched(2))//' of node '//to_text(watched(1))
-   end function watched_text
 
    !> Reads the deck with a value. Warnings and notes are told the first time; errors whenever there are.
    subroutine load_value(command, limit, x, silent, model, code, read_so_far)

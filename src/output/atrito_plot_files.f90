@@ -52,27 +52,22 @@ contains
    !> Removes the pictures of pair 1, 2, ... until there is none.
    subroutine remove_numbered(path)
       character(len=*), intent(in) :: path          !< without the number
-      logical :: found
       integer(ip) :: i
 
-      i = 0
-      found = .true.
-      do while (found)
+      i = 1
+      do while (has_picture(path//to_text(i)))
+         call remove_picture(path//to_text(i))
          i = i + 1
-         found = has_picture(path//to_text(i))
-         if (found) call remove_picture(path//to_text(i))
       end do
    end subroutine remove_numbered
 
    logical function has_picture(path)
       character(len=*), intent(in) :: path          !< without ending
       integer :: i
-      logical :: found
 
       has_picture = .false.
       do i = 1, size(ENDINGS)
-         found = file_exists(path//'.'//trim(ENDINGS(i)))
-         has_picture = has_picture .or. found
+         if (file_exists(path//'.'//trim(ENDINGS(i)))) has_picture = .true.
       end do
    end function has_picture
 

@@ -71,24 +71,17 @@ contains
       if (allocated(results%verdict)) call add_line(page, left(results%verdict, WIDTH))
    end subroutine add_verdict
 
-   !> Millions would not fit beside the counts of elements and nodes, which are as many then.
-   pure function dof_text(n) result(text)
-      integer(ip), intent(in) :: n
-      character(len=:), allocatable :: text
-
-      text = to_text(n)//' free displacements'
-      if (n >= 1000000) text = to_text(n)//' free dofs'
-   end function dof_text
-
    subroutine add_sizes(page, model, results)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
 
       associate (scene => results%scene)
+         ! millions would not fit beside the counts of elements and nodes, which are as many then
          call add_item(page, 'solved', plural(body_count(scene), 'body', 'bodies')//', '// &
                        plural(model%mesh%n_elements, 'element', 'elements')//', '// &
-                       plural(model%mesh%n_nodes, 'node', 'nodes')//', '//dof_text(scene%n_dofs))
+                       plural(model%mesh%n_nodes, 'node', 'nodes')//', '//to_text(scene%n_dofs)// &
+                       ' '//trim(merge('free dofs         ', 'free displacements', scene%n_dofs >= 1000000)))
          call add_item(page, 'contact', contact_text(scene))
          call add_item(page, 'solver', storages(scene)//iteration_text(model, results))
       end associate

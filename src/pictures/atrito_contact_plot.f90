@@ -15,7 +15,7 @@ module atrito_contact_plot
                                put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
    implicit none (type, external)
    private
-   public :: write_contact_plot, contact_plot_name, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
+   public :: write_contact_plot, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
              N_STATES, STATE_WORD
 
    !> The bound of the shear is shown whole up to so many times the largest shear; a greater one would hide the shear itself.
@@ -28,14 +28,6 @@ module atrito_contact_plot
    character(len=6), parameter :: STATE_WORD(0:N_STATES - 1) = ['open  ', 'stick ', 'slip  ', 'closed']
 
 contains
-
-   !> Name of a pair's picture, without ending.
-   pure function contact_plot_name(pair) result(name)
-      integer(ip), intent(in) :: pair
-      character(len=:), allocatable :: name
-
-      name = CONTACT_PLOT//to_text(pair)
-   end function contact_plot_name
 
    !> Writes the script of a pair into the set of the plots' folder.
    !>
@@ -51,7 +43,7 @@ contains
       logical :: friction
       character(len=:), allocatable :: name
 
-      name = contact_plot_name(pair)
+      name = CONTACT_PLOT//to_text(pair)
       law = model%interactions(model%pairs(pair)%interaction)
       friction = results%contact(pair)%has_friction .and. law%friction /= FRICTION_NONE
       call begin_script(set, name, 'contact pair '//to_text(pair)//' along s', file)

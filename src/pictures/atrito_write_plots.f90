@@ -3,16 +3,16 @@
 !> Comes after the tables, which are complete whatever happens here: every failure is a warning, W-PLOT.
 module atrito_write_plots
    use atrito_kinds, only: ip
-   use atrito_strings, only: string_t, append_string
+   use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
    use atrito_results, only: results_t
    use atrito_summary, only: pair_count
-   use atrito_plot_files, only: plot_folder, MESH_PLOT, JOINT_PLOT
+   use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT
    use atrito_mesh_plot, only: write_mesh_plot
-   use atrito_contact_plot, only: write_contact_plot, contact_plot_name
+   use atrito_contact_plot, only: write_contact_plot
    use atrito_joint_plot, only: write_joint_plot, has_joint_plot
    use atrito_gnuplot, only: draw_written
    implicit none (type, external)
@@ -48,7 +48,7 @@ contains
       call append_string(names, MESH_PLOT)
       if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
       do i = 1, plotted_pairs(model, results)
-         if (results%contact(i)%n > 0) call append_string(names, contact_plot_name(i))
+         if (results%contact(i)%n > 0) call append_string(names, CONTACT_PLOT//to_text(i))
       end do
    end function plot_names
 
