@@ -2,8 +2,8 @@
 module atrito_mesh_keywords
    use atrito_element_table, only: SHAPES, KINDS, MOST_NODES
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
-                              LEVEL_MODEL, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, &
-                              KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
+                             LEVEL_MODEL, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, &
+                             KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
    use atrito_kinds, only: ip
    implicit none (type, external)
    private

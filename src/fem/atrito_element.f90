@@ -7,7 +7,7 @@ module atrito_element
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_elasticity, only: elastic_t, elasticity_matrix, has_mean_dilatation
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
-                              gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
+                                     gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
    implicit none (type, external)
    private
    public :: element_stiffness, mean_gradients, pressure_load, body_load

@@ -177,7 +177,8 @@ contains
 
    !> An element of the second degree is good when its Jacobian is positive at its integration points and nodes; at a node it may be
    !> 0, since mid-side nodes at a quarter of the sides are a known way to the tip of a crack. If it is not good, the likely cause:
-   !> the corners, as in the first degree; else the order of the others, if another order would do; else the one that is farthest off.
+   !> the corners, as in the first degree; else the order of the others, if another order would do; else the one that is farthest
+   !> off.
    pure subroutine judge_second_degree(x, shape, node)
       real(wp), intent(in) :: x(:, :)                  !< (2, nodes) [L]
       integer(ip), intent(out) :: shape                !< SHAPE_*

@@ -15,8 +15,8 @@ module fem_cases
    real(wp), parameter :: PLACES(2, 4) = reshape([0.0_wp, 0.0_wp, 0.3_wp, -0.7_wp, -1.0_wp, 0.45_wp, 0.9_wp, 1.0_wp], [2, 4])
    !> Places of the nodes: corners, mid-sides, centre.
    real(wp), parameter :: GRID(2, 9_ip) = reshape([-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, &
-                                                       0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, &
-                                                       0.0_wp, 0.0_wp], [2, 9])
+                                                   0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, &
+                                                   0.0_wp, 0.0_wp], [2, 9])
 
 contains
 
