@@ -72,6 +72,8 @@ contains
             end do
          end do
       end associate
+      ! a motion that no row sees is alone in its equation: any pull holds it
+      where (multipliers%hold <= 0.0_wp) multipliers%hold = 1.0_wp
    end subroutine begin_multipliers
 
    !> All points closed, and stuck where there is friction, whatever their forces.

@@ -114,7 +114,7 @@ contains
       call move_alloc(text, elimination%text)
    end function eliminate_scene
 
-   !> The elements of the mesh, then the points that have a row.
+   !> The elements of the mesh, then the points that have a row. A motion that none of them sees stands with an element of its body.
    subroutine list_elements(fem, rows, line, numbering, nodes, n_nodes_of)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -122,19 +122,31 @@ contains
       type(scene_numbering_t), intent(in) :: numbering
       integer(ip), allocatable, intent(out) :: nodes(:, :), n_nodes_of(:)
       integer(ip), parameter :: MOST = max(CORNERS, ROW_ENTRIES) + ROW_ENTRIES
-      integer(ip) :: j, e, n_elements, n_points
+      integer(ip) :: j, e, b, n_elements, n_points
+      logical :: seen(fem%bodies%n)
 
       n_elements = fem%mesh%n_elements
       n_points = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
-      allocate (nodes(max(size(fem%mesh%nodes, 1, kind=ip), MOST), n_elements + n_points), n_nodes_of(n_elements + n_points))
+      allocate (nodes(max(size(fem%mesh%nodes, 1, kind=ip), MOST), n_elements + n_points + fem%bodies%n), &
+                n_nodes_of(n_elements + n_points + fem%bodies%n))
       nodes(:size(fem%mesh%nodes, 1), :n_elements) = fem%mesh%nodes(:, :n_elements)
       n_nodes_of(:n_elements) = fem%mesh%shape(:n_elements)
+      seen = .false.
       e = n_elements
       do j = 1, line%n
          if (line%normal(j) == 0 .and. line%tangential(j) == 0) cycle
          e = e + 1
          call list_nodes_of_point(fem, rows, numbering, j, nodes(:, e), n_nodes_of(e))
+         seen(fem%bodies%of_node(rows%node(:rows%entries(j), j))) = .true.
       end do
+      do b = 1, fem%bodies%n
+         if (seen(b) .or. numbering%n_motions(b) == 0) cycle
+         e = e + 1
+         n_nodes_of(e) = CORNERS + 1
+         nodes(:CORNERS + 1, e) = [fem%mesh%nodes(:CORNERS, fem%bodies%list(b)%elements(1)), fem%mesh%n_nodes + b]
+      end do
+      nodes = nodes(:, :e)
+      n_nodes_of = n_nodes_of(:e)
    end subroutine list_elements
 
    !> The nodes of the row, as often as it takes to have four corners, and the motions of their bodies.

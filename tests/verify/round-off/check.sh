@@ -11,6 +11,11 @@ solve tilted tilt.inp
 solve symmetry c3n.inp
 solve base c6.inp --set y0=0.1
 solve overlap c6.inp --set y0=0.3
+# no row sees the motion along x1
+for form in dense sparse; do
+   solve "unseen-$form" c6.inp --contact "$form"
+   says "unseen-$form" "$name.err" "is free to move along x1: no load does it and nothing prevents it"
+done
 solve tail nan.inp --set rho=0.100068 --set eps=1e-2
 run 0 "$input/ex1-plate-on-support.inp" plate --set rho=0.100068 --quiet
 finish
