@@ -9,7 +9,7 @@ module atrito_keyword
    implicit none (type, external)
    private
    public :: keyword_t, keyword_list_t, option_spec_t, choice_t, form_t, item_t
-   public :: define_keyword, add_option, add_form, add_item, add_word_item, add_example
+   public :: define_keyword, finish_keyword, add_option, add_form, add_item, add_word_item, add_example
    public :: LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER
    public :: KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, &
              KIND_TEXT
@@ -31,7 +31,7 @@ module atrito_keyword
    integer, parameter :: KIND_ID_OR_NAME = 9     !< such a number, or a set
    integer, parameter :: KIND_TEXT = 10          !< the whole line
 
-   integer, parameter :: MOST_KEYWORDS = 80
+   integer, parameter :: MOST_KEYWORDS = 80, MOST_PARTS = 50
    integer, parameter :: ANY_NUMBER = huge(1)    !< no upper limit of lines or items
 
    !> One of the words that an option or item can take.
@@ -88,10 +88,14 @@ module atrito_keyword
       type(string_t), allocatable :: example(:)
    end type keyword_t
 
-   !> Keywords that are being defined; options, forms and items are added to the last one.
+   !> Keywords that are being defined; options, forms and items belong to the last one, which has them when it is finished.
    type :: keyword_list_t
       integer :: n = 0
       type(keyword_t) :: list(MOST_KEYWORDS)
+      integer, private :: n_options = 0, n_forms = 0, n_items = 0
+      type(option_spec_t), private :: options(MOST_PARTS)
+      type(form_t), private :: forms(MOST_PARTS)
+      type(item_t), private :: items(MOST_PARTS)   !< of the last form
    end type keyword_list_t
 
 contains
@@ -103,6 +107,7 @@ contains
       integer, intent(in) :: level
       character(len=*), intent(in), optional :: doc, parent
 
+      call finish_keyword(keywords)
       keywords%n = keywords%n + 1
       associate (keyword => keywords%list(keywords%n))
          keyword%name = without_marks(name)
@@ -112,9 +117,28 @@ contains
          keyword%summary = summary
          keyword%doc = text_or(doc)
          keyword%parent = text_or(parent)
-         allocate (keyword%options(0), keyword%forms(0), keyword%example(0))
+         allocate (keyword%example(0))
       end associate
    end subroutine define_keyword
+
+   !> Gives the last keyword its options and forms.
+   subroutine finish_keyword(keywords)
+      type(keyword_list_t), intent(inout) :: keywords
+
+      if (keywords%n == 0) return
+      call finish_form(keywords)
+      keywords%list(keywords%n)%options = keywords%options(:keywords%n_options)
+      keywords%list(keywords%n)%forms = keywords%forms(:keywords%n_forms)
+      keywords%n_options = 0
+      keywords%n_forms = 0
+   end subroutine finish_keyword
+
+   subroutine finish_form(keywords)
+      type(keyword_list_t), intent(inout) :: keywords
+
+      if (keywords%n_forms > 0) keywords%forms(keywords%n_forms)%items = keywords%items(:keywords%n_items)
+      keywords%n_items = 0
+   end subroutine finish_form
 
    !> Adds an option. choices: words separated by blanks, with their marks.
    subroutine add_option(keywords, name, kind, doc, default, choices, needs, dimension)
@@ -122,15 +146,14 @@ contains
       character(len=*), intent(in) :: name, doc
       integer, intent(in) :: kind
       character(len=*), intent(in), optional :: default, choices, needs, dimension
-      type(option_spec_t) :: option
 
-      call describe(option%item_t, name, kind, doc, default, dimension, choices)
-      option%required = has_mark(name, '!')
-      option%own = has_mark(name, '+')
-      option%built = .not. has_mark(name, '-')
-      option%needs = text_or(needs)
-      associate (keyword => keywords%list(keywords%n))
-         keyword%options = [keyword%options, option]
+      keywords%n_options = keywords%n_options + 1
+      associate (option => keywords%options(keywords%n_options))
+         call describe(option%item_t, name, kind, doc, default, dimension, choices)
+         option%required = has_mark(name, '!')
+         option%own = has_mark(name, '+')
+         option%built = .not. has_mark(name, '-')
+         option%needs = text_or(needs)
       end associate
    end subroutine add_option
 
@@ -167,14 +190,13 @@ contains
       if (present(built)) form%built = built
       if (present(harmless)) form%harmless = harmless
       call set_condition(form, text_or(when))
-      allocate (form%items(0))
       if (len(form%word) > 0) then
          form%min_items = 1
          form%max_items = 1
       end if
-      associate (keyword => keywords%list(keywords%n))
-         keyword%forms = [keyword%forms, form]
-      end associate
+      call finish_form(keywords)
+      keywords%n_forms = keywords%n_forms + 1
+      keywords%forms(keywords%n_forms) = form
    end subroutine add_form
 
    subroutine set_condition(form, when)
@@ -194,34 +216,32 @@ contains
       character(len=*), intent(in) :: name, doc
       integer, intent(in) :: kind
       character(len=*), intent(in), optional :: dimension, default
-      type(item_t) :: item
 
-      call describe(item, name, kind, doc, default, dimension)
-      call append_item(keywords%list(keywords%n), item, has_mark(name, '.'))
+      keywords%n_items = keywords%n_items + 1
+      call describe(keywords%items(keywords%n_items), name, kind, doc, default, dimension)
+      call count_item(keywords, has_mark(name, '.'))
    end subroutine add_item
 
    !> Adds an item that is one of a list of words, written as in add_option.
    subroutine add_word_item(keywords, name, choices, doc)
       type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: name, choices, doc
-      type(item_t) :: item
 
-      call describe(item, name, KIND_WORD, doc, choices=choices)
-      call append_item(keywords%list(keywords%n), item, has_mark(name, '.'))
+      keywords%n_items = keywords%n_items + 1
+      call describe(keywords%items(keywords%n_items), name, KIND_WORD, doc, choices=choices)
+      call count_item(keywords, has_mark(name, '.'))
    end subroutine add_word_item
 
-   subroutine append_item(keyword, item, repeats)
-      type(keyword_t), intent(inout) :: keyword
-      type(item_t), intent(in) :: item
+   subroutine count_item(keywords, repeats)
+      type(keyword_list_t), intent(inout) :: keywords
       logical, intent(in) :: repeats
 
-      associate (form => keyword%forms(size(keyword%forms)))
-         form%items = [form%items, item]
+      associate (form => keywords%forms(keywords%n_forms), item => keywords%items(keywords%n_items))
          form%max_items = form%max_items + 1
          if (item%required) form%min_items = form%max_items
          if (repeats) form%max_items = ANY_NUMBER
       end associate
-   end subroutine append_item
+   end subroutine count_item
 
    !> Adds the lines of an example, separated by '|'.
    subroutine add_example(keywords, lines)
