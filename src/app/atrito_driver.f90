@@ -2,7 +2,7 @@
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use atrito_blas_info, only: set_blas_threads
-   use atrito_body_store, only: body_store_t
+   use atrito_body_cache, only: body_cache_t
    use atrito_screen, only: compose_check
    use atrito_command_line, only: command_t, parse_command, wrong, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, &
                                   TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
@@ -42,7 +42,7 @@ contains
       type(command_t) :: command
       type(message_t) :: error
       type(page_t) :: page
-      type(body_store_t) :: store
+      type(body_cache_t) :: store
       logical :: ok
 
       call begin_program()

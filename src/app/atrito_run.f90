@@ -1,7 +1,7 @@
 !> One run: read the deck, build the model, solve, write.
 module atrito_run
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_body_store, only: body_store_t
+   use atrito_body_cache, only: body_cache_t
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
    use atrito_command_line, only: command_t, output_folder
@@ -41,7 +41,7 @@ contains
    !> Solves a deck and writes its tables.
    subroutine run_deck(command, store, code, facts)
       type(command_t), intent(in) :: command
-      type(body_store_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
+      type(body_cache_t), intent(inout) :: store    !< bodies of an earlier run; those of this one
       integer, intent(out) :: code                  !< one of STATUS_*
       type(run_facts_t), intent(out), optional :: facts
       type(model_t) :: model
@@ -215,7 +215,7 @@ contains
       integer, parameter :: KINDS(size(SOLVERS)) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS]
       integer, parameter :: FORMS(size(CONTACT_FORMS)) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
 
-      options%storage_kind = KINDS(findloc(SOLVERS == command%solver, .true., dim=1))
+      options%solver_kind = KINDS(findloc(SOLVERS == command%solver, .true., dim=1))
       options%contact_form = FORMS(findloc(CONTACT_FORMS == command%contact, .true., dim=1))
    end function solve_options
 

@@ -5,7 +5,7 @@
 module atrito_stability_limit
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_balance_probe, only: probe_balance
-   use atrito_body_store, only: body_store_t
+   use atrito_body_cache, only: body_cache_t
    use atrito_clp, only: has_clp, clp_trouble
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
@@ -96,7 +96,7 @@ contains
       type(search_t), intent(inout) :: search
       type(stability_t), intent(inout) :: limit
       integer, intent(out) :: code
-      type(body_store_t) :: store
+      type(body_cache_t) :: store
       type(reporter_t) :: reporter
       type(stability_value_t) :: one
       real(wp) :: x
@@ -161,7 +161,7 @@ contains
    subroutine ask_solution(command, limit, store, search, one, code)
       type(command_t), intent(in) :: command
       type(stability_t), intent(in) :: limit
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(search_t), intent(inout) :: search
       type(stability_value_t), intent(inout) :: one
       integer, intent(out) :: code

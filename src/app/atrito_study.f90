@@ -1,7 +1,7 @@
 !> `atrito study`: one deck at several levels of refinement and with several elements; error against run time.
 module atrito_study
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_body_store, only: body_store_t
+   use atrito_body_cache, only: body_cache_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_status
    use atrito_element_table, only: KINDS, kind_named
@@ -137,7 +137,7 @@ contains
       type(study_t), intent(inout) :: study
       type(study_probe_t) :: probe
       type(command_t) :: one
-      type(body_store_t) :: store
+      type(body_cache_t) :: store
       type(model_t) :: model
       type(results_t) :: results
       type(reporter_t) :: reporter
@@ -235,7 +235,7 @@ contains
       type(study_row_t), intent(inout) :: row       !< element and level are given
       type(status_t), intent(out) :: status
       type(command_t) :: one
-      type(body_store_t) :: store
+      type(body_cache_t) :: store
       type(run_facts_t) :: facts
       type(sweep_run_t) :: run
       real(wp) :: nan

@@ -4,7 +4,7 @@
 !> copies of this process. What a worker finds stands in the files of its runs and in the integers that all share.
 module atrito_sweep
    use, intrinsic :: iso_c_binding, only: c_int
-   use atrito_body_store, only: body_store_t
+   use atrito_body_cache, only: body_cache_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_status
    use atrito_folder_claim, only: folder_claim_t, release_folder
@@ -35,7 +35,7 @@ module atrito_sweep
       type(command_t) :: command
       type(sweep_plan_t) :: plan
       integer(c_int), pointer :: shared(:) => null()   !< (2 n_runs)
-      type(body_store_t) :: store
+      type(body_cache_t) :: store
    end type sweep_t
 
 contains

@@ -4,7 +4,7 @@
 !> part go and the lists come out in the order of the sets, for any number of threads.
 module atrito_incidence
    use atrito_kinds, only: ip, lp
-   use atrito_threads, only: n_threads, is_shared, run_count, find_run
+   use atrito_threads, only: n_threads, is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: list_holders
@@ -64,34 +64,34 @@ contains
       end do
    end subroutine count_members
 
-   !> From the lengths of the lists, by parts, to their starts; run by run of the members.
+   !> From the lengths of the lists, by parts, to their starts; chunk by chunk of the members.
    subroutine counts_to_starts(at, first)
       integer(ip), intent(inout) :: at(:, :)         !< (n, n_parts)
       integer(ip), intent(out) :: first(:)           !< (n + 1)
-      integer(ip) :: start(run_count(size(at, 1, kind=ip)) + 1)
-      integer(ip) :: run, low, high, n
+      integer(ip) :: start(chunk_count(size(at, 1, kind=ip)) + 1)
+      integer(ip) :: chunk, low, high, n
 
       n = size(at, 1, kind=ip)
       start(1) = 1
       !$omp parallel do schedule(static) private(low, high) if (is_shared(n))
-      do run = 1, run_count(n)
-         call find_run(run, n, low, high)
-         start(run + 1) = sum(at(low:high, :))
+      do chunk = 1, chunk_count(n)
+         call find_chunk(chunk, n, low, high)
+         start(chunk + 1) = sum(at(low:high, :))
       end do
       !$omp end parallel do
-      do run = 2, size(start, kind=ip)
-         start(run) = start(run) + start(run - 1)
+      do chunk = 2, size(start, kind=ip)
+         start(chunk) = start(chunk) + start(chunk - 1)
       end do
       !$omp parallel do schedule(static) private(low, high) if (is_shared(n))
-      do run = 1, run_count(n)
-         call find_run(run, n, low, high)
-         call starts_in_run(start(run), at(low:high, :), first(low:high))
+      do chunk = 1, chunk_count(n)
+         call find_chunk(chunk, n, low, high)
+         call starts_in_chunk(start(chunk), at(low:high, :), first(low:high))
       end do
       !$omp end parallel do
       first(n + 1) = start(size(start))
    end subroutine counts_to_starts
 
-   pure subroutine starts_in_run(start, at, first)
+   pure subroutine starts_in_chunk(start, at, first)
       integer(ip), intent(in) :: start
       integer(ip), intent(inout) :: at(:, :)
       integer(ip), intent(out) :: first(:)
@@ -106,7 +106,7 @@ contains
             next = next + count
          end do
       end do
-   end subroutine starts_in_run
+   end subroutine starts_in_chunk
 
    pure subroutine fill_lists(sets, part, n_parts, at, holder, row)
       integer(ip), intent(in) :: sets(:, :), part, n_parts

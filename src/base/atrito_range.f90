@@ -2,7 +2,7 @@
 module atrito_range
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: work_of, unit_of
@@ -35,15 +35,15 @@ contains
    real(wp) function unit_of(values) result(unit)
       real(wp), intent(in) :: values(:, :)
       integer, parameter :: MOST = maxexponent(1.0_wp) - 2 !< 1/unit is a number as well
-      real(wp) :: largest(run_count(size(values, 2, kind=ip)))
-      integer(ip) :: run, first, last
+      real(wp) :: largest(chunk_count(size(values, 2, kind=ip)))
+      integer(ip) :: chunk, first, last
 
       unit = 1.0_wp
       if (size(largest) == 0) return
       !$omp parallel do schedule(static) private(first, last) if (is_shared(size(values, 2, kind=ip)))
-      do run = 1, size(largest, kind=ip)
-         call find_run(run, size(values, 2, kind=ip), first, last)
-         largest(run) = largest_of(values(:, first:last))
+      do chunk = 1, size(largest, kind=ip)
+         call find_chunk(chunk, size(values, 2, kind=ip), first, last)
+         largest(chunk) = largest_of(values(:, first:last))
       end do
       !$omp end parallel do
       if (maxval(largest) > 0.0_wp) unit = scale(1.0_wp, max(-MOST, min(MOST, exponent(maxval(largest)))))

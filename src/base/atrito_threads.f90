@@ -4,18 +4,18 @@
 !> results are the same to the last bit for any number of threads. The number is OpenMP's own setting of the calling thread; the
 !> program sets it at its start, so that no variable of the environment decides.
 !>
-!> Long lists are shared out in runs of a fixed length. Whatever depends on how far a piece of work reaches - a sum, an element that
-!> is compared with the one before - begins anew with each run, whoever does it.
+!> Long lists are shared out in chunks of a fixed length. Whatever depends on how far a piece of work reaches - a sum, an element
+!> that is compared with the one before - begins anew with each chunk, whoever does it.
 module atrito_threads
    use omp_lib, only: omp_get_max_threads, omp_get_thread_num, omp_set_num_threads
    use atrito_kinds, only: ip
    implicit none (type, external)
    private
-   public :: set_threads, n_threads, this_thread, is_shared, run_count, find_run, RUN_LENGTH
+   public :: set_threads, n_threads, this_thread, is_shared, chunk_count, find_chunk, CHUNK_LENGTH
 
-   integer(ip), parameter :: RUN_LENGTH = 1024
+   integer(ip), parameter :: CHUNK_LENGTH = 1024
    !> Fewer pieces than this are done by one thread: to wake others takes as long.
-   integer(ip), parameter :: LEAST_SHARED = 4*RUN_LENGTH
+   integer(ip), parameter :: LEAST_SHARED = 4*CHUNK_LENGTH
 
 contains
 
@@ -43,21 +43,21 @@ contains
       is_shared = n >= LEAST_SHARED
    end function is_shared
 
-   !> Runs in a list.
-   pure integer(ip) function run_count(n)
+   !> Chunks in a list.
+   pure integer(ip) function chunk_count(n)
       integer(ip), intent(in) :: n              !< length of the list
 
-      run_count = (n + RUN_LENGTH - 1)/RUN_LENGTH
-   end function run_count
+      chunk_count = (n + CHUNK_LENGTH - 1)/CHUNK_LENGTH
+   end function chunk_count
 
    !> Bounds of a run.
-   pure subroutine find_run(run, n, first, last)
-      integer(ip), intent(in) :: run            !< 1 .. run_count(n)
+   pure subroutine find_chunk(chunk, n, first, last)
+      integer(ip), intent(in) :: chunk            !< 1 .. chunk_count(n)
       integer(ip), intent(in) :: n              !< length of the list
       integer(ip), intent(out) :: first, last
 
-      first = (run - 1)*RUN_LENGTH + 1
-      last = min(run*RUN_LENGTH, n)
-   end subroutine find_run
+      first = (chunk - 1)*CHUNK_LENGTH + 1
+      last = min(chunk*CHUNK_LENGTH, n)
+   end subroutine find_chunk
 
 end module atrito_threads

@@ -1,13 +1,13 @@
-!> Solves the box problem by full steps on the active set: all points change at once.
+!> Solves the bound-constrained QP by full steps on the active set: all points change at once.
 !>
 !> Full steps end in a few solves almost always. When a state comes back, after MOST_FULL_STEPS, or when a body is free under
-!> the load, the finite dual steps take over (atrito_dual_steps).
+!> the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
 module atrito_active_set
    use atrito_kinds, only: ip, lp, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
-                                 row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_dual_steps, only: take_dual_steps
-   use atrito_line_factor, only: line_factor_t
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
+                              row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_goldfarb_idnani, only: take_goldfarb_idnani_steps
+   use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
@@ -23,10 +23,10 @@ module atrito_active_set
       logical :: solved = .false.
       logical :: moves = .false.                  !< no equilibrium: a free motion under the load
       real(wp), allocatable :: motion(:)          !< (k) that motion
-      real(wp), allocatable :: idle(:)            !< (k) a motion that nothing holds and nothing drives; else not allocated
+      real(wp), allocatable :: undetermined(:)            !< (k) a motion that nothing holds and nothing drives; else not allocated
       real(wp) :: condition = 1.0_wp
       integer(ip) :: dependent = 0                !< unknown whose row depends on others
-      logical :: used_dual_steps = .false.
+      logical :: used_goldfarb_idnani = .false.
       logical, allocatable :: is_shared(:)        !< (m) the force is not unique, the least is given; not allocated: not asked for
    end type box_outcome_t
 
@@ -34,13 +34,13 @@ contains
 
    !> Solves from the given state (state%state; fixed unknowns are put at their bounds). Every linear solve is recorded.
    subroutine solve_box(problem, bounds, state, history, outcome, status, kept)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(box_outcome_t), intent(out) :: outcome
       type(status_t), intent(out) :: status
-      type(line_factor_t), intent(inout), optional :: kept !< of the solve before, or of the last one: see solve_free_set
+      type(free_set_factor_t), intent(inout), optional :: kept !< of the solve before, or of the last one: see solve_free_set
       type(equality_solution_t) :: solution
       integer(lp) :: seen(max(MOST_FULL_STEPS, problem%m/UNKNOWNS_A_STEP))
       integer(ip) :: step, changes
@@ -58,16 +58,16 @@ contains
          call change_states(problem, bounds, state, changes)
          outcome%solved = changes == 0
          if (.not. outcome%solved) cycle
-         if (allocated(solution%idle)) outcome%idle = solution%idle
+         if (allocated(solution%undetermined)) outcome%undetermined = solution%undetermined
          return
       end do
-      outcome%used_dual_steps = .true.
-      call take_dual_steps(problem, bounds, state, history, solution, outcome%solved, status, kept)
+      outcome%used_goldfarb_idnani = .true.
+      call take_goldfarb_idnani_steps(problem, bounds, state, history, solution, outcome%solved, status, kept)
       outcome%dependent = solution%dependent
       outcome%condition = solution%condition
       outcome%moves = solution%moves
       if (solution%moves) outcome%motion = solution%motion
-      if (outcome%solved .and. allocated(solution%idle)) outcome%idle = solution%idle
+      if (outcome%solved .and. allocated(solution%undetermined)) outcome%undetermined = solution%undetermined
    end subroutine solve_box
 
    !> Fixed unknowns take the values of their bounds.
@@ -82,7 +82,7 @@ contains
 
    !> The full step: every unknown that breaks its condition changes.
    subroutine change_states(problem, bounds, state, changes)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       integer(ip), intent(out) :: changes
@@ -109,7 +109,7 @@ contains
 
    !> Whether no unknown breaks its condition.
    logical function is_settled(problem, bounds, state)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
       type(box_state_t) :: next
@@ -122,7 +122,7 @@ contains
 
    !> Whether a closed point has a tension that is more than round-off.
    pure logical function is_in_tension(problem, d, state, i, most)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
       type(box_state_t), intent(in) :: state
       integer(ip), intent(in) :: i
@@ -135,7 +135,7 @@ contains
 
    !> Whether an open point is penetrated, or the slip of a slipping one is below that of a sticking one, by more than round-off.
    pure logical function is_released(problem, d, state, i)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
       type(box_state_t), intent(in) :: state
       integer(ip), intent(in) :: i

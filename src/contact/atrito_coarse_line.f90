@@ -1,12 +1,12 @@
 !> A contact line of fewer points inside another one, for a start.
 !>
 !> Every STRIDE-th point of each pair is kept, and its last one. Stresses between them are linear in the number of the point, so the
-!> forces are q = R' q_c with R_ci = w_i I_ci / w_c, w_c = sum of w_i I_ci, and the box problem of the coarse line is that of the
-!> fine one for these forces alone: C_c = R C R', G_c = R G, g0_c = R g0, h_c = h. No body is asked again.
+!> forces are q = R' q_c with R_ci = w_i I_ci / w_c, w_c = sum of w_i I_ci, and the bound-constrained QP of the coarse line is that
+!> of the fine one for these forces alone: C_c = R C R', G_c = R G, g0_c = R g0, h_c = h. No body is asked again.
 !> The law is that of the pair.
 module atrito_coarse_line
    use atrito_average, only: average_t, identity_average
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t
    use atrito_contact_line, only: pressure_of, contact_line_t, last_of_pair, number_unknowns, normal_bounds, friction_bound
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
@@ -34,12 +34,12 @@ contains
       has_coarse_line = LEAST_RATIO*size(interpolation%point, kind=ip) <= line%n
    end function has_coarse_line
 
-   !> The coarse line and its box problem.
+   !> The coarse line and its bound-constrained QP.
    subroutine coarsen_line(problem, line, interpolation, coarse_problem, coarse_line)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(interpolation_t), intent(out) :: interpolation
-      type(box_problem_t), intent(out) :: coarse_problem
+      type(bound_qp_t), intent(out) :: coarse_problem
       type(contact_line_t), intent(out) :: coarse_line
 
       call choose_points(line, interpolation)
@@ -149,10 +149,10 @@ contains
    end function coarse_average
 
    subroutine restrict_problem(problem, line, interpolation, coarse_line, coarse)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line, coarse_line
       type(interpolation_t), intent(in) :: interpolation
-      type(box_problem_t), intent(out) :: coarse
+      type(bound_qp_t), intent(out) :: coarse
       real(wp), allocatable :: half(:, :)
       real(wp) :: r
       integer(ip) :: i, c, u
@@ -189,7 +189,7 @@ contains
 
    !> The unknown at a coarse point of the same kind as unknown i; 0: none.
    pure integer(ip) function unknown_of(problem, coarse_line, i, c) result(u)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: coarse_line
       integer(ip), intent(in) :: i, c
 
@@ -199,7 +199,7 @@ contains
 
    !> States of a line from those of the nearest points of its coarse line, and the friction bound of the coarse pressure.
    subroutine start_from_coarse(problem, line, interpolation, coarse_line, coarse_state, bounds, state, tau)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line, coarse_line
       type(interpolation_t), intent(in) :: interpolation
       type(box_state_t), intent(in) :: coarse_state

@@ -3,7 +3,7 @@ module atrito_contact_line
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_friction_law, only: friction_law_t, stick_compliance, friction_stress, FRICTION_NONE
    use atrito_average, only: average_t, apply_average
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, FROZEN
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
    public :: contact_line_t, number_unknowns, last_of_pair, pressure_of, shear_force_of, friction_bound, normal_bounds, &
@@ -116,7 +116,7 @@ contains
    !> Bounds and compliances of the normal forces, and all points closed, none with friction.
    pure subroutine normal_bounds(line, problem, bounds, state)
       type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(out) :: bounds
       type(box_state_t), intent(out) :: state
       integer(ip) :: i
@@ -135,7 +135,7 @@ contains
    !> none now take no part. The bound HUGE_REAL is none at all: stuck whatever the force.
    pure subroutine set_friction_bounds(line, problem, tau, bounds, state)
       type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]
       type(box_bounds_t), intent(inout) :: bounds
       type(box_state_t), intent(inout) :: state

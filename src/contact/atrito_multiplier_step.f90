@@ -9,7 +9,7 @@
 !> contact and rows that depend on each other need neither a penalty nor pivots. c_i is the flexibility of the displacements at the
 !> row, so nothing depends on units, and every pair is treated by its own stiffness.
 module atrito_multiplier_step
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, wp, EPS_MACH
@@ -161,7 +161,7 @@ contains
    !> Solves for one step. status: as system%factor.
    subroutine take_multiplier_step(system, shape, bounds, multipliers, state, history, status)
       class(contact_system_t), intent(inout) :: system
-      type(box_problem_t), intent(in) :: shape   !< numbers of unknowns and weights, for the history
+      type(bound_qp_t), intent(in) :: shape   !< numbers of unknowns and weights, for the history
       type(box_bounds_t), intent(in) :: bounds
       type(multiplier_t), intent(inout) :: multipliers
       type(box_state_t), intent(inout) :: state
@@ -300,7 +300,7 @@ contains
 
    !> A pressure that is round-off is none: the point is open.
    subroutine clear_round_off(shape, none, multipliers, state)
-      type(box_problem_t), intent(in) :: shape
+      type(bound_qp_t), intent(in) :: shape
       logical, intent(in) :: none(:)             !< (m) of a pair without any force but round-off
       type(multiplier_t), intent(in) :: multipliers
       type(box_state_t), intent(inout) :: state

@@ -1,20 +1,21 @@
-!> The box problem where rows of the contact matrix depend on each other: at a joint of three bodies, at a corner of two pairs.
+!> The bound-constrained QP where rows of the contact matrix depend on each other: at a joint of three bodies, at a corner of two
+!> pairs.
 !>
 !> The displacements are unique, the forces are not, and C + D cannot be factored. The proximal method (R. T. Rockafellar 1976)
 !> solves instead, again and again from the forces q' of the time before,
 !>
 !>     r = g0 - (C + D) q - s c (q - q') + G a,      c = diagonal of C,  s = 1e-5 or less,
 !>
-!> a box problem with a good condition. Where forces are unique the difference q - q' falls by s/(lambda + s) each time, lambda
-!> being an eigenvalue of the scaled matrix; elsewhere q stays where it is. Then the least of the forces that move the bodies alike
-!> is taken (atrito_least_forces), so that the answer does not depend on the way.
+!> a bound-constrained QP with a good condition. Where forces are unique the difference q - q' falls by s/(lambda + s) each time,
+!> lambda being an eigenvalue of the scaled matrix; elsewhere q stays where it is. Then the least of the forces that move the bodies
+!> alike is taken (atrito_least_forces), so that the answer does not depend on the way.
 module atrito_proximal
    use atrito_active_set, only: box_outcome_t, solve_box
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, set_residual, row_round_off, FREE, FROZEN
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, set_residual, row_round_off, FREE, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_kinds, only: ip, wp
    use atrito_least_forces, only: find_least_forces
-   use atrito_line_factor, only: line_factor_t
+   use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
@@ -33,13 +34,13 @@ contains
 
    !> Solves from the given state. outcome%solved is false where the rounds do not come to an end.
    subroutine solve_box_proximal(problem, bounds, state, history, outcome, status, kept, rows)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(box_outcome_t), intent(out) :: outcome
       type(status_t), intent(out) :: status
-      type(line_factor_t), intent(inout) :: kept
+      type(free_set_factor_t), intent(inout) :: kept
       type(constraint_rows_t), intent(in), optional :: rows !< of the unknowns; without them there are no least forces
       type(box_bounds_t) :: near
       real(wp) :: c(problem%m), q(problem%m), share, change, last
@@ -76,7 +77,7 @@ contains
 
    !> Of the forces that move the bodies alike the least.
    subroutine take_least_forces(problem, bounds, rows, state, is_shared)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(constraint_rows_t), intent(in) :: rows
       type(box_state_t), intent(inout) :: state

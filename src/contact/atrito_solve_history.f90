@@ -1,7 +1,7 @@
 !> What changed from one linear solve of the contact line to the next: the rows of iterations.tab.
 module atrito_solve_history
    use atrito_kinds, only: ip, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    implicit none (type, external)
    private
    public :: iteration_t, solve_history_t, record_solve, begin_outer, end_outer, state_letters, OUTER_KEPT
@@ -52,7 +52,7 @@ contains
    !> Records a solve.
    pure subroutine record_solve(history, problem, bounds, state)
       type(solve_history_t), intent(inout) :: history
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
       type(iteration_t) :: record
@@ -94,7 +94,7 @@ contains
    !> Points without pressure are open; of the closed ones those whose tangential unknown is free stick, the others slip.
    pure subroutine count_states(history, problem, state, record)
       type(solve_history_t), intent(inout) :: history
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state
       type(iteration_t), intent(inout) :: record
       integer(ip) :: now(problem%n_normal), i

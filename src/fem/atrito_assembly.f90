@@ -14,12 +14,12 @@ module atrito_assembly
    use atrito_element, only: element_stiffness
    use atrito_multifrontal, only: element_store_t, pack_matrix
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
-   use atrito_storage, only: storage_t
-   use atrito_threads, only: is_shared, run_count, find_run, RUN_LENGTH
+   use atrito_linear_solver, only: linear_solver_t
+   use atrito_threads, only: is_shared, chunk_count, find_chunk, CHUNK_LENGTH
    implicit none (type, external)
    private
    public :: fem_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
-             kept_diagonal, cached_stiffness, is_like_before, grain_of
+             retained_diagonal, cached_stiffness, is_like_before, grain_of
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -41,14 +41,14 @@ module atrito_assembly
       real(wp) :: k(2*MOST_NODES, 2*MOST_NODES) = 0.0_wp
    end type stiffness_cache_t
 
-   !> A run of elements, compared one after the other. Places are those in the list of elements; 0: none.
-   type :: run_t
-      integer(ip) :: before = 0                    !< the last different one of earlier runs
+   !> A chunk of elements, compared one after the other. Places are those in the list of elements; 0: none.
+   type :: chunk_t
+      integer(ip) :: before = 0                    !< the last different one of earlier chunks
       logical :: is_due = .true.                   !< to be compared; also when `before` was wrong
       integer(ip) :: n = 0                         !< different ones
-      integer(ip) :: last = 0                      !< the last of them, or that of earlier runs
-      integer(ip) :: offset = 0                    !< different ones in earlier runs
-   end type run_t
+      integer(ip) :: last = 0                      !< the last of them, or that of earlier chunks
+      integer(ip) :: offset = 0                    !< different ones in earlier chunks
+   end type chunk_t
 
    !> A coordinate that was printed with 10 digits is off by half a unit of the last one, of which there are 1e9 to 1e10 in the
    !> largest coordinate; the difference of two differences of coordinates by two units.
@@ -78,11 +78,11 @@ contains
 
       associate (body => fem%bodies%list(i_body))
          if (.not. body%by_profile) then
-            call expect_profile(profile, body%n, body%n_kept, 4_ip + &
+            call expect_profile(profile, body%n, body%n_retained, 4_ip + &
                                 int(2.0_wp*sqrt(real(size(body%nodes), wp)*body%slenderness), ip))
             return
          end if
-         call begin_profile(profile, body%n, body%n_kept)
+         call begin_profile(profile, body%n, body%n_retained)
          do i = 1, size(body%elements, kind=ip)
             call add_to_profile(profile, element_equations(fem%mesh, fem%bodies, body%elements(i)))
          end do
@@ -91,17 +91,17 @@ contains
    end subroutine body_profile
 
    !> Adds all elements of a body to its matrix.
-   subroutine assemble_body(fem, i_body, storage, grain, is_near)
+   subroutine assemble_body(fem, i_body, solver, grain, is_near)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
-      class(storage_t), intent(inout) :: storage
+      class(linear_solver_t), intent(inout) :: solver
       real(wp), intent(in), optional :: grain      !< [L] elements that differ by no more may have one stiffness
       logical, intent(out), optional :: is_near    !< some have that are not equal
       type(element_store_t) :: store
 
       call collect_elements(fem, fem%bodies%list(i_body)%elements, store, grain)
       if (present(is_near)) is_near = store%is_near
-      call storage%add_store(store)
+      call solver%add_store(store)
    end subroutine assemble_body
 
    !> Equations and stiffnesses of elements, in their order. Equal ones that follow one another have one stiffness in common.
@@ -110,7 +110,7 @@ contains
       integer(ip), intent(in) :: elements(:)       !< of one body
       type(element_store_t), intent(out) :: store
       real(wp), intent(in), optional :: grain      !< [L] those that differ by no more may have one in common, too
-      type(run_t) :: runs(run_count(size(elements, kind=ip)))
+      type(chunk_t) :: chunks(chunk_count(size(elements, kind=ip)))
       integer(ip), allocatable :: different(:)     ! the element of each matrix
       integer(ip) :: i
 
@@ -121,34 +121,34 @@ contains
          store%start(i + 1) = store%start(i) + 2*fem%mesh%shape(elements(i))
       end do
       call collect_equations(fem, elements, store)
-      call compare_runs(fem, elements, 0.0_wp, runs, store%matrix_of)
-      if (present(grain)) call look_for_near(fem, elements, grain, runs, store)
-      store%n_matrices = sum(runs%n)
+      call compare_chunks(fem, elements, 0.0_wp, chunks, store%matrix_of)
+      if (present(grain)) call look_for_near(fem, elements, grain, chunks, store)
+      store%n_matrices = sum(chunks%n)
       allocate (different(store%n_matrices))
       !$omp parallel do schedule(dynamic) if (is_shared(store%n))
-      do i = 1, size(runs, kind=ip)
-         call number_matrices(elements, i, runs(i), store%matrix_of, different)
+      do i = 1, size(chunks, kind=ip)
+         call number_matrices(elements, i, chunks(i), store%matrix_of, different)
       end do
       !$omp end parallel do
       call compute_matrices(fem, different, store)
    end subroutine collect_elements
 
    !> Where most elements differ from the one before, but few of them by more than the grain, the near ones are taken as equal.
-   subroutine look_for_near(fem, elements, grain, runs, store)
+   subroutine look_for_near(fem, elements, grain, chunks, store)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:)
       real(wp), intent(in) :: grain
-      type(run_t), intent(inout) :: runs(:)
+      type(chunk_t), intent(inout) :: chunks(:)
       type(element_store_t), intent(inout) :: store
-      type(run_t) :: near_runs(size(runs))
+      type(chunk_t) :: near_chunks(size(chunks))
       integer(ip), allocatable :: number(:)
 
-      if (.not. grain > 0.0_wp .or. sum(runs%n) <= MANY*size(elements)) return
+      if (.not. grain > 0.0_wp .or. sum(chunks%n) <= MANY*size(elements)) return
       allocate (number(size(elements)))
-      call compare_runs(fem, elements, grain, near_runs, number)
-      store%is_near = sum(near_runs%n) <= FEW*sum(runs%n)
+      call compare_chunks(fem, elements, grain, near_chunks, number)
+      store%is_near = sum(near_chunks%n) <= FEW*sum(chunks%n)
       if (.not. store%is_near) return
-      runs = near_runs
+      chunks = near_chunks
       call move_alloc(number, store%matrix_of)
    end subroutine look_for_near
 
@@ -159,95 +159,95 @@ contains
       integer(ip) :: i
 
       allocate (store%equations(store%start(store%n + 1)))
-      !$omp parallel do schedule(dynamic, RUN_LENGTH) if (is_shared(store%n))
+      !$omp parallel do schedule(dynamic, CHUNK_LENGTH) if (is_shared(store%n))
       do i = 1, store%n
          store%equations(store%start(i) + 1:store%start(i + 1)) = element_equations(fem%mesh, fem%bodies, elements(i))
       end do
       !$omp end parallel do
    end subroutine collect_equations
 
-   !> Compares every element with the last different one before it, runs side by side. A run has to guess what came before it (the
-   !> first element of all, which is right in a regular mesh), and is compared again when it turns out to be another.
-   subroutine compare_runs(fem, elements, grain, runs, number)
+   !> Compares every element with the last different one before it, chunks side by side. A chunk has to guess what came before it
+   !> (the first element of all, which is right in a regular mesh), and is compared again when it turns out to be another.
+   subroutine compare_chunks(fem, elements, grain, chunks, number)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:)
       real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
-      type(run_t), intent(inout) :: runs(:)
-      integer(ip), intent(inout) :: number(:)      !< of the elements: the different ones of their run until there
+      type(chunk_t), intent(inout) :: chunks(:)
+      integer(ip), intent(inout) :: number(:)      !< of the elements: the different ones of their chunk until there
       integer(ip) :: i
 
-      runs(2:)%before = 1
-      do while (any(runs%is_due))
+      chunks(2:)%before = 1
+      do while (any(chunks%is_due))
          !$omp parallel do schedule(dynamic) if (is_shared(size(elements, kind=ip)))
-         do i = 1, size(runs, kind=ip)
-            if (runs(i)%is_due) call compare_run(fem, elements, grain, i, runs(i), number)
+         do i = 1, size(chunks, kind=ip)
+            if (chunks(i)%is_due) call compare_chunk(fem, elements, grain, i, chunks(i), number)
          end do
          !$omp end parallel do
-         call join_runs(fem, elements, grain, number, runs)
+         call join_chunks(fem, elements, grain, number, chunks)
       end do
-   end subroutine compare_runs
+   end subroutine compare_chunks
 
-   pure subroutine compare_run(fem, elements, grain, i_run, run, number)
+   pure subroutine compare_chunk(fem, elements, grain, i_chunk, chunk, number)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: elements(:), i_run
+      integer(ip), intent(in) :: elements(:), i_chunk
       real(wp), intent(in) :: grain
-      type(run_t), intent(inout) :: run
+      type(chunk_t), intent(inout) :: chunk
       integer(ip), intent(inout) :: number(:)
       type(form_t) :: form
       integer(ip) :: first, last, i
 
-      call find_run(i_run, size(elements, kind=ip), first, last)
-      run%n = 0
-      run%last = run%before
-      if (run%before > 0) call take_form(fem, elements(run%before), form)
+      call find_chunk(i_chunk, size(elements, kind=ip), first, last)
+      chunk%n = 0
+      chunk%last = chunk%before
+      if (chunk%before > 0) call take_form(fem, elements(chunk%before), form)
       do i = first, last
          if (.not. has_form(fem, elements(i), form, grain)) then
             call take_form(fem, elements(i), form)
-            run%n = run%n + 1
-            run%last = i
+            chunk%n = chunk%n + 1
+            chunk%last = i
          end if
-         number(i) = run%n
+         number(i) = chunk%n
       end do
-   end subroutine compare_run
+   end subroutine compare_chunk
 
-   !> What came before each run; the runs that it makes a difference to have to be compared again.
-   pure subroutine join_runs(fem, elements, grain, number, runs)
+   !> What came before each chunk; the chunks that it makes a difference to have to be compared again.
+   pure subroutine join_chunks(fem, elements, grain, number, chunks)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), number(:)
       real(wp), intent(in) :: grain
-      type(run_t), intent(inout) :: runs(:)
+      type(chunk_t), intent(inout) :: chunks(:)
       type(form_t) :: form
       integer(ip) :: i, first, last
 
-      runs%is_due = .false.
-      do i = 2, size(runs, kind=ip)
-         runs(i)%offset = runs(i - 1)%offset + runs(i - 1)%n
-         if (runs(i)%before == runs(i - 1)%last) cycle
-         runs(i)%before = runs(i - 1)%last
-         if (runs(i)%n == 0) runs(i)%last = runs(i)%before
-         call find_run(i, size(elements, kind=ip), first, last)
-         runs(i)%is_due = number(first) == 0
-         if (runs(i)%is_due) cycle
-         call take_form(fem, elements(runs(i)%before), form)
-         runs(i)%is_due = has_form(fem, elements(first), form, grain)
+      chunks%is_due = .false.
+      do i = 2, size(chunks, kind=ip)
+         chunks(i)%offset = chunks(i - 1)%offset + chunks(i - 1)%n
+         if (chunks(i)%before == chunks(i - 1)%last) cycle
+         chunks(i)%before = chunks(i - 1)%last
+         if (chunks(i)%n == 0) chunks(i)%last = chunks(i)%before
+         call find_chunk(i, size(elements, kind=ip), first, last)
+         chunks(i)%is_due = number(first) == 0
+         if (chunks(i)%is_due) cycle
+         call take_form(fem, elements(chunks(i)%before), form)
+         chunks(i)%is_due = has_form(fem, elements(first), form, grain)
       end do
-   end subroutine join_runs
+   end subroutine join_chunks
 
-   !> From the numbers within a run to those of all; the element that each new matrix is of.
-   pure subroutine number_matrices(elements, i_run, run, matrix_of, different)
-      integer(ip), intent(in) :: elements(:), i_run
-      type(run_t), intent(in) :: run
+   !> From the numbers within a chunk to those of all; the element that each new matrix is of.
+   pure subroutine number_matrices(elements, i_chunk, chunk, matrix_of, different)
+      integer(ip), intent(in) :: elements(:), i_chunk
+      type(chunk_t), intent(in) :: chunk
       integer(ip), intent(inout) :: matrix_of(:), different(:)
       integer(ip) :: first, last, i, newest
 
-      call find_run(i_run, size(elements, kind=ip), first, last)
+      call find_chunk(i_chunk, size(elements, kind=ip), first, last)
       newest = 0
       do i = first, last
          if (matrix_of(i) > newest) then
             newest = matrix_of(i)
-            different(run%offset + newest) = elements(i)
+            different(chunk%offset + newest) = elements(i)
          end if
-         matrix_of(i) = run%offset + matrix_of(i)
+         matrix_of(i) = chunk%offset + matrix_of(i)
       end do
    end subroutine number_matrices
 
@@ -265,7 +265,7 @@ contains
          store%matrix_start(m + 1) = store%matrix_start(m) + n*(n + 1)/2
       end do
       allocate (store%values(store%matrix_start(store%n_matrices + 1)))
-      !$omp parallel do schedule(dynamic, RUN_LENGTH) if (is_shared(store%n_matrices))
+      !$omp parallel do schedule(dynamic, CHUNK_LENGTH) if (is_shared(store%n_matrices))
       do m = 1, store%n_matrices
          call compute_matrix(fem, different(m), store%values(store%matrix_start(m) + 1:store%matrix_start(m + 1)))
       end do
@@ -286,27 +286,27 @@ contains
       call pack_matrix(k(:n, :n), packed)
    end subroutine compute_matrix
 
-   !> Diagonal of a body's matrix at its kept equations, before any elimination.
-   subroutine kept_diagonal(fem, i_body, diagonal)
+   !> Diagonal of a body's matrix at its retained equations, before any elimination.
+   subroutine retained_diagonal(fem, i_body, diagonal)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
-      real(wp), intent(out) :: diagonal(:)         !< (n_kept) [F/L]
+      real(wp), intent(out) :: diagonal(:)         !< (n_retained) [F/L]
       type(stiffness_cache_t) :: cache
-      logical, allocatable :: has_kept(:)          !< (elements of the body)
+      logical, allocatable :: has_retained(:)          !< (elements of the body)
       integer(ip) :: equations(2*MOST_NODES), i, k, e, n, first
 
       diagonal = 0.0_wp
       associate (body => fem%bodies%list(i_body))
-         first = body%n - body%n_kept
-         allocate (has_kept(size(body%elements)))
-         !$omp parallel do default(shared) private(n) if(is_shared(size(has_kept, kind=ip)))
+         first = body%n - body%n_retained
+         allocate (has_retained(size(body%elements)))
+         !$omp parallel do default(shared) private(n) if(is_shared(size(has_retained, kind=ip)))
          do i = 1, size(body%elements, kind=ip)
             n = fem%mesh%shape(body%elements(i))
-            has_kept(i) = any(fem%bodies%equation(:, fem%mesh%nodes(:n, body%elements(i))) > first)
+            has_retained(i) = any(fem%bodies%equation(:, fem%mesh%nodes(:n, body%elements(i))) > first)
          end do
          !$omp end parallel do
          do i = 1, size(body%elements, kind=ip)
-            if (.not. has_kept(i)) cycle
+            if (.not. has_retained(i)) cycle
             e = body%elements(i)
             n = 2*fem%mesh%shape(e)
             equations(:n) = element_equations(fem%mesh, fem%bodies, e)
@@ -316,7 +316,7 @@ contains
             end do
          end do
       end associate
-   end subroutine kept_diagonal
+   end subroutine retained_diagonal
 
    !> Puts the stiffness of an element into cache%k, computing it only when the element differs from the one before.
    pure subroutine cached_stiffness(fem, element, cache)

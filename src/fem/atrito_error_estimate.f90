@@ -7,7 +7,7 @@ module atrito_error_estimate
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_stress_recovery, only: stress_field_t
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: energies_t, measure_error, relative_error
@@ -34,16 +34,16 @@ contains
       real(wp), intent(in), optional :: unit        !< displacements and stresses are divided by it first: a power of two, so that
       !< squares of very large or small ones stay in the range of numbers
       type(point_rule_t) :: rules(MOST_NODES)
-      type(energies_t) :: parts(run_count(fem%mesh%n_elements))
+      type(energies_t) :: parts(chunk_count(fem%mesh%n_elements))
       real(wp) :: per_unit
-      integer(ip) :: run
+      integer(ip) :: chunk
 
       per_unit = 1.0_wp
       if (present(unit)) per_unit = 1/unit
       call make_point_rules(rules, best=.false.)
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
-      do run = 1, size(parts, kind=ip)
-         call measure_run(fem, u, field, per_unit, rules, run, parts(run))
+      do chunk = 1, size(parts, kind=ip)
+         call measure_chunk(fem, u, field, per_unit, rules, chunk, parts(chunk))
       end do
       !$omp end parallel do
       energies%solution = sum(parts%solution)
@@ -51,25 +51,25 @@ contains
       energies%round_off = sum(parts%round_off)
    end subroutine measure_error
 
-   pure subroutine measure_run(fem, u, field, per_unit, rules, run, energies)
+   pure subroutine measure_chunk(fem, u, field, per_unit, rules, chunk, energies)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
       type(stress_field_t), intent(in) :: field
       real(wp), intent(in) :: per_unit
       type(point_rule_t), intent(in) :: rules(MOST_NODES)
-      integer(ip), intent(in) :: run
+      integer(ip), intent(in) :: chunk
       type(energies_t), intent(out) :: energies
       type(point_geometry_t) :: geometry
       integer(ip) :: e, first, last
 
-      call find_run(run, fem%mesh%n_elements, first, last)
+      call find_chunk(chunk, fem%mesh%n_elements, first, last)
       do e = first, last
          associate (rule => rules(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
             call add_element(fem, e, u, field, per_unit, rule, geometry, energies)
          end associate
       end do
-   end subroutine measure_run
+   end subroutine measure_chunk
 
    pure subroutine add_element(fem, e, u, field, per_unit, rule, geometry, energies)
       type(fem_t), intent(in) :: fem

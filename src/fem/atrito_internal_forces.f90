@@ -11,7 +11,7 @@ module atrito_internal_forces
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_range, only: work_of, unit_of
-   use atrito_threads, only: n_threads, is_shared, run_count, find_run
+   use atrito_threads, only: n_threads, is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: internal_forces, internal_force_sizes
@@ -39,7 +39,7 @@ contains
       integer(ip) :: n_parts, part
 
       n_parts = 1
-      allocate (work(run_count(fem%mesh%n_elements)))
+      allocate (work(chunk_count(fem%mesh%n_elements)))
       if (is_shared(fem%mesh%n_elements)) n_parts = min(n_threads(), size(work, kind=ip))
       allocate (late(n_parts))
       call find_owners(fem%mesh, n_parts, owner)
@@ -89,11 +89,11 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: part, n_parts
       logical(c_bool), intent(out) :: touched(:)
-      integer(ip) :: run, first, last, e, k
+      integer(ip) :: chunk, first, last, e, k
 
       touched = .false._c_bool
-      do run = first_run(part, n_parts, mesh%n_elements), first_run(part + 1, n_parts, mesh%n_elements) - 1
-         call find_run(run, mesh%n_elements, first, last)
+      do chunk = first_chunk(part, n_parts, mesh%n_elements), first_chunk(part + 1, n_parts, mesh%n_elements) - 1
+         call find_chunk(chunk, mesh%n_elements, first, last)
          do e = first, last
             do k = 1, mesh%shape(e)
                touched(mesh%nodes(k, e)) = .true._c_bool
@@ -102,36 +102,36 @@ contains
       end do
    end subroutine mark_nodes
 
-   !> Parts are whole runs of elements.
-   pure integer(ip) function first_run(part, n_parts, n_elements)
+   !> Parts are whole chunks of elements.
+   pure integer(ip) function first_chunk(part, n_parts, n_elements)
       integer(ip), intent(in) :: part, n_parts, n_elements
 
-      first_run = 1 + ((part - 1)*run_count(n_elements))/n_parts
-   end function first_run
+      first_chunk = 1 + ((part - 1)*chunk_count(n_elements))/n_parts
+   end function first_chunk
 
    pure subroutine add_part(fem, n_parts, owner, u, unit, force, work, late)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: n_parts, owner(:)
       real(wp), intent(in) :: u(:, :), unit
       real(wp), intent(inout) :: force(:, :)
-      real(wp), intent(inout) :: work(:)             !< of each run, over the unit [F]
+      real(wp), intent(inout) :: work(:)             !< of each chunk, over the unit [F]
       type(late_forces_t), intent(inout) :: late
       type(stiffness_cache_t) :: cache
       real(wp) :: ue(2*MOST_NODES), fe(2*MOST_NODES)
-      integer(ip) :: run, first, last, e, n
+      integer(ip) :: chunk, first, last, e, n
 
       ue = 0.0_wp
-      do run = first_run(late%part, n_parts, fem%mesh%n_elements), first_run(late%part + 1, n_parts, fem%mesh%n_elements) - 1
-         call find_run(run, fem%mesh%n_elements, first, last)
-         cache%shape = 0                             ! each run has a first stiffness of its own
-         work(run) = 0.0_wp
+      do chunk = first_chunk(late%part, n_parts, fem%mesh%n_elements), first_chunk(late%part + 1, n_parts, fem%mesh%n_elements) - 1
+         call find_chunk(chunk, fem%mesh%n_elements, first, last)
+         cache%shape = 0                             ! each chunk has a first stiffness of its own
+         work(chunk) = 0.0_wp
          do e = first, last
             n = 2*fem%mesh%shape(e)
             call fetch_displacements(fem%mesh, e, u, ue)
             if (all(ue(:n) == 0.0_wp)) cycle         ! of prescribed displacements most elements know nothing
             call cached_stiffness(fem, e, cache)
             call multiply_stiffness(n, cache%k, ue, fe)
-            work(run) = work(run) + work_over(n, fe, ue, 1/unit)
+            work(chunk) = work(chunk) + work_over(n, fe, ue, 1/unit)
             call hand_out(fem%mesh, e, fe, owner, force, late)
          end do
       end do

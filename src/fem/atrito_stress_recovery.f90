@@ -14,7 +14,7 @@ module atrito_stress_recovery
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: stress_field_t, recover_stress_field, nodal_stresses
@@ -53,14 +53,14 @@ contains
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
       type(stress_field_t), intent(out) :: field
       type(recovery_t) :: work
-      integer(ip) :: run
+      integer(ip) :: chunk
 
       call begin_recovery(fem, u, work)
       field%n = work%patches%n
       allocate (field%stress(COMPONENTS, field%n), work%polynomial(field%n))
       !$omp parallel do schedule(dynamic) if (is_shared(field%n))
-      do run = 1, run_count(field%n)
-         call fit_run(fem, u, run, work, field%stress)
+      do chunk = 1, chunk_count(field%n)
+         call fit_chunk(fem, u, chunk, work, field%stress)
       end do
       !$omp end parallel do
       call borrow_stresses(fem%mesh, work, field%stress)
@@ -74,7 +74,7 @@ contains
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
       type(recovery_t), intent(out) :: work
-      integer(ip) :: run, k
+      integer(ip) :: chunk, k
 
       call build_patches(fem, work%patches)
       call make_point_rules(work%best, best=.true.)
@@ -82,22 +82,22 @@ contains
       k = max(1_ip, maxval(BEST_OF(fem%mesh%shape)))
       allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
-      do run = 1, run_count(fem%mesh%n_elements)
-         call sample_run(fem, u, run, work)
+      do chunk = 1, chunk_count(fem%mesh%n_elements)
+         call sample_chunk(fem, u, chunk, work)
       end do
       !$omp end parallel do
    end subroutine begin_recovery
 
-   pure subroutine sample_run(fem, u, run, work)
+   pure subroutine sample_chunk(fem, u, chunk, work)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
-      integer(ip), intent(in) :: run
-      type(recovery_t), intent(inout) :: work      !< x and s of the run's elements are set
+      integer(ip), intent(in) :: chunk
+      type(recovery_t), intent(inout) :: work      !< x and s of the chunk's elements are set
       type(point_geometry_t) :: geometry
       real(wp) :: s(MOST_POINTS, COMPONENTS)
       integer(ip) :: e, point, first, last
 
-      call find_run(run, fem%mesh%n_elements, first, last)
+      call find_chunk(chunk, fem%mesh%n_elements, first, last)
       do e = first, last
          associate (rule => work%best(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
@@ -108,19 +108,19 @@ contains
             end do
          end associate
       end do
-   end subroutine sample_run
+   end subroutine sample_chunk
 
-   !> The patches of one run of places: the stress at their nodes, and the polynomials that other nodes want.
-   pure subroutine fit_run(fem, u, run, work, stress)
+   !> The patches of one chunk of places: the stress at their nodes, and the polynomials that other nodes want.
+   pure subroutine fit_chunk(fem, u, chunk, work, stress)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
-      integer(ip), intent(in) :: run
-      type(recovery_t), intent(inout) :: work      !< the polynomials of the run's places are set
-      real(wp), intent(inout) :: stress(:, :)      !< those of the run's places are set
+      integer(ip), intent(in) :: chunk
+      type(recovery_t), intent(inout) :: work      !< the polynomials of the chunk's places are set
+      real(wp), intent(inout) :: stress(:, :)      !< those of the chunk's places are set
       type(patch_fit_t) :: fit
       integer(ip) :: i, first, last, degree
 
-      call find_run(run, work%patches%n, first, last)
+      call find_chunk(chunk, work%patches%n, first, last)
       do i = first, last
          stress(:, i) = 0.0_wp
          if (work%patches%kind(i) == PATCH_NONE) cycle
@@ -130,7 +130,7 @@ contains
             if (any(work%patches%lends(elements))) call fit_polynomial(degree, fit, work%polynomial(i))
          end associate
       end do
-   end subroutine fit_run
+   end subroutine fit_chunk
 
    !> Samples of a patch, and the degree that they determine. When the best points do not determine what they should, all Gauss
    !> points and lower degrees are tried.

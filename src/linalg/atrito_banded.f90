@@ -1,6 +1,6 @@
 !> Band Cholesky by LAPACK: K_ii = L L' (dpbtrf), the coupling H = L^-1 K_ic, S = K_cc - H' H.
 !>
-!> The coupling is a full block from the first interior row that the kept equations reach.
+!> The coupling is a full block from the first interior row that the retained equations reach.
 module atrito_banded
    use atrito_dot_products, only: dot_down
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
@@ -8,18 +8,18 @@ module atrito_banded
    use atrito_lapack, only: dgemm, dpbtrf, dsyrk, dtbtrs, dtrsm
    use atrito_profile, only: profile_t, half_bandwidth, first_coupled_row, BAND_BLOCK
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
-   use atrito_storage, only: storage_t, factor_report_t, note_pivot, set_pivot_status
+   use atrito_linear_solver, only: linear_solver_t, factor_report_t, note_pivot, set_pivot_status
    implicit none (type, external)
    private
    public :: banded_t
 
-   type, extends(storage_t) :: banded_t
+   type, extends(linear_solver_t) :: banded_t
       private
       integer(ip) :: half_width = 0              !< entries below the diagonal
       integer(ip) :: first_coupled = 1           !< first row of the coupling
       real(wp), allocatable :: band(:, :)        !< (half_width + 1 + padding, n_interior): a_ij in (1 + i - j, j), i >= j
-      real(wp), allocatable :: coupling(:, :)    !< (n_interior - first_coupled + 1, n_kept): K_ic, then H
-      real(wp), allocatable :: kept(:, :)        !< (n_kept, n_kept), lower triangle: K_cc, then S
+      real(wp), allocatable :: coupling(:, :)    !< (n_interior - first_coupled + 1, n_retained): K_ic, then H
+      real(wp), allocatable :: retained(:, :)        !< (n_retained, n_retained), lower triangle: K_cc, then S
    contains
       procedure :: create => create_banded
       procedure :: add => add_to_banded
@@ -41,24 +41,24 @@ contains
       integer :: no_memory
 
       self%n = profile%n
-      self%n_kept = profile%n_kept
+      self%n_retained = profile%n_retained
       self%report = factor_report_t()
       self%half_width = half_bandwidth(profile)
       self%first_coupled = first_coupled_row(profile)
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       padding = 0
-      if (self%n_kept > 0) padding = BAND_BLOCK      ! zeros that eliminate_coupling multiplies with
-      if (allocated(self%band)) deallocate (self%band, self%coupling, self%kept)
+      if (self%n_retained > 0) padding = BAND_BLOCK      ! zeros that eliminate_coupling multiplies with
+      if (allocated(self%band)) deallocate (self%band, self%coupling, self%retained)
       allocate (self%band(self%half_width + 1 + padding, n_interior), &
-                self%coupling(n_interior - self%first_coupled + 1, self%n_kept), &
-                self%kept(self%n_kept, self%n_kept), stat=no_memory)
+                self%coupling(n_interior - self%first_coupled + 1, self%n_retained), &
+                self%retained(self%n_retained, self%n_retained), stat=no_memory)
       if (no_memory /= 0) then
          call set_status(status, STATUS_INTERNAL, 'not enough memory for the band')
          return
       end if
       self%band = 0.0_wp
       self%coupling = 0.0_wp
-      self%kept = 0.0_wp
+      self%retained = 0.0_wp
    end subroutine create_banded
 
    subroutine add_to_banded(self, equations, matrix)
@@ -67,7 +67,7 @@ contains
       real(wp), intent(in) :: matrix(:, :)
       integer(ip) :: a, b, i, j, n_interior
 
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       do b = 1, size(equations, kind=ip)
          j = equations(b)
          if (j == 0) cycle
@@ -80,7 +80,7 @@ contains
                self%coupling(j - self%first_coupled + 1, i - n_interior) = &
                   self%coupling(j - self%first_coupled + 1, i - n_interior) + matrix(a, b)
             else
-               self%kept(i - n_interior, j - n_interior) = self%kept(i - n_interior, j - n_interior) + matrix(a, b)
+               self%retained(i - n_interior, j - n_interior) = self%retained(i - n_interior, j - n_interior) + matrix(a, b)
             end if
          end do
       end do
@@ -90,7 +90,7 @@ contains
       class(banded_t), intent(inout) :: self
       type(status_t), intent(out) :: status
       type(halting_t) :: halting
-      real(wp) :: diagonal(self%n - self%n_kept)
+      real(wp) :: diagonal(self%n - self%n_retained)
       integer(ip) :: info, rows
       logical :: stopped
 
@@ -101,10 +101,10 @@ contains
       call restore_halting(halting)
       call check_pivots(self, diagonal, info, stopped)
       call set_pivot_status(self%report, stopped, status)
-      if (stopped .or. self%n_kept == 0 .or. rows == 0) return
+      if (stopped .or. self%n_retained == 0 .or. rows == 0) return
       call suspend_halting(halting)
       call eliminate_coupling(self, rows)
-      call dsyrk('L', 'T', self%n_kept, rows, -1.0_wp, self%coupling, rows, 1.0_wp, self%kept, self%n_kept)
+      call dsyrk('L', 'T', self%n_retained, rows, -1.0_wp, self%coupling, rows, 1.0_wp, self%retained, self%n_retained)
       call restore_halting(halting)
    end subroutine factor_banded
 
@@ -147,10 +147,10 @@ contains
       do row = 1, rows, BAND_BLOCK
          k = self%first_coupled + row - 1
          columns = min(BAND_BLOCK, rows - row + 1)
-         call dtrsm('L', 'L', 'N', 'N', columns, self%n_kept, 1.0_wp, self%band(1, k), leading, self%coupling(row, 1), rows)
+         call dtrsm('L', 'L', 'N', 'N', columns, self%n_retained, 1.0_wp, self%band(1, k), leading, self%coupling(row, 1), rows)
          below = min(self%half_width, rows - row - columns + 1)
          if (below == 0) cycle
-         call dgemm('N', 'N', below, self%n_kept, columns, -1.0_wp, self%band(1 + columns, k), leading, &
+         call dgemm('N', 'N', below, self%n_retained, columns, -1.0_wp, self%band(1 + columns, k), leading, &
                     self%coupling(row, 1), rows, 1.0_wp, self%coupling(row + columns, 1), rows)
       end do
    end subroutine eliminate_coupling
@@ -160,9 +160,9 @@ contains
       real(wp), intent(out) :: schur(:, :)
       integer(ip) :: j
 
-      do j = 1, self%n_kept
-         schur(j:, j) = self%kept(j:, j)
-         schur(j, j + 1:) = self%kept(j + 1:, j)
+      do j = 1, self%n_retained
+         schur(j:, j) = self%retained(j:, j)
+         schur(j, j + 1:) = self%retained(j + 1:, j)
       end do
    end subroutine get_banded_schur
 
@@ -181,13 +181,13 @@ contains
       type(halting_t) :: halting
       integer(ip) :: n_interior, rows, ignored
 
-      n_interior = n - self%n_kept
+      n_interior = n - self%n_retained
       rows = size(self%coupling, 1, kind=ip)
       if (n_interior == 0 .or. loads == 0) return
       call suspend_halting(halting)
       call dtbtrs('L', 'N', 'N', n_interior, self%half_width, loads, self%band, size(self%band, 1, kind=ip), f, n, ignored)
-      if (self%n_kept > 0 .and. rows > 0) then
-         call dgemm('T', 'N', self%n_kept, loads, rows, -1.0_wp, self%coupling, rows, f(self%first_coupled, 1), n, 1.0_wp, &
+      if (self%n_retained > 0 .and. rows > 0) then
+         call dgemm('T', 'N', self%n_retained, loads, rows, -1.0_wp, self%coupling, rows, f(self%first_coupled, 1), n, 1.0_wp, &
                     f(n_interior + 1, 1), n)
       end if
       call restore_halting(halting)
@@ -208,12 +208,12 @@ contains
       type(halting_t) :: halting
       integer(ip) :: n_interior, rows, load, j
 
-      n_interior = n - self%n_kept
+      n_interior = n - self%n_retained
       rows = size(self%coupling, 1, kind=ip)
       if (n_interior == 0 .or. loads == 0) return
       call suspend_halting(halting)
-      if (self%n_kept > 0 .and. rows > 0) then
-         call dgemm('N', 'N', rows, loads, self%n_kept, -1.0_wp, self%coupling, rows, x(n_interior + 1, 1), n, 1.0_wp, &
+      if (self%n_retained > 0 .and. rows > 0) then
+         call dgemm('N', 'N', rows, loads, self%n_retained, -1.0_wp, self%coupling, rows, x(n_interior + 1, 1), n, 1.0_wp, &
                     x(self%first_coupled, 1), n)
       end if
       call restore_halting(halting)
@@ -232,7 +232,7 @@ contains
 
       banded_memory = 0
       if (.not. allocated(self%band)) return
-      banded_memory = (size(self%band, kind=lp) + size(self%coupling, kind=lp) + size(self%kept, kind=lp)) &
+      banded_memory = (size(self%band, kind=lp) + size(self%coupling, kind=lp) + size(self%retained, kind=lp)) &
                       *int(storage_size(1.0_wp)/8, lp)
    end function banded_memory
 

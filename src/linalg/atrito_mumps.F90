@@ -1,4 +1,4 @@
-!> The solver of the MUMPS library: L D L' by fronts, sequential, with the kept equations as its Schur complement.
+!> The solver of the MUMPS library: L D L' by fronts, sequential, with the retained equations as its Schur complement.
 !>
 !> It checks the program's own sparse solver (atrito_multifrontal).
 !>
@@ -16,13 +16,13 @@ module atrito_mumps
    use atrito_mumps_library, only: dmumps_struc, begin_mumps, run_mumps
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
-   use atrito_storage, only: storage_t, factor_report_t, ALL_DIGITS, smallest_ratio
+   use atrito_linear_solver, only: linear_solver_t, factor_report_t, ALL_DIGITS, smallest_ratio
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: mumps_t
 
-   !> What MUMPS works on, behind a pointer: solving changes it, and the storage is only read then.
+   !> What MUMPS works on, behind a pointer: solving changes it, and the matrix is only read then.
    type :: instance_t
       type(dmumps_struc) :: mumps
       type(coordinate_matrix_t) :: matrix        !< until factor
@@ -30,10 +30,10 @@ module atrito_mumps
       real(wp), allocatable :: reduced(:, :)     !< (n_interior, loads) the load whose half-solved part MUMPS holds
    end type instance_t
 
-   type, extends(storage_t) :: mumps_t
+   type, extends(linear_solver_t) :: mumps_t
       private
       type(instance_t), pointer :: instance => null()
-      real(wp), allocatable :: scale(:)          !< (n) of rows and columns; 1 for the kept ones
+      real(wp), allocatable :: scale(:)          !< (n) of rows and columns; 1 for the retained ones
    contains
       procedure :: create => create_mumps
       procedure :: add => add_to_mumps
@@ -42,7 +42,7 @@ module atrito_mumps
       procedure :: reduce => reduce_by_mumps
       procedure :: expand => expand_by_mumps
       procedure :: memory_bytes => mumps_memory
-      procedure, nopass :: name => mumps_storage_name
+      procedure, nopass :: name => mumps_solver_name
       final :: finish_mumps
    end type mumps_t
 
@@ -68,7 +68,7 @@ contains
 
       call free_instance(self)
       self%n = profile%n
-      self%n_kept = profile%n_kept
+      self%n_retained = profile%n_retained
       self%report = factor_report_t()
       allocate (self%instance)
       call begin_mumps(self%instance%mumps, status)
@@ -97,8 +97,8 @@ contains
       self%report = factor_report_t()
       call hand_over_matrix(self, empty)
       call prepare_schur(self)
-      if (self%n == self%n_kept) then
-         call add_kept(self)
+      if (self%n == self%n_retained) then
+         call add_retained(self)
       else if (empty > 0) then
          self%report%worst_equation = empty
          self%report%digits_lost = ALL_DIGITS
@@ -124,7 +124,7 @@ contains
 
       if (allocated(self%scale)) deallocate (self%scale)
       allocate (self%scale(self%n))
-      call finish_matrix(self%instance%matrix, self%n - self%n_kept, self%scale, empty)
+      call finish_matrix(self%instance%matrix, self%n - self%n_retained, self%scale, empty)
       associate (mumps => self%instance%mumps)
          mumps%n = self%n
          mumps%nnz = int(self%instance%matrix%entries, lp)
@@ -142,35 +142,35 @@ contains
       class(mumps_t), intent(inout) :: self
       integer(ip) :: i
 
-      if (self%n_kept == 0) return
-      associate (mumps => self%instance%mumps, n_kept => self%n_kept)
+      if (self%n_retained == 0) return
+      associate (mumps => self%instance%mumps, n_retained => self%n_retained)
          if (associated(mumps%schur)) deallocate (mumps%schur, mumps%listvar_schur)
-         allocate (mumps%listvar_schur(n_kept), mumps%schur(int(n_kept, lp)**2))
-         mumps%listvar_schur = [(i, i=self%n - n_kept + 1, self%n)]
-         mumps%size_schur = n_kept
+         allocate (mumps%listvar_schur(n_retained), mumps%schur(int(n_retained, lp)**2))
+         mumps%listvar_schur = [(i, i=self%n - n_retained + 1, self%n)]
+         mumps%size_schur = n_retained
          mumps%icntl(19) = 2                      ! lower triangle by columns
          mumps%nprow = 1
          mumps%npcol = 1
          mumps%mblock = 100
          mumps%nblock = 100
-         mumps%schur_lld = n_kept
+         mumps%schur_lld = n_retained
       end associate
    end subroutine prepare_schur
 
-   !> The kept block alone: nothing to eliminate.
-   pure subroutine add_kept(self)
+   !> The retained block alone: nothing to eliminate.
+   pure subroutine add_retained(self)
       class(mumps_t), intent(inout) :: self
       integer(ip) :: k
 
       associate (mumps => self%instance%mumps)
-         if (self%n_kept > 0) mumps%schur = 0.0_wp
+         if (self%n_retained > 0) mumps%schur = 0.0_wp
          do k = 1, self%instance%matrix%entries
-            associate (s => mumps%schur(int(mumps%jcn(k) - 1, lp)*int(self%n_kept, lp) + int(mumps%irn(k), lp)))
+            associate (s => mumps%schur(int(mumps%jcn(k) - 1, lp)*int(self%n_retained, lp) + int(mumps%irn(k), lp)))
                s = s + mumps%a(k)
             end associate
          end do
       end associate
-   end subroutine add_kept
+   end subroutine add_retained
 
    !> Fills the report and the status from what MUMPS says.
    subroutine judge_pivots(self, status)
@@ -227,7 +227,7 @@ contains
       integer(lp) :: k
       real(wp), allocatable :: x(:, :), y(:)
 
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       if (shift > 0.0_wp) then
          associate (mumps => self%instance%mumps)
             do k = 1, mumps%nnz
@@ -257,7 +257,7 @@ contains
       integer(ip) :: j
       integer(lp) :: first
 
-      associate (mumps => self%instance%mumps, n => self%n_kept)
+      associate (mumps => self%instance%mumps, n => self%n_retained)
          do j = 1, n
             first = int(j - 1, lp)*int(n, lp)
             schur(j:, j) = mumps%schur(first + j:first + n)
@@ -272,8 +272,8 @@ contains
       real(wp), intent(inout), contiguous :: f(:, :)
       integer(ip) :: n_interior
 
-      n_interior = self%n - self%n_kept
-      if (n_interior == 0 .or. self%n_kept == 0 .or. size(f, 2) == 0) return
+      n_interior = self%n - self%n_retained
+      if (n_interior == 0 .or. self%n_retained == 0 .or. size(f, 2) == 0) return
       self%instance%reduced = f(:n_interior, :)
       call solve_with(self, CONDENSE, f)
    end subroutine reduce_by_mumps
@@ -285,9 +285,9 @@ contains
       integer(ip) :: n_interior
       real(wp), allocatable :: copy(:, :)
 
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       if (n_interior == 0 .or. size(x, 2) == 0) return
-      if (self%n_kept == 0) then
+      if (self%n_retained == 0) then
          call solve_with(self, INTERIOR_ALONE, x)
          return
       end if
@@ -318,24 +318,25 @@ contains
       integer(ip) :: j, n_interior, loads
       integer(lp) :: first
 
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       loads = size(x, 2, kind=ip)
-      associate (mumps => self%instance%mumps, n => self%n, n_kept => self%n_kept)
-         allocate (mumps%rhs(int(n, lp)*int(loads, lp)), mumps%redrhs(int(n_kept, lp)*int(loads, lp)))
+      associate (mumps => self%instance%mumps, n => self%n, n_retained => self%n_retained)
+         allocate (mumps%rhs(int(n, lp)*int(loads, lp)), mumps%redrhs(int(n_retained, lp)*int(loads, lp)))
          mumps%nrhs = loads
          mumps%lrhs = n
-         mumps%lredrhs = n_kept
+         mumps%lredrhs = n_retained
          mumps%icntl(26) = mode
          do j = 1, loads
             first = int(j - 1, lp)*int(n, lp)
             mumps%rhs(first + 1:first + n) = x(:, j)*self%scale
-            if (mode == EXPAND) mumps%redrhs(int(j - 1, lp)*int(n_kept, lp) + 1:int(j, lp)*int(n_kept, lp)) = x(n_interior + 1:, j)
+            if (mode == EXPAND) mumps%redrhs(int(j - 1, lp)*int(n_retained, lp) + 1:int(j, lp)*int(n_retained, &
+                                                                                                   lp)) = x(n_interior + 1:, j)
          end do
          call run_mumps(self%instance%mumps, SOLVE)
          do j = 1, loads
             first = int(j - 1, lp)*int(n, lp)
             if (mode == CONDENSE) then
-               x(n_interior + 1:, j) = mumps%redrhs(int(j - 1, lp)*int(n_kept, lp) + 1:int(j, lp)*int(n_kept, lp))
+               x(n_interior + 1:, j) = mumps%redrhs(int(j - 1, lp)*int(n_retained, lp) + 1:int(j, lp)*int(n_retained, lp))
             else
                x(:n_interior, j) = mumps%rhs(first + 1:first + n_interior)*self%scale(:n_interior)
             end if
@@ -351,19 +352,19 @@ contains
 
       mumps_memory = 0
       if (.not. associated(self%instance)) return
-      mumps_memory = REAL_BYTES*(int(self%n, lp) + int(self%n_kept, lp)**2)
+      mumps_memory = REAL_BYTES*(int(self%n, lp) + int(self%n_retained, lp)**2)
       associate (factor => self%instance%mumps%infog(29))
          ! a negative number counts millions
-         if (self%n > self%n_kept) mumps_memory = mumps_memory &
-                                                  + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
+         if (self%n > self%n_retained) mumps_memory = mumps_memory &
+                                                      + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
       end associate
    end function mumps_memory
 
-   pure function mumps_storage_name() result(name)
+   pure function mumps_solver_name() result(name)
       character(len=:), allocatable :: name
 
       name = 'mumps'
-   end function mumps_storage_name
+   end function mumps_solver_name
 
    subroutine finish_mumps(self)
       type(mumps_t), intent(inout) :: self

@@ -1,7 +1,7 @@
 !> The profile (skyline) of a symmetric matrix, and what factoring it will cost.
 !>
-!> Equations are numbered 1..n; the last n_kept of them are kept: they are the contact unknowns, which the factorisation does
-!> not eliminate and onto which it condenses the rest (the Schur complement). Column j of the upper triangle is stored from row
+!> Equations are numbered 1..n; the last n_retained of them are retained: they are the contact unknowns, which the factorisation
+!> does not eliminate and onto which it condenses the rest (the Schur complement). Column j of the upper triangle is stored from row
 !> first(j) down to the diagonal; its height is j - first(j) + 1.
 module atrito_profile
    use atrito_kinds, only: ip, lp, wp
@@ -15,13 +15,13 @@ module atrito_profile
 
    type :: profile_t
       integer(ip) :: n = 0                      !< number of equations
-      integer(ip) :: n_kept = 0                 !< the last n_kept equations are kept
+      integer(ip) :: n_retained = 0                 !< the last n_retained equations are retained
       integer(ip), allocatable :: first(:)      !< (n) row of the first entry of column j, 1 <= first(j) <= j
       integer(lp) :: entries = 0                !< of the lower triangles of all element matrices
       type(elimination_t) :: elimination        !< for the sparse solver; not allocated within: it takes an order of its own
    end type profile_t
 
-   !> Columns that the banded storage eliminates at a time from the kept block; it pads the band by as many rows.
+   !> Columns that the banded solver eliminates at a time from the retained block; it pads the band by as many rows.
    integer(ip), parameter :: BAND_BLOCK = 32_ip
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
@@ -30,14 +30,14 @@ module atrito_profile
 contains
 
    !> Begins with a diagonal matrix.
-   pure subroutine begin_profile(profile, n, n_kept)
+   pure subroutine begin_profile(profile, n, n_retained)
       type(profile_t), intent(out) :: profile
       integer(ip), intent(in) :: n              !< number of equations, >= 0
-      integer(ip), intent(in) :: n_kept         !< kept equations, 0 <= n_kept <= n
+      integer(ip), intent(in) :: n_retained         !< retained equations, 0 <= n_retained <= n
       integer(ip) :: j
 
       profile%n = n
-      profile%n_kept = n_kept
+      profile%n_retained = n_retained
       allocate (profile%first(n))
       do j = 1, n
          profile%first(j) = j
@@ -64,25 +64,25 @@ contains
       end do
    end subroutine add_to_profile
 
-   !> Ends with the kept block full, as the Schur complement is.
+   !> Ends with the retained block full, as the Schur complement is.
    pure subroutine close_profile(profile)
       type(profile_t), intent(inout) :: profile
       integer(ip) :: j, n_interior
 
-      n_interior = profile%n - profile%n_kept
+      n_interior = profile%n - profile%n_retained
       do j = n_interior + 1, profile%n
          profile%first(j) = min(profile%first(j), n_interior + 1)
       end do
    end subroutine close_profile
 
    !> A profile of columns of one height, closed.
-   pure subroutine expect_profile(profile, n, n_kept, height)
+   pure subroutine expect_profile(profile, n, n_retained, height)
       type(profile_t), intent(out) :: profile
-      integer(ip), intent(in) :: n, n_kept
+      integer(ip), intent(in) :: n, n_retained
       integer(ip), intent(in) :: height         !< >= 1
       integer(ip) :: j
 
-      call begin_profile(profile, n, n_kept)
+      call begin_profile(profile, n, n_retained)
       do j = height + 1, n
          profile%first(j) = j - height + 1
       end do
@@ -101,13 +101,13 @@ contains
       end do
    end function profile_length
 
-   !> Half bandwidth of the interior block (kept equations left out), the diagonal not counted.
+   !> Half bandwidth of the interior block (retained equations left out), the diagonal not counted.
    pure integer(ip) function half_bandwidth(profile)
       type(profile_t), intent(in) :: profile
       integer(ip) :: j
 
       half_bandwidth = 0
-      do j = 1, profile%n - profile%n_kept
+      do j = 1, profile%n - profile%n_retained
          half_bandwidth = max(half_bandwidth, j - profile%first(j))
       end do
    end function half_bandwidth
@@ -130,12 +130,12 @@ contains
       mean_height = real(profile_length(profile), wp)/real(max(profile%n, 1_ip), wp)
    end function mean_height
 
-   !> First interior row that the kept equations reach; n_interior + 1 when they reach none.
+   !> First interior row that the retained equations reach; n_interior + 1 when they reach none.
    pure integer(ip) function first_coupled_row(profile) result(row)
       type(profile_t), intent(in) :: profile
       integer(ip) :: j
 
-      row = profile%n - profile%n_kept + 1
+      row = profile%n - profile%n_retained + 1
       do j = row, profile%n
          row = min(row, profile%first(j))
       end do
@@ -145,28 +145,28 @@ contains
    !> with j, an upper bound elsewhere.
    pure real(wp) function skyline_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
-      real(wp) :: height, kept_before
+      real(wp) :: height, retained_before
       integer(ip) :: j, n_interior
 
-      n_interior = profile%n - profile%n_kept
+      n_interior = profile%n - profile%n_retained
       flops = 0.0_wp
       do j = 1, profile%n
          height = real(min(j - 1, n_interior) - profile%first(j) + 1, wp)
-         kept_before = real(max(j - n_interior - 1, 0_ip), wp)
-         flops = flops + height*(height + 3.0_wp + 2.0_wp*kept_before)
+         retained_before = real(max(j - n_interior - 1, 0_ip), wp)
+         flops = flops + height*(height + 3.0_wp + 2.0_wp*retained_before)
       end do
    end function skyline_flops
 
    !> Predicted floating-point operations of the banded factorisation with its Schur complement.
    pure real(wp) function banded_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
-      real(wp) :: n_interior, n_kept, rows, band
+      real(wp) :: n_interior, n_retained, rows, band
 
-      n_kept = real(profile%n_kept, wp)
-      n_interior = real(profile%n, wp) - n_kept
+      n_retained = real(profile%n_retained, wp)
+      n_interior = real(profile%n, wp) - n_retained
       band = real(half_bandwidth(profile), wp)
       rows = n_interior + 1.0_wp - real(first_coupled_row(profile), wp)
-      flops = n_interior*band*(band + 3.0_wp) + rows*n_kept*(2.0_wp*band + 1.0_wp + n_kept)
+      flops = n_interior*band*(band + 3.0_wp) + rows*n_retained*(2.0_wp*band + 1.0_wp + n_retained)
    end function banded_flops
 
    !> Expected floating-point operations of the sparse factorisation with its Schur complement.
@@ -177,10 +177,10 @@ contains
    pure real(wp) function sparse_flops(profile) result(flops)
       type(profile_t), intent(in) :: profile
       real(wp), parameter :: C = 45.0_wp
-      real(wp) :: n_kept
+      real(wp) :: n_retained
 
-      n_kept = real(profile%n_kept, wp)
-      flops = C*real(profile%n - profile%n_kept, wp)*mean_height(profile) + n_kept**3/3.0_wp
+      n_retained = real(profile%n_retained, wp)
+      flops = C*real(profile%n - profile%n_retained, wp)*mean_height(profile) + n_retained**3/3.0_wp
    end function sparse_flops
 
    !> Expected entries of the sparse factor: a n log2 m - b n of the grid above, counted by MUMPS for the same bodies.
@@ -199,24 +199,24 @@ contains
       bytes = REAL_BYTES*int(1.5_wp*sparse_entries(profile), lp)
    end function sparse_bytes
 
-   !> Memory of the skyline storage [bytes].
+   !> Memory of the skyline solver [bytes].
    pure integer(lp) function skyline_bytes(profile) result(bytes)
       type(profile_t), intent(in) :: profile
 
-      bytes = REAL_BYTES*(profile_length(profile) + int(profile%n - profile%n_kept, lp)) + INDEX_BYTES*int(profile%n, lp)
+      bytes = REAL_BYTES*(profile_length(profile) + int(profile%n - profile%n_retained, lp)) + INDEX_BYTES*int(profile%n, lp)
    end function skyline_bytes
 
-   !> Memory of the banded storage [bytes].
+   !> Memory of the banded solver [bytes].
    pure integer(lp) function banded_bytes(profile) result(bytes)
       type(profile_t), intent(in) :: profile
-      integer(lp) :: n_interior, n_kept, rows, band_rows
+      integer(lp) :: n_interior, n_retained, rows, band_rows
 
-      n_kept = int(profile%n_kept, lp)
-      n_interior = int(profile%n, lp) - n_kept
+      n_retained = int(profile%n_retained, lp)
+      n_interior = int(profile%n, lp) - n_retained
       band_rows = int(half_bandwidth(profile), lp) + 1_lp
-      if (n_kept > 0_lp) band_rows = band_rows + int(BAND_BLOCK, lp)
+      if (n_retained > 0_lp) band_rows = band_rows + int(BAND_BLOCK, lp)
       rows = n_interior + 1_lp - int(first_coupled_row(profile), lp)
-      bytes = REAL_BYTES*(band_rows*n_interior + (rows + n_kept)*n_kept)
+      bytes = REAL_BYTES*(band_rows*n_interior + (rows + n_retained)*n_retained)
    end function banded_bytes
 
 end module atrito_profile

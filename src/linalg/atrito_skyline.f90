@@ -4,19 +4,19 @@
 !>
 !>     g_ij = k_ij - sum_k l_ki g_kj,   l_ij = g_ij/d_i,   d_j = k_jj - sum_k l_kj g_kj,      k below min(i, n_interior + 1).
 !>
-!> The limit on k leaves the kept block unfactored: it becomes the Schur complement. Four neighbouring columns are eliminated
+!> The limit on k leaves the retained block unfactored: it becomes the Schur complement. Four neighbouring columns are eliminated
 !> at a time in a panel, filled up with zeros to the tallest of them.
 module atrito_skyline
    use atrito_dot_products, only: dot, dot_1x4, dot_2x4, take_off, PANEL_WIDTH
    use atrito_kinds, only: ip, lp, wp
    use atrito_profile, only: profile_t, profile_length, largest_height
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
-   use atrito_storage, only: storage_t, factor_report_t, note_pivot, set_pivot_status
+   use atrito_linear_solver, only: linear_solver_t, factor_report_t, note_pivot, set_pivot_status
    implicit none (type, external)
    private
    public :: skyline_t
 
-   type, extends(storage_t) :: skyline_t
+   type, extends(linear_solver_t) :: skyline_t
       private
       integer(ip), allocatable :: first(:)       !< (n) first row of column j
       integer(lp), allocatable :: place(:)       !< (n) place of the diagonal of column j in values
@@ -54,13 +54,13 @@ contains
       integer :: no_memory
 
       self%n = profile%n
-      self%n_kept = profile%n_kept
+      self%n_retained = profile%n_retained
       self%report = factor_report_t()
       self%first = profile%first
       self%most_rows = largest_height(profile)
       length = profile_length(profile)
       if (allocated(self%values)) deallocate (self%values, self%pivots, self%place)
-      allocate (self%values(length), self%pivots(self%n - self%n_kept), self%place(self%n), stat=no_memory)
+      allocate (self%values(length), self%pivots(self%n - self%n_retained), self%place(self%n), stat=no_memory)
       if (no_memory /= 0) then
          call set_status(status, STATUS_INTERNAL, 'not enough memory for the skyline')
          return
@@ -113,14 +113,14 @@ contains
       call set_pivot_status(self%report, stopped, status)
    end subroutine factor_skyline
 
-   !> The panel that begins with column j ends where the heights differ much, which would be work on zeros, or the kept block
+   !> The panel that begins with column j ends where the heights differ much, which would be work on zeros, or the retained block
    !> begins.
    pure integer(ip) function last_of_panel(self, j) result(last)
       class(skyline_t), intent(in) :: self
       integer(ip), intent(in) :: j
       integer(ip) :: n_interior, tallest, lowest, height
 
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       tallest = j - self%first(j) + 1
       lowest = tallest
       last = j
@@ -153,7 +153,7 @@ contains
       type(panel_t), intent(inout) :: panel
       integer(ip) :: i, n_interior, row
 
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       i = panel%top + 1
       do while (i < panel%first - 1)
          call eliminate_two_rows(self, i, min(i - 1, n_interior), panel)
@@ -217,7 +217,7 @@ contains
          c = j - panel%first + 1
          do i = panel%first, j - 1
             first = max(self%first(i), panel%top)
-            bottom = min(i - 1, self%n - self%n_kept)
+            bottom = min(i - 1, self%n - self%n_retained)
             if (first > bottom) cycle
             row = i - panel%top + 1
             panel%g(row, c) = panel%g(row, c) - dot(bottom - first + 1, self%values(self%place(i) - int(i - first, lp)), &
@@ -241,7 +241,7 @@ contains
 
       first = self%first(j)
       height = j - first + 1
-      eliminated = min(j - 1, self%n - self%n_kept) - first + 1
+      eliminated = min(j - 1, self%n - self%n_retained) - first + 1
       start = self%place(j) - int(height, lp)
       original = column(height)
       self%values(start + 1:start + eliminated) = column(:eliminated)/self%pivots(first:first + eliminated - 1)
@@ -250,7 +250,7 @@ contains
       if (eliminated > 0) pivot = pivot - dot(eliminated, self%values(start + 1), column)
       self%values(self%place(j)) = pivot
       stopped = .false.
-      if (j > self%n - self%n_kept) return
+      if (j > self%n - self%n_retained) return
       self%pivots(j) = pivot
       call note_pivot(self%report, j, self%n, original, pivot, usable)
       stopped = .not. usable
@@ -261,20 +261,20 @@ contains
       real(wp), intent(out) :: schur(:, :)
       integer(ip) :: j, n_interior
 
-      n_interior = self%n - self%n_kept
-      do j = 1, self%n_kept
+      n_interior = self%n - self%n_retained
+      do j = 1, self%n_retained
          schur(:j, j) = self%values(self%place(n_interior + j) - int(j - 1, lp):self%place(n_interior + j))
          schur(j, :j - 1) = schur(:j - 1, j)
       end do
    end subroutine get_skyline_schur
 
-   !> Forward: f_i becomes D^-1 L^-1 f_i; the columns of kept equations hold D^-1 L^-1 K_ic, so the same loop serves f_c.
+   !> Forward: f_i becomes D^-1 L^-1 f_i; the columns of retained equations hold D^-1 L^-1 K_ic, so the same loop serves f_c.
    subroutine reduce_skyline(self, f)
       class(skyline_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: f(:, :)
       integer(ip) :: j, load, first, eliminated, n_interior
 
-      n_interior = self%n - self%n_kept
+      n_interior = self%n - self%n_retained
       do j = 1, self%n
          first = self%first(j)
          eliminated = min(j - 1, n_interior) - first + 1
@@ -298,7 +298,7 @@ contains
 
       do j = self%n, 1, -1
          first = self%first(j)
-         last = min(j - 1, self%n - self%n_kept)
+         last = min(j - 1, self%n - self%n_retained)
          start = self%place(j) - int(j - first, lp)
          if (last < first) cycle
          do load = 1, size(x, 2, kind=ip)

@@ -17,7 +17,7 @@ module atrito_bodies
       integer(ip), allocatable :: elements(:)
       integer(ip), allocatable :: nodes(:)     !< after number_equations in the order of their equations
       integer(ip) :: n = 0                     !< equations
-      integer(ip) :: n_kept = 0                !< the last ones: the free dofs of the contact nodes
+      integer(ip) :: n_retained = 0                !< the last ones: the free dofs of the contact nodes
       logical :: by_profile = .true.           !< numbered for a small profile, and not as the nodes come
       real(wp) :: centre(2) = 0.0_wp           !< [L], middle of the nodes
       real(wp) :: size = 1.0_wp                !< [L], largest distance from the centre
@@ -136,7 +136,7 @@ contains
             call put_last(contact_nodes, body%nodes, bodies%equation(1, :))
          end if
          body%n = 0
-         body%n_kept = 0
+         body%n_retained = 0
          do i = 1, size(body%nodes, kind=ip)
             node = body%nodes(i)
             do dof = 1, 2
@@ -144,7 +144,7 @@ contains
                if (held(dof, node)) cycle
                body%n = body%n + 1
                bodies%equation(dof, node) = body%n
-               if (i > size(body%nodes) - size(contact_nodes)) body%n_kept = body%n_kept + 1
+               if (i > size(body%nodes) - size(contact_nodes)) body%n_retained = body%n_retained + 1
             end do
          end do
       end associate
@@ -201,7 +201,7 @@ contains
       call build_graph(size(body%nodes, kind=ip), connectivity, graph)
    end subroutine body_graph
 
-   !> The order of elimination of the sparse solver: nested dissection of the nodes, the kept equations last.
+   !> The order of elimination of the sparse solver: nested dissection of the nodes, the retained equations last.
    subroutine order_by_dissection(mesh, bodies, i_body, elimination)
       type(mesh_t), intent(in) :: mesh
       type(bodies_t), intent(in) :: bodies
@@ -228,7 +228,7 @@ contains
             call place_part(bodies, parts%order(first_node(parts, p):parts%last(p)), elimination%last(p), elimination%position)
          end do
          !$omp end parallel do
-         do k = body%n - body%n_kept + 1, body%n
+         do k = body%n - body%n_retained + 1, body%n
             elimination%position(k) = k
          end do
       end associate
@@ -285,7 +285,7 @@ contains
       !$omp parallel do default(none) shared(bodies, body, eliminated) if(is_shared(size(body%nodes, kind=ip)))
       do i = 1, size(body%nodes, kind=ip)
          associate (node => body%nodes(i))
-            eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_kept)
+            eliminated(node) = any(bodies%equation(:, node) > 0) .and. all(bodies%equation(:, node) <= body%n - body%n_retained)
          end associate
       end do
       !$omp end parallel do

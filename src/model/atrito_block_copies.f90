@@ -3,7 +3,7 @@ module atrito_block_copies
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_text, line_item, is_empty_token
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: block_t
+   use atrito_build_context, only: block_t
    use atrito_items, only: get_integer, has_option
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: same_name, to_text

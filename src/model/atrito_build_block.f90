@@ -1,7 +1,7 @@
 !> *BLOCK: a four-sided block of elements with its sets.
 !>
 !> Its nodes are made with those of *NODE, in the order of the deck, its elements with those of *ELEMENT, its surfaces with
-!> those of *SURFACE; a draft keeps the block in between.
+!> those of *SURFACE; a context keeps the block in between.
 module atrito_build_block
    use atrito_block, only: graded_lines, block_nodes
    use atrito_block_copies, only: copy_offset, name_copy
@@ -10,7 +10,7 @@ module atrito_build_block
    use atrito_coincidence, only: match_points
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, add_draft_block, note_places, spoil_block
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_element_table, only: SHAPES
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
@@ -29,45 +29,45 @@ module atrito_build_block
 
 contains
 
-   subroutine read_block_card(i_card, draft)
+   subroutine read_block_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(block_spec_t) :: spec
       character(len=:), allocatable :: name
       logical :: ok, named
 
-      call option_text(draft%deck, draft%deck%cards(i_card), 'ELSET', name, named)
-      call read_block_spec(draft%deck, draft%deck%cards(i_card), spec, ok)
+      call option_text(context%deck, context%deck%cards(i_card), 'ELSET', name, named)
+      call read_block_spec(context%deck, context%deck%cards(i_card), spec, ok)
       ok = ok .and. named
-      if (ok) ok = fits_memory(draft%deck%cards(i_card)%place, draft, count_nodes(spec), product(int(spec%n, &
+      if (ok) ok = fits_memory(context%deck%cards(i_card)%place, context, count_nodes(spec), product(int(spec%n, &
                                                                                       lp))*product(int(spec%copies%n, lp)), 'BLOCK')
-      if (ok) call place_copies(i_card, spec, name, draft, ok)
-      if (.not. ok) call spoil_block(draft, name)
+      if (ok) call place_copies(i_card, spec, name, context, ok)
+      if (.not. ok) call invalidate_block(context, name)
    end subroutine read_block_card
 
-   subroutine place_copies(i_card, spec, name, draft, ok)
+   subroutine place_copies(i_card, spec, name, context, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
       character(len=*), intent(in) :: name             !< of the *BLOCK
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       logical, intent(out) :: ok
       integer(ip) :: i, j
 
       ok = .true.
       do j = 1, spec%copies%n(2)
          do i = 1, spec%copies%n(1)
-            if (ok) call place_copy(i_card, spec, name, i, j, draft, ok)
+            if (ok) call place_copy(i_card, spec, name, i, j, context, ok)
          end do
       end do
-      if (ok .and. spec%copies%given) call put_array_sets(i_card, name, draft)
+      if (ok .and. spec%copies%given) call put_array_sets(i_card, name, context)
    end subroutine place_copies
 
-   subroutine place_copy(i_card, spec, name, i, j, draft, ok)
+   subroutine place_copy(i_card, spec, name, i, j, context, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
       character(len=*), intent(in) :: name             !< of the *BLOCK
       integer(ip), intent(in) :: i, j
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       logical, intent(out) :: ok
       type(block_spec_t) :: shifted
       type(block_t) :: block
@@ -81,17 +81,17 @@ contains
       block%card = i_card
       block%state = spec%state
       block%order = spec%order
-      call place_block_nodes(i_card, shifted, draft, block, ok)
+      call place_block_nodes(i_card, shifted, context, block, ok)
       if (.not. ok) return
-      call put_block_sets(draft, block)
-      call add_draft_block(draft, block)
-      draft%elements_to_come = draft%elements_to_come + count_elements(block)
+      call put_block_sets(context, block)
+      call add_context_block(context, block)
+      context%elements_to_come = context%elements_to_come + count_elements(block)
    end subroutine place_copy
 
-   subroutine place_block_nodes(i_card, spec, draft, block, ok)
+   subroutine place_block_nodes(i_card, spec, context, block, ok)
       integer(ip), intent(in) :: i_card
       type(block_spec_t), intent(in) :: spec
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(block_t), intent(inout) :: block
       logical, intent(out) :: ok
       real(wp), allocatable :: x(:, :)
@@ -102,7 +102,7 @@ contains
       call block_nodes(spec%corners, node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order), &
                        node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order), x)
       allocate (block%nodes(0:n(1), 0:n(2)), source=0_ip)
-      call share_nodes(i_card, x, draft, block%nodes, ok)
+      call share_nodes(i_card, x, context, block%nodes, ok)
       if (.not. ok) return
       k = 0
       n_new = 0
@@ -112,16 +112,16 @@ contains
             if (block%nodes(i, j) > 0) cycle
             n_new = n_new + 1
             x(:, n_new) = x(:, k)
-            block%nodes(i, j) = draft%model%mesh%n_nodes + n_new
+            block%nodes(i, j) = context%model%mesh%n_nodes + n_new
          end do
       end do
-      ok = draft%greatest_node <= huge(1_ip) - n_new
+      ok = context%greatest_node <= huge(1_ip) - n_new
       if (ok .and. n_new > 0) then
-         call add_nodes(draft%model%mesh, draft%greatest_node + 1, x(:, :n_new))
-         call note_places(draft%node_place, draft%model%mesh%n_nodes - n_new + 1, draft%model%mesh%n_nodes, -i_card)
-         draft%greatest_node = draft%greatest_node + n_new
+         call add_nodes(context%model%mesh, context%greatest_node + 1, x(:, :n_new))
+         call note_places(context%node_place, context%model%mesh%n_nodes - n_new + 1, context%model%mesh%n_nodes, -i_card)
+         context%greatest_node = context%greatest_node + n_new
       else if (.not. ok) then
-         call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
+         call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', &
                            'the node numbers of the block, which follow the greatest '//'so far, are too large', keyword='BLOCK')
       end if
    end subroutine place_block_nodes
@@ -151,10 +151,10 @@ contains
       end if
    end function lines_of
 
-   subroutine share_nodes(i_card, x, draft, nodes, ok)
+   subroutine share_nodes(i_card, x, context, nodes, ok)
       integer(ip), intent(in) :: i_card
       real(wp), intent(in) :: x(:, :)                  !< of the block, row by row [L]
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(inout) :: nodes(0:, 0:)      !< 0 so far
       logical, intent(out) :: ok
       type(token_t) :: place
@@ -164,26 +164,26 @@ contains
       logical :: found
 
       ok = .true.
-      call option_text(draft%deck, draft%deck%cards(i_card), 'MERGE', other, found, place)
+      call option_text(context%deck, context%deck%cards(i_card), 'MERGE', other, found, place)
       if (.not. found) return
-      i_set = find_set(draft%model%node_sets, other)
+      i_set = find_set(context%model%node_sets, other)
       ok = i_set > 0
       if (.not. ok) then
-         call report_unknown(draft, place, 'earlier node set', 'E-SET', draft%model%node_sets%names, 'BLOCK')
+         call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names, 'BLOCK')
          return
       end if
       width = size(nodes, 1, kind=ip)
       outline = outline_of(width, size(nodes, 2, kind=ip))
-      associate (members => draft%model%node_sets%sets(i_set)%members)
-         match = match_points(x(:, outline), draft%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
+      associate (members => context%model%node_sets%sets(i_set)%members)
+         match = match_points(x(:, outline), context%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
          do k = 1, size(outline, kind=ip)
             if (match(k) > 0) nodes(modulo(outline(k) - 1, width), (outline(k) - 1)/width) = members(match(k))
          end do
       end associate
       ok = any(match > 0)
-      if (.not. ok) call report_error(draft%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
+      if (.not. ok) call report_error(context%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
                                expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
-      if (ok) call warn_of_hanging_nodes(draft%deck, place, nodes)
+      if (ok) call warn_of_hanging_nodes(context%deck, place, nodes)
    end subroutine share_nodes
 
    pure function outline_of(width, height) result(outline)
@@ -232,14 +232,14 @@ contains
       if (first > 0) n = count(side(first:last) == 0, kind=ip)
    end function between
 
-   subroutine put_block_sets(draft, block)
-      type(draft_t), intent(inout) :: draft
+   subroutine put_block_sets(context, block)
+      type(build_context_t), intent(inout) :: context
       type(block_t), intent(in) :: block
       integer(ip) :: k
 
-      call put_node_set(draft, block%card, block%name, reshape(block%nodes, [size(block%nodes)]))
+      call put_node_set(context, block%card, block%name, reshape(block%nodes, [size(block%nodes)]))
       do k = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(draft, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
+         call put_node_set(context, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
       end do
    end subroutine put_block_sets
 
@@ -260,65 +260,65 @@ contains
       end select
    end function side_nodes
 
-   subroutine put_array_sets(i_card, name, draft)
+   subroutine put_array_sets(i_card, name, context)
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name             !< of the *BLOCK
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(number_list_t) :: at_side(size(BLOCK_SIDES))
       integer(ip) :: b, k, first
 
-      first = draft%blocks(draft%block_of_card(i_card))%nodes(0, 0)
-      call put_node_set(draft, i_card, name, [(k, k=first, draft%model%mesh%n_nodes)])
-      do b = draft%block_of_card(i_card), draft%n_blocks
+      first = context%blocks(context%block_of_card(i_card))%nodes(0, 0)
+      call put_node_set(context, i_card, name, [(k, k=first, context%model%mesh%n_nodes)])
+      do b = context%block_of_card(i_card), context%n_blocks
          do k = 1, size(BLOCK_SIDES, kind=ip)
-            if (draft%blocks(b)%at_side(k)) call add_numbers(at_side(k), side_nodes(draft%blocks(b), k))
+            if (context%blocks(b)%at_side(k)) call add_numbers(at_side(k), side_nodes(context%blocks(b), k))
          end do
       end do
       do k = 1, size(BLOCK_SIDES, kind=ip)
-         call put_node_set(draft, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side(k)))
+         call put_node_set(context, i_card, name//trim(BLOCK_SIDES(k)), numbers_of(at_side(k)))
       end do
    end subroutine put_array_sets
 
-   subroutine place_block_elements(i_card, draft)
+   subroutine place_block_elements(i_card, context)
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: b, k, first
 
-      first = draft%model%mesh%n_elements + 1
-      b = draft%block_of_card(i_card)
+      first = context%model%mesh%n_elements + 1
+      b = context%block_of_card(i_card)
       if (b == 0) return
       do
-         call place_elements_of(b, draft)
-         if (b == draft%n_blocks) exit
-         if (draft%blocks(b + 1)%card /= i_card) exit
+         call place_elements_of(b, context)
+         if (b == context%n_blocks) exit
+         if (context%blocks(b + 1)%card /= i_card) exit
          b = b + 1
       end do
-      if (allocated(draft%blocks(b)%array)) call grow_set(draft%model%element_sets, draft%blocks(b)%array, [(k, k=first, &
-                                                                                                      draft%model%mesh%n_elements)])
+      if (allocated(context%blocks(b)%array)) call grow_set(context%model%element_sets, context%blocks(b)%array, [(k, k=first, &
+                                                                                                    context%model%mesh%n_elements)])
    end subroutine place_block_elements
 
-   subroutine place_elements_of(b, draft)
-      integer(ip), intent(in) :: b                     !< place in draft%blocks
-      type(draft_t), intent(inout) :: draft
+   subroutine place_elements_of(b, context)
+      integer(ip), intent(in) :: b                     !< place in context%blocks
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: k, n
       logical :: ok
 
-      associate (block => draft%blocks(b), i_card => draft%blocks(b)%card)
+      associate (block => context%blocks(b), i_card => context%blocks(b)%card)
          n = count_elements(block)
-         block%first_element = draft%model%mesh%n_elements + 1
-         ok = draft%greatest_element <= huge(1_ip) - n
+         block%first_element = context%model%mesh%n_elements + 1
+         ok = context%greatest_element <= huge(1_ip) - n
          if (ok) then
-            call reserve_mesh(draft%model%mesh, 0_ip, draft%elements_to_come)   ! with those of the blocks that follow
-            call add_block(draft%model%mesh, draft%greatest_element + 1, block%state, block%order, block%nodes)
-            call note_places(draft%element_place, block%first_element, draft%model%mesh%n_elements, -i_card)
-            draft%greatest_element = draft%greatest_element + n
+            call reserve_mesh(context%model%mesh, 0_ip, context%elements_to_come)   ! with those of the blocks that follow
+            call add_block(context%model%mesh, context%greatest_element + 1, block%state, block%order, block%nodes)
+            call note_places(context%element_place, block%first_element, context%model%mesh%n_elements, -i_card)
+            context%greatest_element = context%greatest_element + n
          else
-            call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
+            call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', &
                               'the element numbers of the block, which follow the '//'greatest so far, are too large', &
                               keyword='BLOCK')
          end if
-         draft%elements_to_come = draft%elements_to_come - n
-         call grow_set(draft%model%element_sets, block%name, [(k, k=block%first_element, draft%model%mesh%n_elements)])
+         context%elements_to_come = context%elements_to_come - n
+         call grow_set(context%model%element_sets, block%name, [(k, k=block%first_element, context%model%mesh%n_elements)])
       end associate
    end subroutine place_elements_of
 

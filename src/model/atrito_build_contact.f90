@@ -2,7 +2,7 @@
 module atrito_build_contact
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, keep_token, define_name, count_cards
+   use atrito_build_context, only: build_context_t, keep_token, define_name, count_cards
    use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
@@ -16,33 +16,35 @@ module atrito_build_contact
 contains
 
    !> All interactions and pairs of a model.
-   subroutine build_contact(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine build_contact(context)
+      type(build_context_t), intent(inout) :: context
       logical :: given(2)                              ! *SURFACE BEHAVIOR, *FRICTION of the current interaction
       integer(ip) :: i, current, n_pairs
 
-      allocate (draft%model%interactions(count_cards(draft%deck, 'SURFACE INTERACTION')), &
-                draft%model%pairs(count_pair_lines(draft%deck)))
+      allocate (context%model%interactions(count_cards(context%deck, 'SURFACE INTERACTION')), &
+                context%model%pairs(count_pair_lines(context%deck)))
       current = 0
       given = .false.
-      do i = 1, draft%deck%n_cards
-         select case (keyword_name(draft%deck%cards(i)))
+      do i = 1, context%deck%n_cards
+         select case (keyword_name(context%deck%cards(i)))
          case ('SURFACE INTERACTION')
-            call read_interaction_card(draft%deck%cards(i), draft, current)
+            call read_interaction_card(context%deck%cards(i), context, current)
             given = .false.
          case ('SURFACE BEHAVIOR')
-            if (current > 0) call read_behavior_card(draft%deck, draft%deck%cards(i), draft%model%interactions(current), given(1))
+            if (current > 0) call read_behavior_card(context%deck, context%deck%cards(i), context%model%interactions(current), &
+                                                     given(1))
          case ('FRICTION')
-            if (current > 0) call read_friction_card(draft%deck, draft%deck%cards(i), draft%model%interactions(current), given(2))
+            if (current > 0) call read_friction_card(context%deck, context%deck%cards(i), context%model%interactions(current), &
+                                                     given(2))
          end select
       end do
-      draft%model%interactions = draft%model%interactions(:draft%interaction_names%n)
+      context%model%interactions = context%model%interactions(:context%interaction_names%n)
       n_pairs = 0
-      do i = 1, draft%deck%n_cards
-         if (keyword_name(draft%deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(draft%deck%cards(i), draft, &
-                                                                                      n_pairs)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') call read_pair_card(context%deck%cards(i), context, &
+                                                                                        n_pairs)
       end do
-      draft%model%pairs = draft%model%pairs(:n_pairs)
+      context%model%pairs = context%model%pairs(:n_pairs)
    end subroutine build_contact
 
    !> Each line makes a pair at most.
@@ -56,14 +58,14 @@ contains
       end do
    end function count_pair_lines
 
-   subroutine read_interaction_card(card, draft, current)
+   subroutine read_interaction_card(card, context, current)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(out) :: current              !< the interaction that has begun; 0: none
       character(len=:), allocatable :: name
 
-      call define_name(draft%deck, card, 'surface interaction', draft%interaction_names, draft%interactions, name, current)
-      if (current > 0) draft%model%interactions(current) = interaction_t(name=name)
+      call define_name(context%deck, card, 'surface interaction', context%interaction_names, context%interactions, name, current)
+      if (current > 0) context%model%interactions(current) = interaction_t(name=name)
    end subroutine read_interaction_card
 
    !> A keyword that an interaction has at most once.
@@ -154,9 +156,9 @@ contains
    end subroutine read_friction_card
 
    !> *CONTACT PAIR: slave, master.
-   subroutine read_pair_card(card, draft, n_pairs)
+   subroutine read_pair_card(card, context, n_pairs)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(inout) :: n_pairs            !< that there are
       type(pair_t) :: pair
       type(token_t) :: place
@@ -164,34 +166,34 @@ contains
       integer(ip) :: i
       logical :: found
 
-      call option_text(draft%deck, card, 'INTERACTION', name, found, place)
-      pair%interaction = find_name(draft%interaction_names, name)
-      if (found .and. pair%interaction == 0) call report_unknown(draft, place, 'surface interaction', 'E-INTERACTION', &
-                                                                 draft%interaction_names, 'CONTACT PAIR')
-      pair%quadrature_given = has_option(draft%deck, card, 'QUADRATURE')
+      call option_text(context%deck, card, 'INTERACTION', name, found, place)
+      pair%interaction = find_name(context%interaction_names, name)
+      if (found .and. pair%interaction == 0) call report_unknown(context, place, 'surface interaction', 'E-INTERACTION', &
+                                                                 context%interaction_names, 'CONTACT PAIR')
+      pair%quadrature_given = has_option(context%deck, card, 'QUADRATURE')
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (.not. draft%deck%lines(i)%ok) cycle
-         call find_surface(draft%deck%lines(i), 1_ip, draft, pair%slave)
-         call find_surface(draft%deck%lines(i), 2_ip, draft, pair%master)
-         draft%pairs_unsure = draft%pairs_unsure .or. pair%interaction == 0
+         if (.not. context%deck%lines(i)%ok) cycle
+         call find_surface(context%deck%lines(i), 1_ip, context, pair%slave)
+         call find_surface(context%deck%lines(i), 2_ip, context, pair%master)
+         context%pairs_undetermined = context%pairs_undetermined .or. pair%interaction == 0
          if (min(pair%interaction, pair%slave, pair%master) == 0) cycle
          n_pairs = n_pairs + 1
-         draft%model%pairs(n_pairs) = pair
-         call keep_token(draft%slaves, n_pairs, line_item(draft%deck, draft%deck%lines(i), 1_ip))
-         call keep_token(draft%masters, n_pairs, line_item(draft%deck, draft%deck%lines(i), 2_ip))
+         context%model%pairs(n_pairs) = pair
+         call keep_token(context%slaves, n_pairs, line_item(context%deck, context%deck%lines(i), 1_ip))
+         call keep_token(context%masters, n_pairs, line_item(context%deck, context%deck%lines(i), 2_ip))
       end do
    end subroutine read_pair_card
 
-   subroutine find_surface(line, item, draft, surface)
+   subroutine find_surface(line, item, context, surface)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: item
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(out) :: surface              !< place; 0: unknown, reported
       type(token_t) :: token
 
-      token = line_item(draft%deck, line, item)
-      surface = find_name(draft%surface_names, token_text(draft%deck, token))
-      if (surface == 0) call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'CONTACT PAIR')
+      token = line_item(context%deck, line, item)
+      surface = find_name(context%surface_names, token_text(context%deck, token))
+      if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, 'CONTACT PAIR')
    end subroutine find_surface
 
 end module atrito_build_contact

@@ -6,7 +6,7 @@ module atrito_build_copies
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_block
+   use atrito_build_context, only: build_context_t, invalidate_block
    use atrito_items, only: get_real, find_option, option_integer, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_model_memory, only: fits_memory
@@ -29,9 +29,9 @@ module atrito_build_copies
 contains
 
    !> *NCOPY: the nodes of a set, moved.
-   subroutine read_ncopy_card(i_card, draft)
+   subroutine read_ncopy_card(i_card, context)
       integer(ip), intent(in) :: i_card              !< place in deck%cards
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(motion_t) :: motion
       type(token_t) :: token
       integer(ip), allocatable :: members(:)
@@ -39,43 +39,43 @@ contains
       integer(ip) :: change, i, first
       logical :: ok(4), found
 
-      associate (card => draft%deck%cards(i_card))
-         call read_number(draft%deck, card, 'CHANGE NUMBER', change, ok(1))
-         call find_old_set(card, 'node set', draft, members, ok(2))
-         call read_motion(draft%deck, card, motion, ok(3))
-         call option_text(draft%deck, card, 'NEW SET', name, found)
+      associate (card => context%deck%cards(i_card))
+         call read_number(context%deck, card, 'CHANGE NUMBER', change, ok(1))
+         call find_old_set(card, 'node set', context, members, ok(2))
+         call read_motion(context%deck, card, motion, ok(3))
+         call option_text(context%deck, card, 'NEW SET', name, found)
          if (.not. found) name = ''
          if (.not. all(ok(:3))) then
-            call spoil_block(draft, name)
+            call invalidate_block(context, name)
             return
          end if
-         call find_place(draft%deck, card, 'CHANGE NUMBER', token)
-         ok(4) = fits_memory(token, draft, size(members, kind=lp), 0_lp, 'NCOPY')
-         first = draft%model%mesh%n_nodes + 1
+         call find_place(context%deck, card, 'CHANGE NUMBER', token)
+         ok(4) = fits_memory(token, context, size(members, kind=lp), 0_lp, 'NCOPY')
+         first = context%model%mesh%n_nodes + 1
          do i = 1, size(members, kind=ip)
-            if (ok(4)) call copy_node(i_card, token, draft, members(i), change, motion, ok(4))
+            if (ok(4)) call copy_node(i_card, token, context, members(i), change, motion, ok(4))
          end do
-         if (.not. ok(4)) call spoil_block(draft, name)
-         if (found) call put_node_set(draft, i_card, name, [(i, i=first, draft%model%mesh%n_nodes)])
+         if (.not. ok(4)) call invalidate_block(context, name)
+         if (found) call put_node_set(context, i_card, name, [(i, i=first, context%model%mesh%n_nodes)])
       end associate
    end subroutine read_ncopy_card
 
    !> ok: .false. for the first number that cannot be: the others would fail for the same reason.
-   subroutine copy_node(i_card, token, draft, node, change, motion, ok)
+   subroutine copy_node(i_card, token, context, node, change, motion, ok)
       integer(ip), intent(in) :: i_card
       type(token_t), intent(in) :: token             !< of CHANGE NUMBER=
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: node, change
       type(motion_t), intent(in) :: motion
       logical, intent(out) :: ok
       integer(lp) :: id
 
-      id = int(draft%model%mesh%node_id(node), lp) + int(change, lp)
+      id = int(context%model%mesh%node_id(node), lp) + int(change, lp)
       ok = id > 0_lp .and. id <= int(huge(1_ip), lp)
       if (ok) then
-         call place_node(draft, int(id, ip), moved(motion, draft%model%mesh%x(:, node)), -i_card, ok, 'NCOPY')
+         call place_node(context, int(id, ip), moved(motion, context%model%mesh%x(:, node)), -i_card, ok, 'NCOPY')
       else
-         call report_error(draft%deck, token, 'E-ID', 'node '//to_text(draft%model%mesh%node_id(node))//' would become '// &
+         call report_error(context%deck, token, 'E-ID', 'node '//to_text(context%model%mesh%node_id(node))//' would become '// &
                            to_text(id), expected='positive node numbers that are not too large', keyword='NCOPY')
       end if
    end subroutine copy_node
@@ -124,10 +124,10 @@ contains
    end subroutine find_place
 
    !> The members of OLD SET=, which is defined above.
-   subroutine find_old_set(card, noun, draft, members, ok)
+   subroutine find_old_set(card, noun, context, members, ok)
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: noun           !< 'node set' or 'element set'
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), allocatable, intent(out) :: members(:)
       logical, intent(out) :: ok
       character(len=:), allocatable :: name
@@ -135,16 +135,16 @@ contains
       integer(ip) :: i
 
       allocate (members(0))
-      call option_text(draft%deck, card, 'OLD SET', name, ok, place)
+      call option_text(context%deck, card, 'OLD SET', name, ok, place)
       if (.not. ok) return
       if (noun == 'node set') then
-         i = find_set(draft%model%node_sets, name)
-         if (i > 0) members = draft%model%node_sets%sets(i)%members
-         if (i == 0) call report_unknown(draft, place, 'earlier node set', 'E-SET', draft%model%node_sets%names, 'NCOPY')
+         i = find_set(context%model%node_sets, name)
+         if (i > 0) members = context%model%node_sets%sets(i)%members
+         if (i == 0) call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names, 'NCOPY')
       else
-         i = find_set(draft%model%element_sets, name)
-         if (i > 0) members = draft%model%element_sets%sets(i)%members
-         if (i == 0) call report_unknown(draft, place, 'earlier element set', 'E-SET', draft%model%element_sets%names, 'ELCOPY')
+         i = find_set(context%model%element_sets, name)
+         if (i > 0) members = context%model%element_sets%sets(i)%members
+         if (i == 0) call report_unknown(context, place, 'earlier element set', 'E-SET', context%model%element_sets%names, 'ELCOPY')
       end if
       ok = i > 0
    end subroutine find_old_set
@@ -231,9 +231,9 @@ contains
    end subroutine read_rotation
 
    !> *ELCOPY: the elements of a set on other nodes, which are there already.
-   subroutine read_elcopy_card(i_card, draft)
+   subroutine read_elcopy_card(i_card, context)
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(token_t) :: token
       integer(ip), allocatable :: members(:)
       character(len=:), allocatable :: name
@@ -242,27 +242,27 @@ contains
 
       ! sets of elements are read after all elements, those that are wanted here before
       do i = 1, i_card - 1
-         if (keyword_name(draft%deck%cards(i)) == 'ELSET' .and. .not. draft%card_done(i)) call try_set_card(i, draft)
+         if (keyword_name(context%deck%cards(i)) == 'ELSET' .and. .not. context%card_done(i)) call try_set_card(i, context)
       end do
-      associate (card => draft%deck%cards(i_card))
-         call read_number(draft%deck, card, 'ELEMENT SHIFT', shift, ok(1))
-         call read_number(draft%deck, card, 'SHIFT NODES', node_shift, ok(2))
-         call find_old_set(card, 'element set', draft, members, ok(3))
-         call option_text(draft%deck, card, 'NEW SET', name, found)
+      associate (card => context%deck%cards(i_card))
+         call read_number(context%deck, card, 'ELEMENT SHIFT', shift, ok(1))
+         call read_number(context%deck, card, 'SHIFT NODES', node_shift, ok(2))
+         call find_old_set(card, 'element set', context, members, ok(3))
+         call option_text(context%deck, card, 'NEW SET', name, found)
          if (.not. found) name = ''
          if (.not. all(ok(:3))) then
-            call spoil_block(draft, name)
+            call invalidate_block(context, name)
             return
          end if
-         call find_place(draft%deck, card, 'SHIFT NODES', token)
-         ok(4) = fits_memory(token, draft, 0_lp, size(members, kind=lp), 'ELCOPY')
-         first = draft%model%mesh%n_elements + 1
+         call find_place(context%deck, card, 'SHIFT NODES', token)
+         ok(4) = fits_memory(token, context, 0_lp, size(members, kind=lp), 'ELCOPY')
+         first = context%model%mesh%n_elements + 1
          do i = 1, size(members, kind=ip)
-            if (ok(4)) call copy_element_once(token, -i_card, 'ELCOPY', draft, members(i), [int(node_shift, lp), &
-                                                                                            int(shift, lp)], ok(4))
+            if (ok(4)) call copy_element_once(token, -i_card, 'ELCOPY', context, members(i), [int(node_shift, lp), &
+                                                                                              int(shift, lp)], ok(4))
          end do
-         if (.not. ok(4)) call spoil_block(draft, name)
-         if (found) call grow_set(draft%model%element_sets, name, [(i, i=first, draft%model%mesh%n_elements)])
+         if (.not. ok(4)) call invalidate_block(context, name)
+         if (found) call grow_set(context%model%element_sets, name, [(i, i=first, context%model%mesh%n_elements)])
       end associate
    end subroutine read_elcopy_card
 

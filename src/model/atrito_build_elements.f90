@@ -2,7 +2,8 @@
 module atrito_build_elements
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors, is_unsure
+   use atrito_build_context, only: build_context_t, invalidate_element, place_token, place_text, note_place, has_errors, &
+                                   is_undetermined
    use atrito_element_table, only: KINDS, kind_named
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
@@ -42,41 +43,41 @@ contains
    end subroutine read_element_type
 
    !> *ELEMENT: number, nodes.
-   subroutine read_element_card(i_card, draft)
+   subroutine read_element_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: i, first, n_nodes, state
       logical :: ok
 
-      first = draft%model%mesh%n_elements + 1
-      associate (card => draft%deck%cards(i_card))
-         call read_element_type(draft%deck, card, n_nodes, state, ok)
+      first = context%model%mesh%n_elements + 1
+      associate (card => context%deck%cards(i_card))
+         call read_element_type(context%deck, card, n_nodes, state, ok)
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (ok .and. draft%deck%lines(i)%ok) then
-               call read_element_line(draft%deck%lines(i), n_nodes, state, draft)
+            if (ok .and. context%deck%lines(i)%ok) then
+               call read_element_line(context%deck%lines(i), n_nodes, state, context)
             else
-               call spoil_element(draft%deck%lines(i), draft)
+               call invalidate_element(context%deck%lines(i), context)
             end if
          end do
-         call put_named_set(draft%deck, card, draft%model, [(i, i=first, draft%model%mesh%n_elements)])
+         call put_named_set(context%deck, card, context%model, [(i, i=first, context%model%mesh%n_elements)])
       end associate
    end subroutine read_element_card
 
-   subroutine read_element_line(line, n_nodes, state, draft)
+   subroutine read_element_line(line, n_nodes, state, context)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: n_nodes, state
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: id, nodes(n_nodes), i
       logical :: good, ok
 
-      call get_id(draft%deck, draft%deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
+      call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
       do i = 1, n_nodes
-         call find_one_node(draft, line_item(draft%deck, line, i + 1), nodes(i), ok, 'ELEMENT')
+         call find_one_node(context, line_item(context%deck, line, i + 1), nodes(i), ok, 'ELEMENT')
          good = good .and. ok
-         if (ok) good = is_new_corner(draft%deck, line, nodes(:i)) .and. good
+         if (ok) good = is_new_corner(context%deck, line, nodes(:i)) .and. good
       end do
-      if (good) call place_element(draft, id, state, nodes, line%first_token, good, 'ELEMENT')
-      if (.not. good) call spoil_element(line, draft)
+      if (good) call place_element(context, id, state, nodes, line%first_token, good, 'ELEMENT')
+      if (.not. good) call invalidate_element(line, context)
    end subroutine read_element_line
 
    !> The last of an element's nodes so far is none of the earlier ones.
@@ -93,8 +94,8 @@ contains
    end function is_new_corner
 
    !> Adds an element and keeps where it comes from; a number given twice is an error.
-   subroutine place_element(draft, id, state, nodes, place, ok, keyword)
-      type(draft_t), intent(inout) :: draft
+   subroutine place_element(context, id, state, nodes, place, ok, keyword)
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: id                    !< > 0
       integer(ip), intent(in) :: state                 !< place in STATES
       integer(ip), intent(in) :: nodes(:)              !< places
@@ -104,17 +105,17 @@ contains
       type(token_t) :: token, earlier
       logical :: known
 
-      call add_element(draft%model%mesh, id, state, nodes, known)
+      call add_element(context%model%mesh, id, state, nodes, known)
       ok = .not. known
       if (known) then
-         token = place_token(draft%deck, place)
-         earlier = place_token(draft%deck, draft%element_place(find_element(draft%model%mesh, id)))
-         call report_error(draft%deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice, first in '// &
-                           place_text(draft%deck, earlier, token), expected='an element number that is free', keyword=keyword)
+         token = place_token(context%deck, place)
+         earlier = place_token(context%deck, context%element_place(find_element(context%model%mesh, id)))
+         call report_error(context%deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice, first in '// &
+                           place_text(context%deck, earlier, token), expected='an element number that is free', keyword=keyword)
          return
       end if
-      call note_place(draft%element_place, draft%model%mesh%n_elements, place)
-      draft%greatest_element = max(draft%greatest_element, id)
+      call note_place(context%element_place, context%model%mesh%n_elements, place)
+      context%greatest_element = max(context%greatest_element, id)
    end subroutine place_element
 
    !> The set that ELSET= of a card names.
@@ -131,29 +132,29 @@ contains
    end subroutine put_named_set
 
    !> *ELGEN: rows, and rows of rows, of copies of an element.
-   subroutine read_elgen_card(i_card, draft)
+   subroutine read_elgen_card(i_card, context)
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
       type(repeat_t) :: repeats(3)
       integer(ip) :: i, k, master, first_new
       logical :: ok
 
-      associate (card => draft%deck%cards(i_card))
+      associate (card => context%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. draft%deck%lines(i)%ok) cycle
-            call find_one_element(draft, line_item(draft%deck, draft%deck%lines(i), 1_ip), master, ok, 'ELGEN')
+            if (.not. context%deck%lines(i)%ok) cycle
+            call find_one_element(context, line_item(context%deck, context%deck%lines(i), 1_ip), master, ok, 'ELGEN')
             if (.not. ok) cycle
-            call read_repeats(draft%deck, draft%deck%lines(i), repeats, ok)
-            if (ok) ok = fits_memory(draft%deck%tokens(draft%deck%lines(i)%first_token), draft, 0_lp, &
+            call read_repeats(context%deck, context%deck%lines(i), repeats, ok)
+            if (ok) ok = fits_memory(context%deck%tokens(context%deck%lines(i)%first_token), context, 0_lp, &
                                      copies(repeats), 'ELGEN')
             if (.not. ok) cycle
-            first_new = draft%model%mesh%n_elements + 1
-            call copy_element(draft%deck%lines(i), draft, master, repeats)
+            first_new = context%model%mesh%n_elements + 1
+            call copy_element(context%deck%lines(i), context, master, repeats)
             call add_number(members, master)
-            call add_numbers(members, [(k, k=first_new, draft%model%mesh%n_elements)])
+            call add_numbers(members, [(k, k=first_new, context%model%mesh%n_elements)])
          end do
-         call put_named_set(draft%deck, card, draft%model, numbers_of(members))
+         call put_named_set(context%deck, card, context%model, numbers_of(members))
       end associate
    end subroutine read_elgen_card
 
@@ -191,9 +192,9 @@ contains
    end function copies
 
    !> Stops at the first copy that cannot be made: the others would fail for the same reason.
-   subroutine copy_element(line, draft, master, repeats)
+   subroutine copy_element(line, context, master, repeats)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: master                !< place
       type(repeat_t), intent(in) :: repeats(3)
       integer(ip) :: i, j, k
@@ -205,7 +206,7 @@ contains
             do i = 0, repeats(1)%n - 1
                shift = [i, j, k]
                if (all(shift == 0_lp)) cycle
-               call copy_element_once(line_item(draft%deck, line, 1_ip), line%first_token, 'ELGEN', draft, master, &
+               call copy_element_once(line_item(context%deck, line, 1_ip), line%first_token, 'ELGEN', context, master, &
                                       [sum(shift*repeats%node_step), sum(shift*repeats%element_step)], ok)
                if (.not. ok) return
             end do
@@ -214,45 +215,45 @@ contains
    end subroutine copy_element
 
    !> An element once more on other nodes.
-   subroutine copy_element_once(token, place, keyword, draft, master, shift, ok)
+   subroutine copy_element_once(token, place, keyword, context, master, shift, ok)
       type(token_t), intent(in) :: token               !< at which errors are told
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       character(len=*), intent(in) :: keyword
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: master                !< place
       integer(lp), intent(in) :: shift(2)              !< of the numbers of nodes and of elements, which may become too large
       logical, intent(out) :: ok
-      integer(lp) :: ids(draft%model%mesh%shape(master)), id
+      integer(lp) :: ids(context%model%mesh%shape(master)), id
       integer(ip) :: nodes(size(ids)), i
 
-      id = draft%model%mesh%element_id(master) + shift(2)
-      ids = draft%model%mesh%node_id(draft%model%mesh%nodes(:size(nodes), master)) + shift(1)
+      id = context%model%mesh%element_id(master) + shift(2)
+      ids = context%model%mesh%node_id(context%model%mesh%nodes(:size(nodes), master)) + shift(1)
       do i = 1, size(nodes, kind=ip)
          nodes(i) = 0
-         if (ids(i) <= int(huge(1_ip), lp)) nodes(i) = find_node(draft%model%mesh, int(max(ids(i), 0_lp), ip))
+         if (ids(i) <= int(huge(1_ip), lp)) nodes(i) = find_node(context%model%mesh, int(max(ids(i), 0_lp), ip))
          ok = nodes(i) > 0
          if (.not. ok) exit
       end do
       if (.not. ok) then
-         if (is_spoiled_node(draft, ids(i)) .or. is_unsure(draft, 'node')) return
-         call report_error(draft%deck, token, 'E-NODE', 'node '//to_text(ids(i))//' of the generated element '//to_text(id)// &
+         if (is_invalid_node(context, ids(i)) .or. is_undetermined(context, 'node')) return
+         call report_error(context%deck, token, 'E-NODE', 'node '//to_text(ids(i))//' of the generated element '//to_text(id)// &
                            ' does not exist', expected='copies whose nodes all exist', keyword=keyword)
       else if (id < 1_lp .or. id > int(huge(1_ip), lp)) then
          ok = .false.
-         call report_error(draft%deck, token, 'E-ID', 'the generated element number '//to_text(id)// &
+         call report_error(context%deck, token, 'E-ID', 'the generated element number '//to_text(id)// &
                            trim(merge(' is too large   ', ' is not positive', id > 0_lp)), expected='positive element numbers', &
                            keyword=keyword)
       else
-         call place_element(draft, int(id, ip), draft%model%mesh%state(master), nodes, place, ok, keyword)
+         call place_element(context, int(id, ip), context%model%mesh%state(master), nodes, place, ok, keyword)
       end if
    end subroutine copy_element_once
 
-   logical function is_spoiled_node(draft, id)
-      type(draft_t), intent(in) :: draft
+   logical function is_invalid_node(context, id)
+      type(build_context_t), intent(in) :: context
       integer(lp), intent(in) :: id
 
-      is_spoiled_node = has_errors() .and. id > 0_lp .and. id <= int(huge(1_ip), lp)
-      if (is_spoiled_node) is_spoiled_node = find_id(draft%spoiled_nodes, int(id, ip)) > 0
-   end function is_spoiled_node
+      is_invalid_node = has_errors() .and. id > 0_lp .and. id <= int(huge(1_ip), lp)
+      if (is_invalid_node) is_invalid_node = find_id(context%invalid_nodes, int(id, ip)) > 0
+   end function is_invalid_node
 
 end module atrito_build_elements

@@ -2,7 +2,7 @@
 module atrito_build_loads
    use atrito_deck, only: deck_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
-   use atrito_draft, only: draft_t, ids_text, is_spoiled
+   use atrito_build_context, only: build_context_t, ids_text, is_invalid
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
@@ -23,114 +23,115 @@ module atrito_build_loads
 contains
 
    !> All loads of the step.
-   subroutine build_loads(draft)
-      type(draft_t), intent(in) :: draft
+   subroutine build_loads(context)
+      type(build_context_t), intent(in) :: context
       integer(ip) :: i, k
 
-      do i = 1, draft%deck%n_cards
-         associate (card => draft%deck%cards(i))
+      do i = 1, context%deck%n_cards
+         associate (card => context%deck%cards(i))
             do k = card%first_line, card%first_line + card%n_lines - 1
-               if (.not. draft%deck%lines(k)%ok) cycle
+               if (.not. context%deck%lines(k)%ok) cycle
                select case (keyword_name(card))
                case ('CLOAD')
-                  call read_cload_line(draft%deck%lines(k), draft)
+                  call read_cload_line(context%deck%lines(k), context)
                case ('DLOAD')
-                  call read_dload_line(draft%deck%lines(k), draft)
+                  call read_dload_line(context%deck%lines(k), context)
                case ('DSLOAD')
-                  call read_dsload_line(draft%deck%lines(k), draft)
+                  call read_dsload_line(context%deck%lines(k), context)
                case default
                   exit
                end select
             end do
          end associate
       end do
-      call trim_nodal_values(draft%model%node_loads)
-      call trim_element_loads(draft%model%element_loads)
+      call trim_nodal_values(context%model%node_loads)
+      call trim_element_loads(context%model%element_loads)
    end subroutine build_loads
 
    !> The nodes of a list that belong to no element.
-   pure function in_no_element(draft, nodes) result(loose)
-      type(draft_t), intent(in) :: draft
+   pure function in_no_element(context, nodes) result(loose)
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:)              !< places
       logical :: loose(size(nodes))
 
-      loose = draft%around%first(nodes + 1) == draft%around%first(nodes)
+      loose = context%around%first(nodes + 1) == context%around%first(nodes)
    end function in_no_element
 
    !> Node or set, dof, force.
-   subroutine read_cload_line(line, draft)
+   subroutine read_cload_line(line, context)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       character(len=*), parameter :: WHAT = 'degree of freedom: 1 (x) or 2 (y)'
       integer(ip), allocatable :: nodes(:)
       real(wp) :: force
       integer(ip) :: dof, i
       logical :: ok(3)
 
-      call find_nodes(draft, draft%deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
+      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
       ! a concentrated force stays where the deck puts it
-      if (is_refined(draft%refinement)) nodes = pack(nodes, nodes <= draft%refinement%n_nodes)
-      call get_integer(draft%deck, line_item(draft%deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
-      call get_real(draft%deck, line_item(draft%deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
+      if (is_refined(context%refinement)) nodes = pack(nodes, nodes <= context%refinement%n_nodes)
+      call get_integer(context%deck, line_item(context%deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
+      call get_real(context%deck, line_item(context%deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
       if (.not. all(ok(2:))) return
       if (dof > 2 .and. dof <= LAST_DOF .and. .not. abs(force) > 0.0_wp) then
-         call report_note(draft%deck, line_item(draft%deck, line, 2_ip), 'N-DOF', 'dof '//to_text(dof)// &
+         call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-DOF', 'dof '//to_text(dof)// &
                           ' does not exist in the plane; its force is 0', keyword='CLOAD')
          return
       end if
       if (dof < 1 .or. dof > 2) then
-         call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-DOF', 'dof '//to_text(dof)// &
+         call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-DOF', 'dof '//to_text(dof)// &
                            ' does not exist in the plane', expected=WHAT, keyword='CLOAD')
          return
       end if
       if (.not. ok(1)) return
-      if (any(in_no_element(draft, nodes)) .and. abs(force) > 0.0_wp) then
-         call report_error(draft%deck, line_item(draft%deck, line, 1_ip), 'E-NODE', 'node '// &
-                           ids_text(pack(draft%model%mesh%node_id(nodes), in_no_element(draft, nodes)))// &
+      if (any(in_no_element(context, nodes)) .and. abs(force) > 0.0_wp) then
+         call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'node '// &
+                           ids_text(pack(context%model%mesh%node_id(nodes), in_no_element(context, nodes)))// &
                            ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
          return
       end if
       do i = 1, size(nodes, kind=ip)
-         call add_nodal_value(draft%model%node_loads, nodes(i), dof, force)
+         call add_nodal_value(context%model%node_loads, nodes(i), dof, force)
       end do
-      call note_supported(line, draft, nodes, dof)
+      call note_supported(line, context, nodes, dof)
    end subroutine read_cload_line
 
    !> A force on a prescribed dof moves nothing.
-   subroutine note_supported(line, draft, nodes, dof)
+   subroutine note_supported(line, context, nodes, dof)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:), dof
       logical :: held(size(nodes))
 
-      held = draft%dof_entry(dof, nodes) > 0
-      if (any(held)) call report_note(draft%deck, line_item(draft%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
-           ' of node '//ids_text(pack(draft%model%mesh%node_id(nodes), held))//' is prescribed: the force goes into the reaction', &
+      held = context%dof_entry(dof, nodes) > 0
+      if (any(held)) call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)// &
+                                      ' of node '//ids_text(pack(context%model%mesh%node_id(nodes), &
+                                                                 held))//' is prescribed: the force goes into the reaction', &
                                       keyword='CLOAD')
    end subroutine note_supported
 
    !> Element or set, label, magnitude[, direction].
-   subroutine read_dload_line(line, draft)
+   subroutine read_dload_line(line, context)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       character(len=:), allocatable :: label
       integer(ip), allocatable :: elements(:)
       real(wp) :: magnitude
       logical :: ok, good
 
-      call find_elements(draft, draft%deck%tokens(line%first_token), elements, ok, 'DLOAD')
-      label = upper_case(token_text(draft%deck, line_item(draft%deck, line, 2_ip)))
-      call get_real(draft%deck, line_item(draft%deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
-      ok = ok .and. good .and. has_no_rest(draft%deck, line, label)
+      call find_elements(context, context%deck%tokens(line%first_token), elements, ok, 'DLOAD')
+      label = upper_case(token_text(context%deck, line_item(context%deck, line, 2_ip)))
+      call get_real(context%deck, line_item(context%deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
+      ok = ok .and. good .and. has_no_rest(context%deck, line, label)
       select case (label)
       case ('P1', 'P2', 'P3', 'P4')
-         if (ok) call press_elements(line, draft, elements, label, magnitude)
+         if (ok) call press_elements(line, context, elements, label, magnitude)
       case ('BX')
-         if (ok) call pull_elements(draft%model, elements, [magnitude, 0.0_wp])
+         if (ok) call pull_elements(context%model, elements, [magnitude, 0.0_wp])
       case ('BY')
-         if (ok) call pull_elements(draft%model, elements, [0.0_wp, magnitude])
+         if (ok) call pull_elements(context%model, elements, [0.0_wp, magnitude])
       case ('GRAV')
-         call weigh_elements(line, draft, elements, magnitude, ok)
+         call weigh_elements(line, context, elements, magnitude, ok)
       end select
    end subroutine read_dload_line
 
@@ -160,9 +161,9 @@ contains
       end select
    end function magnitude_of
 
-   subroutine press_elements(line, draft, elements, label, pressure)
+   subroutine press_elements(line, context, elements, label, pressure)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:)
       character(len=*), intent(in) :: label
       real(wp), intent(in) :: pressure
@@ -172,13 +173,13 @@ contains
 
       call read_integer(label(2:2), face, outcome)
       do i = 1, size(elements, kind=ip)
-         if (.not. is_on_side(draft%refinement, elements(i), face)) cycle
-         call add_element_load(draft%model%element_loads, elements(i), LOAD_PRESSURE, face, [pressure, 0.0_wp])
-         if (.not. is_outer_face(draft%model%mesh, draft%around, elements(i), face)) then
-            call add_number(inside, draft%model%mesh%element_id(elements(i)))
+         if (.not. is_on_side(context%refinement, elements(i), face)) cycle
+         call add_element_load(context%model%element_loads, elements(i), LOAD_PRESSURE, face, [pressure, 0.0_wp])
+         if (.not. is_outer_face(context%model%mesh, context%around, elements(i), face)) then
+            call add_number(inside, context%model%mesh%element_id(elements(i)))
          end if
       end do
-      if (inside%n > 0) call report_warning(draft%deck, line_item(draft%deck, line, 2_ip), 'W-FACE', &
+      if (inside%n > 0) call report_warning(context%deck, line_item(context%deck, line, 2_ip), 'W-FACE', &
                  'the pressure acts inside the mesh, '//'too, on face '//label(2:2)//' of element '//ids_text(numbers_of(inside)), &
                                             expected='elements on the outline of the body', keyword='DLOAD')
    end subroutine press_elements
@@ -195,9 +196,9 @@ contains
    end subroutine pull_elements
 
    !> GRAV: density times acceleration, along a direction of any length.
-   subroutine weigh_elements(line, draft, elements, acceleration, good)
+   subroutine weigh_elements(line, context, elements, acceleration, good)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:)
       real(wp), intent(in) :: acceleration             !< [L/T^2]
       logical, intent(in) :: good                      !< elements and acceleration are known
@@ -207,22 +208,22 @@ contains
       logical :: ok(3)
 
       do i = 1, 3
-         call get_real(draft%deck, line_item(draft%deck, line, 3 + i), WHAT, direction(i), ok(i), 0.0_wp, 'DLOAD')
+         call get_real(context%deck, line_item(context%deck, line, 3 + i), WHAT, direction(i), ok(i), 0.0_wp, 'DLOAD')
       end do
       if (.not. all(ok)) return
       if (abs(direction(3)) > 0.0_wp) then
-         call report_error(draft%deck, line_item(draft%deck, line, 6_ip), 'E-VALUE', 'the scene is plane: gz is not 0', &
+         call report_error(context%deck, line_item(context%deck, line, 6_ip), 'E-VALUE', 'the scene is plane: gz is not 0', &
                            expected='gz = 0', keyword='DLOAD')
       else if (.not. maxval(abs(direction)) > 0.0_wp) then
-         call report_error(draft%deck, line_item(draft%deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', &
+         call report_error(context%deck, line_item(context%deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', &
                            'gravity has no direction', expected=WHAT, keyword='DLOAD')
       else if (good) then
          direction = direction/maxval(abs(direction))
          direction = direction/norm2(direction)
-         call need_density(line, draft, elements)
+         call need_density(line, context, elements)
          do i = 1, size(elements, kind=ip)
-            density = density_of(draft%model, elements(i))
-            call add_element_load(draft%model%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction(:2))
+            density = density_of(context%model, elements(i))
+            call add_element_load(context%model%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction(:2))
          end do
       end if
    end subroutine weigh_elements
@@ -235,52 +236,53 @@ contains
       if (model%section_of(element) > 0) density = model%materials(model%sections(model%section_of(element))%material)%density
    end function density_of
 
-   subroutine need_density(line, draft, elements)
+   subroutine need_density(line, context, elements)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:)
       integer(ip) :: i, material
 
       do i = 1, size(elements, kind=ip)
-         if (draft%model%section_of(elements(i)) <= 0) cycle
-         material = draft%model%sections(draft%model%section_of(elements(i)))%material
-         if (draft%model%materials(material)%density > 0.0_wp .or. is_spoiled(draft, draft%model%materials(material)%name)) cycle
-         call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-DENSITY', 'material '// &
-                           draft%model%materials(material)%name//' has no density', &
+         if (context%model%section_of(elements(i)) <= 0) cycle
+         material = context%model%sections(context%model%section_of(elements(i)))%material
+         if (context%model%materials(material)%density > 0.0_wp .or. is_invalid(context, &
+                                                                                context%model%materials(material)%name)) cycle
+         call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-DENSITY', 'material '// &
+                           context%model%materials(material)%name//' has no density', &
                            expected='*DENSITY in this material [F T^2/L^4]', keyword='DENSITY')
          return
       end do
    end subroutine need_density
 
    !> Surface, P, pressure.
-   subroutine read_dsload_line(line, draft)
+   subroutine read_dsload_line(line, context)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(token_t) :: token
       real(wp) :: pressure
       integer(ip) :: i, s
       logical :: ok
 
-      token = draft%deck%tokens(line%first_token)
-      call get_real(draft%deck, line_item(draft%deck, line, 3_ip), magnitude_of('P'), pressure, ok, keyword='DSLOAD')
-      s = find_name(draft%surface_names, token_text(draft%deck, token))
+      token = context%deck%tokens(line%first_token)
+      call get_real(context%deck, line_item(context%deck, line, 3_ip), magnitude_of('P'), pressure, ok, keyword='DSLOAD')
+      s = find_name(context%surface_names, token_text(context%deck, token))
       if (s == 0) then
-         call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, 'DSLOAD')
+         call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, 'DSLOAD')
          return
       end if
-      associate (surface => draft%model%surfaces(s))
+      associate (surface => context%model%surfaces(s))
          if (surface%kind /= SURFACE_ELEMENTS) then
-            call report_error(draft%deck, token, 'E-SURFACE', 'surface '//surface%name// &
+            call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
                               ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT', &
                               keyword='DSLOAD')
-         else if (surface%faces%n == 0 .and. .not. is_spoiled(draft, surface%name)) then
-            call report_error(draft%deck, token, 'E-SURFACE', 'surface '//surface%name// &
+         else if (surface%faces%n == 0 .and. .not. is_invalid(context, surface%name)) then
+            call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
                               ' has no faces: others join it everywhere', expected='a surface on the outline of a body', &
                               keyword='DSLOAD')
          end if
          if (.not. ok) return
          do i = 1, surface%faces%n
-            call add_element_load(draft%model%element_loads, surface%faces%element(i), LOAD_PRESSURE, surface%faces%face(i), &
+            call add_element_load(context%model%element_loads, surface%faces%element(i), LOAD_PRESSURE, surface%faces%face(i), &
                                   [pressure, 0.0_wp])
          end do
       end associate

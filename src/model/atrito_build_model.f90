@@ -15,7 +15,7 @@ module atrito_build_model
    use atrito_check_mesh, only: check_mesh
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
-   use atrito_draft, only: draft_t, prepare_draft, has_errors
+   use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
@@ -72,37 +72,37 @@ contains
       integer(ip), intent(in) :: levels, shape
       integer(lp), intent(in) :: memory
       type(model_t), intent(out), target :: model
-      type(draft_t) :: draft
+      type(build_context_t) :: context
       type(contact_rules_t) :: rules
       type(chain_report_t), allocatable :: chains(:)
       type(contact_points_t), allocatable :: points(:)
 
-      call prepare_draft(deck, draft)
-      draft%model => model
-      draft%memory = memory
+      call prepare_context(deck, context)
+      context%model => model
+      context%memory = memory
       call take_titles(deck, model)
       call take_parameters(deck, model)
-      call build_nodes(draft)
-      call build_elements(draft)
+      call build_nodes(context)
+      call build_elements(context)
       call trim_mesh(model%mesh)
-      draft%around = list_node_elements(model%mesh)
-      if (levels > 0 .or. shape > 0) call refine_model(levels, shape, draft)
-      call build_surfaces(draft)
-      call build_materials(draft)
-      call build_contact(draft)
-      call read_contact_rules(draft, rules)
-      call build_supports(draft)
-      call build_loads(draft)
-      call build_requests(draft)
-      call check_mesh(model, draft)
+      context%around = list_node_elements(model%mesh)
+      if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
+      call build_surfaces(context)
+      call build_materials(context)
+      call build_contact(context)
+      call read_contact_rules(context, rules)
+      call build_supports(context)
+      call build_loads(context)
+      call build_requests(context)
+      call check_mesh(model, context)
       call order_slaves(model, chains)
-      call check_surfaces_of_pairs(model, draft, chains)
+      call check_surfaces_of_pairs(model, context, chains)
       if (has_errors()) return
-      call find_contact(rules, draft)
-      call note_unused_interactions(model, draft)
+      call find_contact(rules, context)
+      call note_unused_interactions(model, context)
       call pair_all(model, points)
       call move_alloc(points, model%points)
-      call check_points_of_pairs(model, draft)
+      call check_points_of_pairs(model, context)
    end subroutine build_once
 
    subroutine take_titles(deck, model)
@@ -141,52 +141,52 @@ contains
    end subroutine take_parameters
 
    !> Nodes, and the node sets.
-   subroutine build_nodes(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine build_nodes(context)
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: i
 
-      do i = 1, draft%deck%n_cards
-         select case (keyword_name(draft%deck%cards(i)))
+      do i = 1, context%deck%n_cards
+         select case (keyword_name(context%deck%cards(i)))
          case ('NODE')
-            call read_node_card(i, draft)
+            call read_node_card(i, context)
          case ('NGEN')
-            call read_ngen_card(i, draft)
+            call read_ngen_card(i, context)
          case ('NFILL')
-            call read_nfill_card(i, draft)
+            call read_nfill_card(i, context)
          case ('NCOPY')
-            call read_ncopy_card(i, draft)
+            call read_ncopy_card(i, context)
          case ('BLOCK')
-            call read_block_card(i, draft)
+            call read_block_card(i, context)
          case ('NSET')
-            call try_set_card(i, draft)
+            call try_set_card(i, context)
          end select
       end do
-      do i = 1, draft%deck%n_cards
-         if (keyword_name(draft%deck%cards(i)) /= 'NSET' .or. draft%card_done(i)) cycle
-         call read_set_card(i, draft)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'NSET' .or. context%card_done(i)) cycle
+         call read_set_card(i, context)
       end do
    end subroutine build_nodes
 
    !> Elements, and the element sets.
-   subroutine build_elements(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine build_elements(context)
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: i
 
-      do i = 1, draft%deck%n_cards
-         select case (keyword_name(draft%deck%cards(i)))
+      do i = 1, context%deck%n_cards
+         select case (keyword_name(context%deck%cards(i)))
          case ('ELEMENT')
-            call read_element_card(i, draft)
+            call read_element_card(i, context)
          case ('ELGEN')
-            call read_elgen_card(i, draft)
+            call read_elgen_card(i, context)
          case ('ELCOPY')
-            call read_elcopy_card(i, draft)
+            call read_elcopy_card(i, context)
          case ('BLOCK')
-            call place_block_elements(i, draft)
+            call place_block_elements(i, context)
          end select
       end do
-      do i = 1, draft%deck%n_cards
-         if (keyword_name(draft%deck%cards(i)) /= 'ELSET' .or. draft%card_done(i)) cycle
-         call read_set_card(i, draft)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'ELSET' .or. context%card_done(i)) cycle
+         call read_set_card(i, context)
       end do
    end subroutine build_elements
 

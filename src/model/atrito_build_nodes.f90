@@ -3,7 +3,7 @@ module atrito_build_nodes
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_node, place_token, place_text, note_place
+   use atrito_build_context, only: build_context_t, invalidate_node, place_token, place_text, note_place
    use atrito_items, only: get_integer, get_real, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
@@ -21,51 +21,52 @@ module atrito_build_nodes
 contains
 
    !> *NODE: number, x, y[, z].
-   subroutine read_node_card(i_card, draft)
+   subroutine read_node_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in deck%cards
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: i, first
 
-      first = draft%model%mesh%n_nodes + 1
-      associate (card => draft%deck%cards(i_card))
+      first = context%model%mesh%n_nodes + 1
+      associate (card => context%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_node_line(draft%deck%lines(i), draft)
+            call read_node_line(context%deck%lines(i), context)
          end do
       end associate
-      call put_named_set(i_card, draft, [(i, i=first, draft%model%mesh%n_nodes)])
+      call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_nodes)])
    end subroutine read_node_card
 
-   subroutine read_node_line(line, draft)
+   subroutine read_node_line(line, context)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       real(wp) :: x(2), z
       integer(ip) :: id
       logical :: ok(4)
 
       ok = line%ok
       if (line%ok) then
-         call get_id(draft%deck, draft%deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
-         call get_coordinate(draft%deck, line_item(draft%deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE')
-         call get_coordinate(draft%deck, line_item(draft%deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE')
+         call get_id(context%deck, context%deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
+         call get_coordinate(context%deck, line_item(context%deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE')
+         call get_coordinate(context%deck, line_item(context%deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE')
          if (line%n_tokens > 3) then
-            call get_real(draft%deck, line_item(draft%deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, 'NODE')
+            call get_real(context%deck, line_item(context%deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, &
+                          'NODE')
             if (ok(4) .and. abs(z) > 0.0_wp) then
                ok(4) = .false.
-               call report_error(draft%deck, line_item(draft%deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
+               call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
                                  expected='z = 0 [L], or no third coordinate', keyword='NODE')
             end if
          end if
       end if
       if (all(ok)) then
-         call place_node(draft, id, x, line%first_token, ok(1), 'NODE')
+         call place_node(context, id, x, line%first_token, ok(1), 'NODE')
       else
-         call spoil_node(line, draft)
+         call invalidate_node(line, context)
       end if
    end subroutine read_node_line
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
-   subroutine place_node(draft, id, x, place, ok, keyword)
-      type(draft_t), intent(inout) :: draft
+   subroutine place_node(context, id, x, place, ok, keyword)
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: id                    !< > 0
       real(wp), intent(in) :: x(2)                     !< [L]
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
@@ -74,68 +75,68 @@ contains
       type(token_t) :: token, earlier
       logical :: known
 
-      call add_node(draft%model%mesh, id, x, known)
+      call add_node(context%model%mesh, id, x, known)
       ok = .not. known
       if (known) then
-         token = place_token(draft%deck, place)
-         earlier = place_token(draft%deck, draft%node_place(find_node(draft%model%mesh, id)))
-         call report_error(draft%deck, token, 'E-TWICE', 'node '//to_text(id)//' is given twice, first in '// &
-                           place_text(draft%deck, earlier, token), expected='a node number that is free', keyword=keyword)
+         token = place_token(context%deck, place)
+         earlier = place_token(context%deck, context%node_place(find_node(context%model%mesh, id)))
+         call report_error(context%deck, token, 'E-TWICE', 'node '//to_text(id)//' is given twice, first in '// &
+                           place_text(context%deck, earlier, token), expected='a node number that is free', keyword=keyword)
          return
       end if
-      call note_place(draft%node_place, draft%model%mesh%n_nodes, place)
-      draft%greatest_node = max(draft%greatest_node, id)
+      call note_place(context%node_place, context%model%mesh%n_nodes, place)
+      context%greatest_node = max(context%greatest_node, id)
    end subroutine place_node
 
    !> Puts nodes into a node set and keeps which card made it.
-   subroutine put_node_set(draft, i_card, name, members)
-      type(draft_t), intent(inout) :: draft
+   subroutine put_node_set(context, i_card, name, members)
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: i_card
       character(len=*), intent(in) :: name
       integer(ip), intent(in) :: members(:)            !< places
       integer(ip) :: n
 
-      n = set_count(draft%model%node_sets)
-      call grow_set(draft%model%node_sets, name, members)
-      if (set_count(draft%model%node_sets) > n) call note_place(draft%set_card, n + 1, i_card)
+      n = set_count(context%model%node_sets)
+      call grow_set(context%model%node_sets, name, members)
+      if (set_count(context%model%node_sets) > n) call note_place(context%set_card, n + 1, i_card)
    end subroutine put_node_set
 
    !> The set that NSET= of a card names.
-   subroutine put_named_set(i_card, draft, members)
+   subroutine put_named_set(i_card, context, members)
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: members(:)
       character(len=:), allocatable :: name
       logical :: found
 
-      call option_text(draft%deck, draft%deck%cards(i_card), 'NSET', name, found)
-      if (found .and. len(name) > 0) call put_node_set(draft, i_card, name, members)
+      call option_text(context%deck, context%deck%cards(i_card), 'NSET', name, found)
+      if (found .and. len(name) > 0) call put_node_set(context, i_card, name, members)
    end subroutine put_named_set
 
    !> *NGEN: nodes on the straight line between two nodes, equally spaced.
-   subroutine read_ngen_card(i_card, draft)
+   subroutine read_ngen_card(i_card, context)
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: members(:)
       integer(ip) :: i, ends(2), step, first_new, k
       logical :: ok
 
       allocate (members(0))
-      associate (card => draft%deck%cards(i_card))
+      associate (card => context%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_ngen_line(draft%deck%lines(i), draft, ends, step, ok)
+            call read_ngen_line(context%deck%lines(i), context, ends, step, ok)
             if (.not. ok) cycle
-            first_new = draft%model%mesh%n_nodes + 1
-            call fill_line(draft, ends, step, draft%deck%lines(i)%first_token, 'NGEN')
-            members = [members, ends(1), (k, k=first_new, draft%model%mesh%n_nodes), ends(2)]
+            first_new = context%model%mesh%n_nodes + 1
+            call fill_line(context, ends, step, context%deck%lines(i)%first_token, 'NGEN')
+            members = [members, ends(1), (k, k=first_new, context%model%mesh%n_nodes), ends(2)]
          end do
       end associate
-      call put_named_set(i_card, draft, members)
+      call put_named_set(i_card, context, members)
    end subroutine read_ngen_card
 
-   subroutine read_ngen_line(line, draft, ends, step, ok)
+   subroutine read_ngen_line(line, context, ends, step, ok)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(out) :: ends(2)              !< places of the two nodes
       integer(ip), intent(out) :: step                 !< from number to number
       logical, intent(out) :: ok
@@ -143,14 +144,15 @@ contains
 
       good = line%ok
       if (line%ok) then
-         call find_one_node(draft, draft%deck%tokens(line%first_token), ends(1), good(1), 'NGEN')
-         call find_one_node(draft, line_item(draft%deck, line, 2_ip), ends(2), good(2), 'NGEN')
-         call get_integer(draft%deck, line_item(draft%deck, line, 3_ip), 'increment of the numbers, an integer', step, good(3), &
+         call find_one_node(context, context%deck%tokens(line%first_token), ends(1), good(1), 'NGEN')
+         call find_one_node(context, line_item(context%deck, line, 2_ip), ends(2), good(2), 'NGEN')
+         call get_integer(context%deck, line_item(context%deck, line, 3_ip), 'increment of the numbers, an integer', step, &
+                          good(3), &
                           1_ip, 'NGEN')
-         if (all(good)) good(3) = is_step(draft%deck, line, draft%model%mesh%node_id(ends), step)
+         if (all(good)) good(3) = is_step(context%deck, line, context%model%mesh%node_id(ends), step)
          if (all(good)) then
-            associate (ids => draft%model%mesh%node_id(ends))
-               good(3) = fits_memory(draft%deck%tokens(line%first_token), draft, int((ids(2) - ids(1))/step, lp), &
+            associate (ids => context%model%mesh%node_id(ends))
+               good(3) = fits_memory(context%deck%tokens(line%first_token), context, int((ids(2) - ids(1))/step, lp), &
                                      0_lp, 'NGEN')
             end associate
          end if
@@ -174,49 +176,49 @@ contains
    end function is_step
 
    !> Nodes between two nodes, equally spaced, numbered by `step` from the first.
-   subroutine fill_line(draft, ends, step, place, keyword)
-      type(draft_t), intent(inout) :: draft
+   subroutine fill_line(context, ends, step, place, keyword)
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: ends(2), step, place
       character(len=*), intent(in) :: keyword
       real(wp) :: a(2), b(2), t
       integer(ip) :: i, n, first_id
       logical :: ok
 
-      first_id = draft%model%mesh%node_id(ends(1))
-      n = (draft%model%mesh%node_id(ends(2)) - first_id)/step
-      a = draft%model%mesh%x(:, ends(1))
-      b = draft%model%mesh%x(:, ends(2))
+      first_id = context%model%mesh%node_id(ends(1))
+      n = (context%model%mesh%node_id(ends(2)) - first_id)/step
+      a = context%model%mesh%x(:, ends(1))
+      b = context%model%mesh%x(:, ends(2))
       do i = 1, n - 1
          t = real(i, wp)/real(n, wp)
-         call place_node(draft, first_id + i*step, (1 - t)*a + t*b, place, ok, keyword)
+         call place_node(context, first_id + i*step, (1 - t)*a + t*b, place, ok, keyword)
          if (.not. ok) return
       end do
    end subroutine fill_line
 
    !> *NFILL: nodes between those of two sets, line by line.
-   subroutine read_nfill_card(i_card, draft)
+   subroutine read_nfill_card(i_card, context)
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), allocatable :: from(:), to(:), members(:)
       integer(ip) :: i, k, n, step, first_new
       logical :: ok
 
       allocate (members(0))
-      associate (card => draft%deck%cards(i_card))
+      associate (card => context%deck%cards(i_card))
          do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_nfill_line(draft%deck%lines(i), draft, from, to, n, step, ok)
+            call read_nfill_line(context%deck%lines(i), context, from, to, n, step, ok)
             if (.not. ok) cycle
-            first_new = draft%model%mesh%n_nodes + 1
-            call fill_lines(draft, from, to, n, step, draft%deck%lines(i)%first_token)
-            members = [members, from, (k, k=first_new, draft%model%mesh%n_nodes), to]
+            first_new = context%model%mesh%n_nodes + 1
+            call fill_lines(context, from, to, n, step, context%deck%lines(i)%first_token)
+            members = [members, from, (k, k=first_new, context%model%mesh%n_nodes), to]
          end do
       end associate
-      call put_named_set(i_card, draft, members)
+      call put_named_set(i_card, context, members)
    end subroutine read_nfill_card
 
-   subroutine read_nfill_line(line, draft, from, to, n, step, ok)
+   subroutine read_nfill_line(line, context, from, to, n, step, ok)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), allocatable, intent(out) :: from(:), to(:)   !< places, node by node
       integer(ip), intent(out) :: n                    !< intervals between them
       integer(ip), intent(out) :: step                 !< of the numbers, from interval to interval
@@ -225,27 +227,30 @@ contains
 
       good = line%ok
       if (line%ok) then
-         call find_nodes(draft, draft%deck%tokens(line%first_token), from, good(1), 'NFILL')
-         call find_nodes(draft, line_item(draft%deck, line, 2_ip), to, good(2), 'NFILL')
-         call get_integer(draft%deck, line_item(draft%deck, line, 3_ip), 'number of intervals, a positive integer', n, good(3), &
+         call find_nodes(context, context%deck%tokens(line%first_token), from, good(1), 'NFILL')
+         call find_nodes(context, line_item(context%deck, line, 2_ip), to, good(2), 'NFILL')
+         call get_integer(context%deck, line_item(context%deck, line, 3_ip), 'number of intervals, a positive integer', n, &
+                          good(3), &
                           keyword='NFILL')
-         call get_integer(draft%deck, line_item(draft%deck, line, 4_ip), 'increment of the numbers, an integer', step, good(4), &
+         call get_integer(context%deck, line_item(context%deck, line, 4_ip), 'increment of the numbers, an integer', step, &
+                          good(4), &
                           1_ip, 'NFILL')
          if (good(3) .and. n < 1) then
             good(3) = .false.
-            call report_error(draft%deck, line_item(draft%deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', &
+            call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals', &
                               expected='number of intervals, a positive integer', keyword='NFILL')
          end if
          if (all(good(:2))) then
             good(1) = size(from) == size(to)
-            if (.not. good(1)) call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-SET', 'the two sets have '// &
+            if (.not. good(1)) call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-SET', &
+                                                 'the two sets have '// &
                                                  to_text(size(from, kind=ip))//' and '//to_text(size(to, kind=ip))//' nodes', &
                                                  expected='two node sets of as many nodes', keyword='NFILL')
          end if
       end if
       ok = all(good)
-      if (ok) ok = numbers_fit(draft%deck, line, draft%model%mesh%node_id(from), n, step)
-      if (ok) ok = fits_memory(draft%deck%tokens(line%first_token), draft, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
+      if (ok) ok = numbers_fit(context%deck, line, context%model%mesh%node_id(from), n, step)
+      if (ok) ok = fits_memory(context%deck%tokens(line%first_token), context, int(n - 1, lp)*size(from, kind=lp), 0_lp, &
                                'NFILL')
    end subroutine read_nfill_line
 
@@ -266,8 +271,8 @@ contains
                         to_text(MOST_NODES)//' nodes', keyword='NFILL')
    end function numbers_fit
 
-   subroutine fill_lines(draft, from, to, n, step, place)
-      type(draft_t), intent(inout) :: draft
+   subroutine fill_lines(context, from, to, n, step, place)
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: from(:), to(:), n, step, place
       real(wp) :: t, x(2)
       integer(ip) :: i, k, id
@@ -276,9 +281,9 @@ contains
       do i = 1, size(from, kind=ip)
          do k = 1, n - 1
             t = real(k, wp)/real(n, wp)
-            x = (1 - t)*draft%model%mesh%x(:, from(i)) + t*draft%model%mesh%x(:, to(i))
-            id = draft%model%mesh%node_id(from(i)) + k*step
-            call place_node(draft, id, x, place, ok, 'NFILL')
+            x = (1 - t)*context%model%mesh%x(:, from(i)) + t*context%model%mesh%x(:, to(i))
+            id = context%model%mesh%node_id(from(i)) + k*step
+            call place_node(context, id, x, place, ok, 'NFILL')
             if (.not. ok) return
          end do
       end do

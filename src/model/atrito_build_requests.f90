@@ -2,7 +2,7 @@
 module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t
+   use atrito_build_context, only: build_context_t
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
@@ -21,17 +21,17 @@ module atrito_build_requests
 contains
 
    !> Controls and requests of the step.
-   subroutine build_requests(draft)
-      type(draft_t), intent(in) :: draft
+   subroutine build_requests(context)
+      type(build_context_t), intent(in) :: context
       integer(ip) :: i
 
-      do i = 1, draft%deck%n_cards
-         associate (card => draft%deck%cards(i), requests => draft%model%requests)
+      do i = 1, context%deck%n_cards
+         associate (card => context%deck%cards(i), requests => context%model%requests)
             select case (keyword_name(card))
             case ('CONTROLS')
-               call read_controls_card(draft%deck, card, draft%model%controls)
+               call read_controls_card(context%deck, card, context%model%controls)
             case ('NODE PRINT', 'EL PRINT')
-               call read_request_card(card, draft, requests%requested_t)
+               call read_request_card(card, context, requests%requested_t)
             case ('CONTACT PRINT')
                requests%contact = .true.
             case ('BODY PRINT')
@@ -39,13 +39,13 @@ contains
             case ('JOINT PRINT')
                requests%joints = .true.
             case ('NODE FILE', 'EL FILE')
-               call read_request_card(card, draft, requests%fields)
+               call read_request_card(card, context, requests%fields)
             case ('CONTACT FILE')
                requests%fields%contact = .true.
             end select
          end associate
       end do
-      call check_relaxation(draft%deck, draft%model%controls)
+      call check_relaxation(context%deck, context%model%controls)
    end subroutine build_requests
 
    subroutine read_controls_card(deck, card, controls)
@@ -119,24 +119,24 @@ contains
    end subroutine check_relaxation
 
    !> *NODE PRINT, *NODE FILE, *EL PRINT, *EL FILE
-   subroutine read_request_card(card, draft, requested)
+   subroutine read_request_card(card, context, requested)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(requested_t), intent(inout) :: requested
       logical, allocatable :: chosen(:)
       logical :: ok
 
-      associate (model => draft%model)
+      associate (model => context%model)
          if (index(keyword_name(card), 'NODE') == 1) then
-            call choose_members(card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, draft, chosen, ok)
+            call choose_members(card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, context, chosen, ok)
          else
-            call choose_members(card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, draft, chosen, ok)
+            call choose_members(card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, context, chosen, ok)
          end if
       end associate
       if (.not. ok) return
-      if (asks_for(draft%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
-      if (asks_for(draft%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
-      if (asks_for(draft%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
+      if (asks_for(context%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
+      if (asks_for(context%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
+      if (asks_for(context%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
    end subroutine read_request_card
 
    !> Adds members to those asked for before.
@@ -169,12 +169,12 @@ contains
    end subroutine refuse_field_files
 
    !> The members of the set that an option names; all without it.
-   subroutine choose_members(card, option, noun, sets, n, draft, chosen, ok)
+   subroutine choose_members(card, option, noun, sets, n, context, chosen, ok)
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: option, noun
       type(set_list_t), intent(in) :: sets
       integer(ip), intent(in) :: n                     !< nodes or elements of the mesh
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       logical, allocatable, intent(out) :: chosen(:)
       logical, intent(out) :: ok
       character(len=:), allocatable :: name
@@ -182,7 +182,7 @@ contains
       integer(ip) :: i
       logical :: found
 
-      call option_text(draft%deck, card, option, name, found, place)
+      call option_text(context%deck, card, option, name, found, place)
       allocate (chosen(n), source=.not. found)
       ok = .true.
       if (.not. found) return
@@ -191,7 +191,7 @@ contains
       if (ok) then
          chosen(sets%sets(i)%members) = .true.
       else
-         call report_unknown(draft, place, noun, 'E-SET', sets%names, keyword_name(card))
+         call report_unknown(context, place, noun, 'E-SET', sets%names, keyword_name(card))
       end if
    end subroutine choose_members
 

@@ -3,7 +3,7 @@ module atrito_build_sets
    use atrito_build_nodes, only: put_node_set
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, ids_text, has_errors
+   use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_id_map, only: id_map_t, find_id
    use atrito_items, only: get_integer, has_option, option_text
    use atrito_kinds, only: ip
@@ -20,21 +20,21 @@ contains
 
    !> Reads a *NSET or *ELSET when all of its members are known by now, so that a *NFILL, *BLOCK or *ELCOPY below can use it. One
    !> with members that follow later is left to read_set_card.
-   subroutine try_set_card(i_card, draft)
+   subroutine try_set_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       logical :: known
 
-      associate (deck => draft%deck, card => draft%deck%cards(i_card))
+      associate (deck => context%deck, card => context%deck%cards(i_card))
          if (keyword_name(card) == 'NSET') then
-            known = members_are_known(deck, card, draft%model%mesh%node_map, draft%model%node_sets)
+            known = members_are_known(deck, card, context%model%mesh%node_map, context%model%node_sets)
          else
-            known = members_are_known(deck, card, draft%model%mesh%element_map, draft%model%element_sets)
+            known = members_are_known(deck, card, context%model%mesh%element_map, context%model%element_sets)
          end if
       end associate
       if (.not. known) return
-      call read_set_card(i_card, draft)
-      draft%card_done(i_card) = .true.
+      call read_set_card(i_card, context)
+      context%card_done(i_card) = .true.
    end subroutine try_set_card
 
    pure logical function members_are_known(deck, card, map, sets) result(known)
@@ -99,42 +99,44 @@ contains
    end function ranges_are_known
 
    !> *NSET and *ELSET.
-   subroutine read_set_card(i_card, draft)
+   subroutine read_set_card(i_card, context)
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
       character(len=:), allocatable :: name, keyword
       integer(ip) :: i
       logical :: found
 
-      associate (card => draft%deck%cards(i_card))
+      associate (card => context%deck%cards(i_card))
          keyword = keyword_name(card)
-         call option_text(draft%deck, card, keyword, name, found)
+         call option_text(context%deck, card, keyword, name, found)
          if (.not. found) return
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (.not. draft%deck%lines(i)%ok) cycle
-            if (.not. has_option(draft%deck, card, 'GENERATE')) then
-               call read_items(draft%deck%lines(i), i_card, draft, members)
+            if (.not. context%deck%lines(i)%ok) cycle
+            if (.not. has_option(context%deck, card, 'GENERATE')) then
+               call read_items(context%deck%lines(i), i_card, context, members)
             else if (keyword == 'NSET') then
-               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%node_map, draft%spoiled_nodes, 'node', keyword, &
+               call read_range(context%deck, context%deck%lines(i), context%model%mesh%node_map, context%invalid_nodes, 'node', &
+                               keyword, &
                                members)
             else
-               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%element_map, draft%spoiled_elements, 'element', &
+               call read_range(context%deck, context%deck%lines(i), context%model%mesh%element_map, context%invalid_elements, &
+                               'element', &
                                keyword, members)
             end if
          end do
       end associate
       if (keyword == 'NSET') then
-         call put_node_set(draft, i_card, name, numbers_of(members))
+         call put_node_set(context, i_card, name, numbers_of(members))
       else
-         call grow_set(draft%model%element_sets, name, numbers_of(members))
+         call grow_set(context%model%element_sets, name, numbers_of(members))
       end if
    end subroutine read_set_card
 
-   subroutine read_items(line, i_card, draft, members)
+   subroutine read_items(line, i_card, context, members)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(number_list_t), intent(inout) :: members
       type(token_t) :: token
       integer(ip), allocatable :: found(:)
@@ -142,39 +144,40 @@ contains
       logical :: ok
 
       do i = 1, line%n_tokens
-         token = line_item(draft%deck, line, i)
-         if (keyword_name(draft%deck%cards(i_card)) == 'NSET') then
-            call find_nodes(draft, token, found, ok, 'NSET')
-            if (ok) ok = is_earlier(token, i_card, draft)
+         token = line_item(context%deck, line, i)
+         if (keyword_name(context%deck%cards(i_card)) == 'NSET') then
+            call find_nodes(context, token, found, ok, 'NSET')
+            if (ok) ok = is_earlier(token, i_card, context)
          else
-            call find_elements(draft, token, found, ok, 'ELSET')
+            call find_elements(context, token, found, ok, 'ELSET')
          end if
          if (ok) call add_numbers(members, found)
       end do
    end subroutine read_items
 
    !> A set in a list must be an earlier one: it could not be complete otherwise.
-   logical function is_earlier(token, i_card, draft)
+   logical function is_earlier(token, i_card, context)
       type(token_t), intent(in) :: token
       integer(ip), intent(in) :: i_card
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip) :: i
 
       is_earlier = .true.
-      if (is_id_token(draft%deck, token)) return
-      i = find_set(draft%model%node_sets, token_text(draft%deck, token))
-      if (keyword_name(draft%deck%cards(draft%set_card(i))) /= 'NSET') return
-      is_earlier = draft%set_card(i) < i_card
-      if (.not. is_earlier) call report_error(draft%deck, token, 'E-SET', 'node set '//token_text(draft%deck, token)// &
-                               ' is defined later, in '//place_text(draft%deck, draft%deck%cards(draft%set_card(i))%place, token), &
+      if (is_id_token(context%deck, token)) return
+      i = find_set(context%model%node_sets, token_text(context%deck, token))
+      if (keyword_name(context%deck%cards(context%set_card(i))) /= 'NSET') return
+      is_earlier = context%set_card(i) < i_card
+      if (.not. is_earlier) call report_error(context%deck, token, 'E-SET', 'node set '//token_text(context%deck, token)// &
+                                 ' is defined later, in '//place_text(context%deck, context%deck%cards(context%set_card(i))%place, &
+                                                                                   token), &
                                               expected='a node set that is defined above', keyword='NSET')
    end function is_earlier
 
    !> A line of GENERATE: first number, last number, increment.
-   subroutine read_range(deck, line, map, spoiled, noun, keyword, members)
+   subroutine read_range(deck, line, map, invalid, noun, keyword, members)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
-      type(id_map_t), intent(in) :: map, spoiled       !< known numbers, and those that an error spoiled
+      type(id_map_t), intent(in) :: map, invalid       !< known numbers, and those that an error invalid
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
       character(len=*), intent(in) :: keyword
       type(number_list_t), intent(inout) :: members
@@ -187,7 +190,7 @@ contains
       call get_integer(deck, line_item(deck, line, 3_ip), 'increment, a positive integer', step, ok(3), 1_ip, keyword)
       if (.not. all(ok)) return
       if (.not. is_range(deck, line, first, last, step, keyword)) return
-      if ((last - first)/step >= map%n + spoiled%n) then
+      if ((last - first)/step >= map%n + invalid%n) then
          call report_error(deck, line_item(deck, line, 1_ip), 'E-'//trim(merge('NODE   ', 'ELEMENT', noun == 'node')), &
                            'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist', keyword=keyword)
          return
@@ -195,7 +198,7 @@ contains
       do k = first, last, step
          if (find_id(map, k) > 0) then
             call add_number(members, find_id(map, k))
-         else if (find_id(spoiled, k) == 0 .or. .not. has_errors()) then
+         else if (find_id(invalid, k) == 0 .or. .not. has_errors()) then
             call add_number(missing, k)
          end if
       end do

@@ -3,7 +3,7 @@ module atrito_build_supports
    use atrito_build_loads, only: in_no_element
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_draft, only: draft_t, place_text, ids_text, has_errors
+   use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, trim_nodal_values
@@ -32,78 +32,80 @@ module atrito_build_supports
 contains
 
    !> All prescribed displacements, those of the model and of the step.
-   subroutine build_supports(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine build_supports(context)
+      type(build_context_t), intent(inout) :: context
       type(by_number_t) :: numbered
       integer(ip) :: i, k
 
-      allocate (draft%dof_entry(PLANE_DOFS, draft%model%mesh%n_nodes), draft%dof_token(PLANE_DOFS, draft%model%mesh%n_nodes), &
+      allocate (context%dof_entry(PLANE_DOFS, context%model%mesh%n_nodes), context%dof_token(PLANE_DOFS, &
+                                                                                             context%model%mesh%n_nodes), &
                 source=0_ip)
-      do i = 1, draft%deck%n_cards
-         associate (card => draft%deck%cards(i))
+      do i = 1, context%deck%n_cards
+         associate (card => context%deck%cards(i))
             if (keyword_name(card) /= 'BOUNDARY') cycle
-            call begin_numbers(draft, numbered)
+            call begin_numbers(context, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
-               if (.not. draft%deck%lines(k)%ok) cycle
-               if (has_option(draft%deck, card, 'FUNCTION')) then
-                  call read_function_line(draft%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, draft, &
+               if (.not. context%deck%lines(k)%ok) cycle
+               if (has_option(context%deck, card, 'FUNCTION')) then
+                  call read_function_line(context%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, context, &
                                           numbered)
                else
-                  call read_line(draft%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, draft, numbered)
+                  call read_line(context%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, context, numbered)
                end if
             end do
-            call hold_edges(draft, numbered)
+            call hold_edges(context, numbered)
          end associate
       end do
-      call trim_nodal_values(draft%model%prescribed)
+      call trim_nodal_values(context%model%prescribed)
    end subroutine build_supports
 
    !> Node or set, first dof[, last dof[, value]].
-   subroutine read_line(line, in_model, draft, numbered)
+   subroutine read_line(line, in_model, context, numbered)
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(by_number_t), intent(inout) :: numbered
       integer(ip), allocatable :: nodes(:)
       real(wp) :: value
       integer(ip) :: first, last, dof, i
       logical :: ok(4)
 
-      call read_place(line, draft, nodes, first, last, ok(:3))
-      call get_real(draft%deck, line_item(draft%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
+      call read_place(line, context, nodes, first, last, ok(:3))
+      call get_real(context%deck, line_item(context%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
       if (.not. all(ok(2:))) return
       if (in_model .and. abs(value) > 0.0_wp) then
          ok(4) = .false.
-         call report_error(draft%deck, line_item(draft%deck, line, 4_ip), 'E-VALUE', 'a displacement other than 0 before *STEP', &
+         call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', &
+                           'a displacement other than 0 before *STEP', &
                            expected='0 [L] here; other values in the step', keyword='BOUNDARY')
       end if
-      if (.not. are_dofs(draft%deck, line, first, last, value)) return
+      if (.not. are_dofs(context%deck, line, first, last, value)) return
       if (.not. all(ok)) return
-      call note_loose(line, draft, nodes)
+      call note_loose(line, context, nodes)
       do dof = first, min(last, PLANE_DOFS)
-         call prescribe(line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], draft)
+         call prescribe(line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], context)
       end do
-      if (size(nodes) == 1 .and. is_refined(draft%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
+      if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
 
    !> Node or set, first dof[, last dof]: what both kinds of line begin with.
-   subroutine read_place(line, draft, nodes, first, last, ok)
+   subroutine read_place(line, context, nodes, first, last, ok)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), allocatable, intent(out) :: nodes(:)
       integer(ip), intent(out) :: first, last
       logical, intent(out) :: ok(3)
 
-      call find_nodes(draft, draft%deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
-      call get_integer(draft%deck, line_item(draft%deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
-      call get_integer(draft%deck, line_item(draft%deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
+      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), 'BOUNDARY')
+      call get_integer(context%deck, line_item(context%deck, line, 2_ip), 'first '//WHAT_DOF, first, ok(2), keyword='BOUNDARY')
+      call get_integer(context%deck, line_item(context%deck, line, 3_ip), 'last '//WHAT_DOF, last, ok(3), first, 'BOUNDARY')
    end subroutine read_place
 
    !> Node or set, first dof[, last dof], expression in x and y.
-   subroutine read_function_line(line, in_model, draft, numbered)
+   subroutine read_function_line(line, in_model, context, numbered)
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(by_number_t), intent(inout) :: numbered
       type(token_t) :: expression
       integer(ip), allocatable :: nodes(:)
@@ -111,33 +113,33 @@ contains
       integer(ip) :: first, last, dof
       logical :: ok(4)
 
-      call read_place(line, draft, nodes, first, last, ok(:3))
+      call read_place(line, context, nodes, first, last, ok(:3))
       ! commas belong to the expression: max(x, y)
-      expression = line_item(draft%deck, line, 4_ip)
-      expression%last = draft%deck%tokens(line%first_token + line%n_tokens - 1)%last
+      expression = line_item(context%deck, line, 4_ip)
+      expression%last = context%deck%tokens(line%first_token + line%n_tokens - 1)%last
       ok(4) = .not. in_model
-      if (in_model) call report_error(draft%deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
+      if (in_model) call report_error(context%deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
                                       expected='*BOUNDARY, FUNCTION in the step', keyword='BOUNDARY')
       ! a function is not 0, whatever it is: there are no harmless dofs
-      if (all(ok(2:3))) ok(2) = are_dofs(draft%deck, line, first, last, 1.0_wp)
+      if (all(ok(2:3))) ok(2) = are_dofs(context%deck, line, first, last, 1.0_wp)
       allocate (values(size(nodes)))
-      if (ok(4)) call evaluate_function(draft%deck, expression, draft%model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
+      if (ok(4)) call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
       if (.not. all(ok)) return
-      call note_loose(line, draft, nodes)
+      call note_loose(line, context, nodes)
       do dof = first, last
-         call prescribe(line, nodes, dof, values, draft)
+         call prescribe(line, nodes, dof, values, context)
       end do
-      if (size(nodes) == 1 .and. is_refined(draft%refinement)) call take_number(line, nodes(1), first, last, values(1), numbered)
+      if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), first, last, values(1), numbered)
    end subroutine read_function_line
 
-   pure subroutine begin_numbers(draft, numbered)
-      type(draft_t), intent(in) :: draft
+   pure subroutine begin_numbers(context, numbered)
+      type(build_context_t), intent(in) :: context
       type(by_number_t), intent(inout) :: numbered
 
-      if (.not. is_refined(draft%refinement)) return
+      if (.not. is_refined(context%refinement)) return
       if (.not. allocated(numbered%token)) then
-         allocate (numbered%token(PLANE_DOFS, draft%refinement%n_nodes), source=0_ip)
-         allocate (numbered%value(PLANE_DOFS, draft%refinement%n_nodes), source=0.0_wp)
+         allocate (numbered%token(PLANE_DOFS, context%refinement%n_nodes), source=0_ip)
+         allocate (numbered%value(PLANE_DOFS, context%refinement%n_nodes), source=0.0_wp)
       else if (numbered%n > 0) then
          numbered%token = 0
       end if
@@ -159,14 +161,14 @@ contains
    end subroutine take_number
 
    !> An edge of the outline all of whose nodes a card prescribes one by one is prescribed between them, too.
-   subroutine hold_edges(draft, numbered)
-      type(draft_t), intent(inout) :: draft
+   subroutine hold_edges(context, numbered)
+      type(build_context_t), intent(inout) :: context
       type(by_number_t), intent(in) :: numbered
       type(data_line_t) :: line
       integer(ip) :: edge, dof, k, n
 
       if (numbered%n < 2) return
-      associate (fine => draft%refinement)
+      associate (fine => context%refinement)
          do edge = 1, fine%n_edges
             if (fine%edge_element(2, edge) > 0) cycle
             n = merge(3_ip, 2_ip, fine%edge_node(3, edge) > 0)
@@ -176,7 +178,8 @@ contains
                line%n_tokens = 1
                do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
                   call prescribe(line, [k], dof, [edge_value(numbered%value(dof, fine%edge_node(:n, edge)), edge_place(fine, edge, &
-                                                                                                                       k))], draft)
+                                                                                                                       k))], &
+                                 context)
                end do
             end do
          end do
@@ -215,45 +218,47 @@ contains
       end if
    end function are_dofs
 
-   subroutine note_loose(line, draft, nodes)
+   subroutine note_loose(line, context, nodes)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:)
       logical :: loose(size(nodes))
 
-      loose = in_no_element(draft, nodes)
-      if (any(loose) .and. .not. has_errors()) call report_note(draft%deck, line_item(draft%deck, line, 1_ip), 'N-NODE', 'node '// &
-                ids_text(pack(draft%model%mesh%node_id(nodes), loose))//' belongs to no element; the support has no effect there', &
+      loose = in_no_element(context, nodes)
+      if (any(loose) .and. .not. has_errors()) call report_note(context%deck, line_item(context%deck, line, 1_ip), 'N-NODE', &
+                                                                'node '// &
+                                                                ids_text(pack(context%model%mesh%node_id(nodes), &
+                                                               loose))//' belongs to no element; the support has no effect there', &
                                                                 keyword='BOUNDARY')
    end subroutine note_loose
 
    !> Prescribes a dof of some nodes. A value that differs from an earlier one is an error, told once a line.
-   subroutine prescribe(line, nodes, dof, value, draft)
+   subroutine prescribe(line, nodes, dof, value, context)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value(:)                 !< of each node [L]
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(number_list_t) :: clashes
       real(wp) :: first_value, scale
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
 
-      loose = in_no_element(draft, nodes)
+      loose = in_no_element(context, nodes)
       scale = 0.0_wp
       if (size(nodes) > 0) scale = maxval(abs(value))
       do i = 1, size(nodes, kind=ip)
          if (loose(i)) cycle
-         entry = draft%dof_entry(dof, nodes(i))
+         entry = context%dof_entry(dof, nodes(i))
          if (entry == 0) then
-            call add_nodal_value(draft%model%prescribed, nodes(i), dof, value(i))
-            draft%dof_entry(dof, nodes(i)) = draft%model%prescribed%n
-            draft%dof_token(dof, nodes(i)) = line%first_token
-         else if (.not. is_same(draft%model%prescribed%value(entry), value(i), scale)) then
+            call add_nodal_value(context%model%prescribed, nodes(i), dof, value(i))
+            context%dof_entry(dof, nodes(i)) = context%model%prescribed%n
+            context%dof_token(dof, nodes(i)) = line%first_token
+         else if (.not. is_same(context%model%prescribed%value(entry), value(i), scale)) then
             if (clashes%n == 0) first_value = value(i)
             call add_number(clashes, nodes(i))
          end if
       end do
-      if (clashes%n > 0) call report_clash(line, draft, numbers_of(clashes), dof, first_value)
+      if (clashes%n > 0) call report_clash(line, context, numbers_of(clashes), dof, first_value)
    end subroutine prescribe
 
    !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
@@ -264,9 +269,9 @@ contains
       is_same = abs(earlier - value) <= SAME_VALUE*max(abs(earlier), scale)
    end function is_same
 
-   subroutine report_clash(line, draft, nodes, dof, value)
+   subroutine report_clash(line, context, nodes, dof, value)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value
       integer, parameter :: FEW = 6, ALL_DIGITS = 15
@@ -274,12 +279,13 @@ contains
       real(wp) :: other
       integer :: digits
 
-      earlier = draft%deck%tokens(draft%dof_token(dof, nodes(1)))
-      other = draft%model%prescribed%value(draft%dof_entry(dof, nodes(1)))
+      earlier = context%deck%tokens(context%dof_token(dof, nodes(1)))
+      other = context%model%prescribed%value(context%dof_entry(dof, nodes(1)))
       digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
-      call report_error(draft%deck, line_item(draft%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
-                        ids_text(draft%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '//to_text(other, &
-                                            digits)//' in '//place_text(draft%deck, earlier, draft%deck%tokens(line%first_token)), &
+      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
+                        ids_text(context%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '//to_text(other, &
+                                                                                digits)//' in '//place_text(context%deck, earlier, &
+                                                                                           context%deck%tokens(line%first_token)), &
                         expected='one value for each dof [L]; those before *STEP hold in the step', keyword='BOUNDARY')
    end subroutine report_clash
 

@@ -3,7 +3,8 @@ module atrito_build_surfaces
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, spoil_name, place_text, keep_token, count_cards, ids_text
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, keep_token, count_cards, &
+                                   ids_text
    use atrito_element_table, only: MOST_SIDES
    use atrito_faces, only: is_outer_face, outer_faces, add_face, face_list_t
    use atrito_id_map, only: id_map_t, add_id
@@ -26,34 +27,37 @@ module atrito_build_surfaces
 contains
 
    !> All surfaces of a model.
-   subroutine build_surfaces(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine build_surfaces(context)
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: i
 
       ! each block may have four sides of its own, and those of all copies are of their *BLOCK
-      allocate (draft%model%surfaces((draft%n_blocks + count_cards(draft%deck, 'BLOCK'))*size(BLOCK_SIDES, &
-                                                                                     kind=ip) + count_cards(draft%deck, 'SURFACE')))
-      do i = 1, draft%n_blocks
-         call put_block_surfaces(draft%blocks(i), draft)
+      allocate (context%model%surfaces((context%n_blocks + count_cards(context%deck, 'BLOCK'))*size(BLOCK_SIDES, &
+                                                                                              kind=ip) + count_cards(context%deck, &
+                                                                                                                        'SURFACE')))
+      do i = 1, context%n_blocks
+         call put_block_surfaces(context%blocks(i), context)
       end do
-      do i = 1, draft%deck%n_cards
-         if (keyword_name(draft%deck%cards(i)) == 'SURFACE') call read_surface_card(draft%deck%cards(i), draft)
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'SURFACE') call read_surface_card(context%deck%cards(i), context)
       end do
-      if (draft%surface_names%n < size(draft%model%surfaces)) draft%model%surfaces = draft%model%surfaces(:draft%surface_names%n)
-      do i = 1, draft%deck%n_cards
-         if (keyword_name(draft%deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(draft%deck%cards(i), draft)
+      if (context%surface_names%n < size(context%model%surfaces)) then
+         context%model%surfaces = context%model%surfaces(:context%surface_names%n)
+      end if
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(context%deck%cards(i), context)
       end do
    end subroutine build_surfaces
 
    !> The four sides of a block, and its part of the sides of all copies; faces that another block has joined are left out.
-   subroutine put_block_surfaces(block, draft)
+   subroutine put_block_surfaces(block, context)
       type(block_t), intent(in) :: block
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: nx, ny, i
 
       nx = ubound(block%nodes, 1, kind=ip)/block%order
       ny = ubound(block%nodes, 2, kind=ip)/block%order
-      if (block%first_element + nx*ny - 1 > draft%model%mesh%n_elements) return
+      if (block%first_element + nx*ny - 1 > context%model%mesh%n_elements) return
       call put_side(1_ip, [(i, i=0, nx - 1)])
       call put_side(2_ip, [(nx - 1 + nx*i, i=0, ny - 1)])
       call put_side(3_ip, [(nx*(ny - 1) + i, i=0, nx - 1)])
@@ -66,7 +70,7 @@ contains
          integer(ip), intent(in) :: elements(:)        !< counted from the first of the block
          integer(ip), allocatable :: pieces(:)
 
-         pieces = fine_elements(draft%refinement, block%first_element + elements)
+         pieces = fine_elements(context%refinement, block%first_element + elements)
          call put_faces(block%name//trim(BLOCK_SIDES(face)), face, pieces)
          if (block%at_side(face)) call put_faces(block%array//trim(BLOCK_SIDES(face)), face, pieces)
       end subroutine put_side
@@ -76,64 +80,64 @@ contains
          integer(ip), intent(in) :: face, pieces(:)
          integer(ip) :: k, s
 
-         s = find_name(draft%surface_names, name)
+         s = find_name(context%surface_names, name)
          if (s == 0) then
-            call add_surface(draft, surface_t(name=name), draft%deck%cards(block%card)%place)
-            s = draft%surface_names%n
+            call add_surface(context, surface_t(name=name), context%deck%cards(block%card)%place)
+            s = context%surface_names%n
          end if
          do k = 1, size(pieces, kind=ip)
-            if (.not. is_on_side(draft%refinement, pieces(k), face)) cycle
-            if (is_outer_face(draft%model%mesh, draft%around, pieces(k), face)) call add_face(draft%model%surfaces(s)%faces, &
-                                                                                              pieces(k), face)
+            if (.not. is_on_side(context%refinement, pieces(k), face)) cycle
+            if (is_outer_face(context%model%mesh, context%around, pieces(k), face)) call add_face(context%model%surfaces(s)%faces, &
+                                                                                                  pieces(k), face)
          end do
       end subroutine put_faces
 
    end subroutine put_block_surfaces
 
-   subroutine add_surface(draft, surface, place)
-      type(draft_t), intent(inout) :: draft
+   subroutine add_surface(context, surface, place)
+      type(build_context_t), intent(inout) :: context
       type(surface_t), intent(in) :: surface
       type(token_t), intent(in) :: place               !< where it is defined
 
-      call add_name(draft%surface_names, surface%name)
-      draft%model%surfaces(draft%surface_names%n) = surface
-      call keep_token(draft%surfaces, draft%surface_names%n, place)
+      call add_name(context%surface_names, surface%name)
+      context%model%surfaces(context%surface_names%n) = surface
+      call keep_token(context%surfaces, context%surface_names%n, place)
    end subroutine add_surface
 
    !> *SURFACE.
-   subroutine read_surface_card(card, draft)
+   subroutine read_surface_card(card, context)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(surface_t) :: surface
       type(token_t) :: place
       integer(ip) :: i
       logical :: found, ok
 
-      call option_text(draft%deck, card, 'NAME', surface%name, found, place)
+      call option_text(context%deck, card, 'NAME', surface%name, found, place)
       if (.not. found) return
-      i = find_name(draft%surface_names, surface%name)
+      i = find_name(context%surface_names, surface%name)
       if (i > 0) then
-         call report_error(draft%deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
-                           place_text(draft%deck, draft%surfaces(i), place), expected='a name that no other surface has', &
+         call report_error(context%deck, place, 'E-TWICE', 'surface '//surface%name//' is defined twice, first in '// &
+                           place_text(context%deck, context%surfaces(i), place), expected='a name that no other surface has', &
                            keyword='SURFACE')
          return
       end if
       ok = card%ok
       if (.not. ok) then
          ! the reader has not checked the words of its lines
-      else if (option_word(draft%deck, card, 'TYPE') == 'ELEMENT') then
-         call read_faces(card, draft, surface%faces, ok)
+      else if (option_word(context%deck, card, 'TYPE') == 'ELEMENT') then
+         call read_faces(card, context, surface%faces, ok)
       else
          surface%kind = SURFACE_SEGMENTS
-         call read_segments(draft%deck, card, surface, ok)
+         call read_segments(context%deck, card, surface, ok)
       end if
-      if (.not. ok) call spoil_name(draft, surface%name)
-      call add_surface(draft, surface, place)
+      if (.not. ok) call invalidate_name(context, surface%name)
+      call add_surface(context, surface, place)
    end subroutine read_surface_card
 
-   subroutine read_faces(card, draft, faces, ok)
+   subroutine read_faces(card, context, faces, ok)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(face_list_t), intent(inout) :: faces
       logical, intent(out) :: ok
       integer(ip), allocatable :: elements(:)
@@ -142,9 +146,9 @@ contains
 
       ok = .true.
       do i = card%first_line, card%first_line + card%n_lines - 1
-         good = draft%deck%lines(i)%ok
-         if (good) call find_elements(draft, line_item(draft%deck, draft%deck%lines(i), 1_ip), elements, good, 'SURFACE')
-         if (good) call take_faces(draft%deck%lines(i), draft, elements, faces, good)
+         good = context%deck%lines(i)%ok
+         if (good) call find_elements(context, line_item(context%deck, context%deck%lines(i), 1_ip), elements, good, 'SURFACE')
+         if (good) call take_faces(context%deck%lines(i), context, elements, faces, good)
          ok = ok .and. good
       end do
       call keep_once(faces)
@@ -166,9 +170,9 @@ contains
    end subroutine keep_once
 
    !> The face of each element that a line names, or all their outer faces.
-   subroutine take_faces(line, draft, elements, faces, ok)
+   subroutine take_faces(line, context, elements, faces, ok)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:)
       type(face_list_t), intent(inout) :: faces
       logical, intent(out) :: ok
@@ -178,9 +182,9 @@ contains
       integer(ip) :: i, face
       integer :: outcome
 
-      word = token_text(draft%deck, line_item(draft%deck, line, 2_ip))
+      word = token_text(context%deck, line_item(context%deck, line, 2_ip))
       if (len(word) == 0) then
-         outer = outer_faces(draft%model%mesh, draft%around, elements)
+         outer = outer_faces(context%model%mesh, context%around, elements)
          do i = 1, outer%n
             call add_face(faces, outer%element(i), outer%face(i))
          end do
@@ -189,16 +193,16 @@ contains
       end if
       call read_integer(word(2:), face, outcome)       ! S1..S4, checked by the reader
       do i = 1, size(elements, kind=ip)
-         if (.not. is_on_side(draft%refinement, elements(i), face)) cycle
-         if (is_outer_face(draft%model%mesh, draft%around, elements(i), face)) then
+         if (.not. is_on_side(context%refinement, elements(i), face)) cycle
+         if (is_outer_face(context%model%mesh, context%around, elements(i), face)) then
             call add_face(faces, elements(i), face)
          else
-            call add_number(inside, draft%model%mesh%element_id(elements(i)))
+            call add_number(inside, context%model%mesh%element_id(elements(i)))
          end if
       end do
       ok = inside%n == 0
       if (ok) return
-      call report_error(draft%deck, line_item(draft%deck, line, 2_ip), 'E-FACE', 'face '//word// &
+      call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-FACE', 'face '//word// &
                         ' lies inside the mesh, of element '//ids_text(numbers_of(inside)), &
                         expected='faces on the outline of the body; without a face, all of them', keyword='SURFACE')
    end subroutine take_faces
@@ -315,27 +319,27 @@ contains
    end function has_length
 
    !> *RIGID BODY.
-   subroutine read_rigid_body_card(card, draft)
+   subroutine read_rigid_body_card(card, context)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(token_t) :: place
       character(len=:), allocatable :: name
       integer(ip) :: i
       logical :: found
 
-      call option_text(draft%deck, card, 'ANALYTICAL SURFACE', name, found, place)
+      call option_text(context%deck, card, 'ANALYTICAL SURFACE', name, found, place)
       if (.not. found) return
-      i = find_name(draft%surface_names, name)
+      i = find_name(context%surface_names, name)
       if (i == 0) then
-         call report_unknown(draft, place, 'surface', 'E-SURFACE', draft%surface_names, 'RIGID BODY')
-      else if (draft%model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
-         call report_error(draft%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
+         call report_unknown(context, place, 'surface', 'E-SURFACE', context%surface_names, 'RIGID BODY')
+      else if (context%model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
+         call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
       else
-         draft%model%surfaces(i)%is_rigid_body = .true.
+         context%model%surfaces(i)%is_rigid_body = .true.
          return
       end if
-      draft%rigid_unsure = .true.
+      context%rigid_undetermined = .true.
    end subroutine read_rigid_body_card
 
 end module atrito_build_surfaces

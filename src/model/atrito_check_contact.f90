@@ -3,7 +3,7 @@ module atrito_check_contact
    use atrito_average, only: least_spacing
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
-   use atrito_draft, only: draft_t, ids_text, place_text, has_errors, is_spoiled
+   use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
    use atrito_face_geometry, only: has_quarter_node
    use atrito_faces, only: chain_report_t, face_list_t, face_normal
    use atrito_incidence, only: list_holders
@@ -21,24 +21,24 @@ module atrito_check_contact
    integer(ip), parameter :: MOST_FACE_NODES = 3
 
    !> What the checks of the pairs share: thousands of pairs may have surfaces in common.
-   type :: pairs_draft_t
+   type :: pairs_context_t
       integer(ip), allocatable :: first_of(:)          !< (pairs) the first one of the same two surfaces
       type(chain_report_t), allocatable :: chains(:)   !< (surfaces)
       logical, allocatable :: is_judged(:)             !< (surfaces) it was the slave of an earlier pair
       integer(ip), allocatable :: first(:), face(:)    !< face(first(i):first(i + 1) - 1): the faces of masters at node i
       integer(ip), allocatable :: surface_of(:)        !< the surface of such a face
-   end type pairs_draft_t
+   end type pairs_context_t
 
    real(wp), parameter :: LINE_SPACINGS = 3.0_wp       !< KERNEL=LINE needs so many spacings within rho
 
 contains
 
    !> What can be told of each pair without looking for its points.
-   subroutine check_surfaces_of_pairs(model, draft, chains)
+   subroutine check_surfaces_of_pairs(model, context, chains)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(chain_report_t), intent(in) :: chains(:)    !< of each surface
-      type(pairs_draft_t) :: known
+      type(pairs_context_t) :: known
       integer(ip) :: i
 
       known%first_of = first_of_each(model%pairs)
@@ -46,7 +46,7 @@ contains
       allocate (known%is_judged(size(model%surfaces)), source=.false.)
       call list_masters(model, known)
       do i = 1, size(model%pairs, kind=ip)
-         call check_sides(model, draft, i, known)
+         call check_sides(model, context, i, known)
       end do
    end subroutine check_surfaces_of_pairs
 
@@ -70,7 +70,7 @@ contains
    !> The faces of all masters, and which of them are at each node.
    subroutine list_masters(model, known)
       type(model_t), intent(in) :: model
-      type(pairs_draft_t), intent(inout) :: known
+      type(pairs_context_t), intent(inout) :: known
       logical :: is_master(size(model%surfaces))
       integer(ip), allocatable :: nodes(:, :)
       integer(ip) :: i, k, n, n_nodes
@@ -97,66 +97,68 @@ contains
       call list_holders(model%mesh%n_nodes, nodes, known%first, known%face)
    end subroutine list_masters
 
-   subroutine check_sides(model, draft, i, known)
+   subroutine check_sides(model, context, i, known)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: i
-      type(pairs_draft_t), intent(inout) :: known
+      type(pairs_context_t), intent(inout) :: known
       integer(ip) :: slave, master, k
 
       slave = model%pairs(i)%slave
       master = model%pairs(i)%master
       if (slave == master) then
-         call report_error(draft%deck, draft%masters(i), 'E-PAIR', 'slave and master are the same surface', &
+         call report_error(context%deck, context%masters(i), 'E-PAIR', 'slave and master are the same surface', &
                            expected='two surfaces that face each other', keyword='CONTACT PAIR')
          return
       end if
       k = known%first_of(i)
       if (k < i) then
-         call report_error(draft%deck, draft%slaves(i), 'E-TWICE', 'this pair is given twice, first in '//place_text(draft%deck, &
-                                   draft%slaves(k), draft%slaves(i)), expected='each pair of surfaces once', keyword='CONTACT PAIR')
+         call report_error(context%deck, context%slaves(i), 'E-TWICE', &
+                           'this pair is given twice, first in '//place_text(context%deck, &
+                                                     context%slaves(k), context%slaves(i)), expected='each pair of surfaces once', &
+                           keyword='CONTACT PAIR')
          return
       end if
-      call check_slave(model, draft, slave, draft%slaves(i), known)
-      call check_master(model, draft, master, draft%masters(i))
+      call check_slave(model, context, slave, context%slaves(i), known)
+      call check_master(model, context, master, context%masters(i))
       if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
-         call check_shared_nodes(draft%deck, model, slave, master, draft%masters(i), known)
+         call check_shared_nodes(context%deck, model, slave, master, context%masters(i), known)
       end if
    end subroutine check_sides
 
-   subroutine check_slave(model, draft, i, place, known)
+   subroutine check_slave(model, context, i, place, known)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: i                     !< the slave's surface
       type(token_t), intent(in) :: place
-      type(pairs_draft_t), intent(inout) :: known
+      type(pairs_context_t), intent(inout) :: known
 
       associate (surface => model%surfaces(i), report => known%chains(i))
-         if (is_spoiled(draft, surface%name)) return
+         if (is_invalid(context, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
-            call report_error(draft%deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
+            call report_error(context%deck, place, 'E-PAIR', 'surface '//surface%name//' is a drawn line and cannot be the slave', &
                               expected='a surface of element faces as slave; the rigid surface is the master', &
                               keyword='CONTACT PAIR')
             return
          else if (surface%faces%n == 0) then
-            call report_no_faces(draft%deck, place, surface%name)
+            call report_no_faces(context%deck, place, surface%name)
             return
          end if
          if (known%is_judged(i)) return
          known%is_judged(i) = .true.
          if (has_errors()) return            ! the chain may be broken by what was told already
          if (report%branch_node > 0) then
-            call report_error(draft%deck, place, 'E-CHAIN', 'the slave branches at node '// &
+            call report_error(context%deck, place, 'E-CHAIN', 'the slave branches at node '// &
                               to_text(model%mesh%node_id(report%branch_node)), expected='one connected chain of faces', &
                               keyword='CONTACT PAIR')
          else if (report%loose_face > 0) then
-            call report_error(draft%deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
+            call report_error(context%deck, place, 'E-CHAIN', 'the slave is not connected: face S'// &
                               to_text(surface%faces%face(report%loose_face))//' of element '// &
                               to_text(model%mesh%element_id(surface%faces%element(report%loose_face)))// &
                               ' does not continue the others', expected='one connected chain of faces; otherwise a pair for each', &
                               keyword='CONTACT PAIR')
          end if
-         call check_middles(draft%deck, model%mesh, surface%faces, place)
+         call check_middles(context%deck, model%mesh, surface%faces, place)
       end associate
    end subroutine check_slave
 
@@ -180,20 +182,20 @@ contains
                                             keyword='CONTACT PAIR')
    end subroutine check_middles
 
-   subroutine check_master(model, draft, i, place)
+   subroutine check_master(model, context, i, place)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: i                     !< the master's surface
       type(token_t), intent(in) :: place
 
       associate (surface => model%surfaces(i))
-         if (is_spoiled(draft, surface%name)) return
+         if (is_invalid(context, surface%name)) return
          if (surface%kind == SURFACE_SEGMENTS) then
-            if (surface%is_rigid_body .or. (draft%rigid_unsure .and. has_errors())) return
-            call report_error(draft%deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
+            if (surface%is_rigid_body .or. (context%rigid_undetermined .and. has_errors())) return
+            call report_error(context%deck, place, 'E-PAIR', 'the drawn surface '//surface%name//' belongs to no body', &
                               expected='*RIGID BODY, ANALYTICAL SURFACE='//surface%name, keyword='RIGID BODY')
          else if (surface%faces%n == 0) then
-            call report_no_faces(draft%deck, place, surface%name)
+            call report_no_faces(context%deck, place, surface%name)
          end if
       end associate
    end subroutine check_master
@@ -213,7 +215,7 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: slave, master
       type(token_t), intent(in) :: place
-      type(pairs_draft_t), intent(in) :: known
+      type(pairs_context_t), intent(in) :: known
       type(number_list_t) :: shared
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: i, k
@@ -234,7 +236,7 @@ contains
 
    !> A node belongs to a master.
    pure logical function is_on(known, node, master)
-      type(pairs_draft_t), intent(in) :: known
+      type(pairs_context_t), intent(in) :: known
       integer(ip), intent(in) :: node, master
       integer(ip) :: k
 
@@ -245,9 +247,9 @@ contains
    end function is_on
 
    !> Tells of interactions that no pair has; for models without any error.
-   subroutine note_unused_interactions(model, draft)
+   subroutine note_unused_interactions(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       logical :: is_used(size(model%interactions))
       integer(ip) :: i
 
@@ -255,24 +257,24 @@ contains
       is_used(model%pairs%interaction) = .true.
       do i = 1, size(model%interactions, kind=ip)
          if (is_used(i)) cycle
-         call report_note(draft%deck, draft%interactions(i), 'N-UNUSED', 'no contact pair uses the surface interaction '// &
+         call report_note(context%deck, context%interactions(i), 'N-UNUSED', 'no contact pair uses the surface interaction '// &
                           model%interactions(i)%name, keyword='CONTACT PAIR')
       end do
    end subroutine note_unused_interactions
 
    !> Judges the points of each pair; for models without any error.
-   subroutine check_points_of_pairs(model, draft)
+   subroutine check_points_of_pairs(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       logical :: is_judged(size(model%interactions))         ! its radius, too small for some points, was told of
       integer(ip) :: i
 
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
          if (model%points(i)%n == 0) then
-            call report_blind(draft%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, draft%slaves(i))
+            call report_blind(context%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, context%slaves(i))
          else
-            call judge_points(draft, model, i, model%points(i), is_judged(model%pairs(i)%interaction))
+            call judge_points(context, model, i, model%points(i), is_judged(model%pairs(i)%interaction))
          end if
       end do
    end subroutine check_points_of_pairs
@@ -293,21 +295,22 @@ contains
                         'at its left', keyword='CONTACT PAIR')
    end subroutine report_blind
 
-   subroutine judge_points(draft, model, i, points, is_judged)
-      type(draft_t), intent(in) :: draft
+   subroutine judge_points(context, model, i, points, is_judged)
+      type(build_context_t), intent(in) :: context
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
       type(contact_points_t), intent(in) :: points
       logical, intent(inout) :: is_judged              !< of the interaction
 
-      if (points%n_left_out > 0) call report_note(draft%deck, draft%slaves(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
+      if (points%n_left_out > 0) call report_note(context%deck, context%slaves(i), 'N-LEFT-OUT', &
+                                                  to_text(points%n_left_out)//' of '// &
                to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
       if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) then
-         call report_error(draft%deck, draft%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides '//of_pair(model, i)// &
+         call report_error(context%deck, context%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides '//of_pair(model, i)// &
                            'do not match, and MORTAR, the quadrature for such sides, is not built yet', &
                            expected='QUADRATURE=NODAL, or sides whose nodes face each other', keyword='CONTACT PAIR')
       end if
-      if (.not. is_judged) call judge_radius(draft%deck, draft%interactions(model%pairs(i)%interaction), &
+      if (.not. is_judged) call judge_radius(context%deck, context%interactions(model%pairs(i)%interaction), &
                                              model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)
    end subroutine judge_points
 

@@ -2,7 +2,7 @@
 !> nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes.
 module atrito_check_edges
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_token, ids_text
+   use atrito_build_context, only: build_context_t, place_token, ids_text
    use atrito_element_table, only: SHAPES, DEGREE_OF
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t, side_count, face_end, middle_node
@@ -15,9 +15,9 @@ module atrito_check_edges
 contains
 
    !> Reports the elements that do not fit their neighbours, all in one message.
-   subroutine check_edges(model, draft)
+   subroutine check_edges(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       logical, allocatable :: misfit(:)
       type(number_list_t) :: ids
       integer(ip) :: e, first
@@ -25,14 +25,14 @@ contains
       if (all(DEGREE_OF(model%mesh%shape(:model%mesh%n_elements)) == 1)) return
       allocate (misfit(model%mesh%n_elements), source=.false.)
       do e = 1, model%mesh%n_elements
-         if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, draft, e, misfit)
+         if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, context, e, misfit)
       end do
       first = findloc(misfit, .true., dim=1, kind=ip)
       if (first == 0) return
       do e = first, model%mesh%n_elements
          if (misfit(e)) call add_number(ids, model%mesh%element_id(e))
       end do
-      call report_error(draft%deck, place_token(draft%deck, draft%element_place(first)), 'E-EDGE', 'element '// &
+      call report_error(context%deck, place_token(context%deck, context%element_place(first)), 'E-EDGE', 'element '// &
                         ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
                         expected='elements of one order and size on both sides of an edge (CPE4 or CPE9, CPS4 or CPS9), '// &
                         'or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
@@ -40,24 +40,24 @@ contains
 
    !> Marks the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its middle
    !> as something else than the middle of the same edge; of two such elements the one that comes later.
-   pure subroutine compare_neighbours(mesh, draft, element, misfit)
+   pure subroutine compare_neighbours(mesh, context, element, misfit)
       type(mesh_t), intent(in) :: mesh
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: element
       logical, intent(inout) :: misfit(:)
       integer(ip) :: face, k, other, middle
 
       do face = 1, side_count(mesh, element)
          associate (a => mesh%nodes(face, element), b => mesh%nodes(face_end(mesh, element, face), element), &
-                    first => draft%around%first)
+                    first => context%around%first)
             middle = middle_node(mesh, element, face)
             do k = first(middle), first(middle + 1) - 1
-               other = draft%around%list(k)
+               other = context%around%list(k)
                if (other == element .or. has_edge(mesh, other, b, a, middle)) cycle
                misfit(max(element, other)) = .true.
             end do
             do k = first(a), first(a + 1) - 1
-               other = draft%around%list(k)
+               other = context%around%list(k)
                if (.not. has_edge(mesh, other, b, a) .or. has_edge(mesh, other, b, a, middle)) cycle
                misfit(max(element, other)) = .true.
             end do

@@ -4,7 +4,7 @@ module atrito_check_mesh
    use atrito_check_shapes, only: check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
-   use atrito_draft, only: draft_t, place_token, ids_text, has_errors
+   use atrito_build_context, only: build_context_t, place_token, ids_text, has_errors
    use atrito_element_table, only: SHAPES, STATES, can_average
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
@@ -22,32 +22,32 @@ module atrito_check_mesh
 contains
 
    !> Reports what is wrong with the mesh of a model whose cards have all been read.
-   subroutine check_mesh(model, draft)
+   subroutine check_mesh(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
 
       if (model%mesh%n_elements == 0) then
-         if (.not. has_errors()) call report_deck_error(draft%deck, 'E-EMPTY', 'the deck has no elements', &
+         if (.not. has_errors()) call report_deck_error(context%deck, 'E-EMPTY', 'the deck has no elements', &
                                                         expected='*ELEMENT or *BLOCK', keyword='BLOCK')
          return
       end if
-      call check_shapes(model%mesh, draft)
-      if (.not. is_refined(draft%refinement)) call check_edges(model, draft)
-      call check_sections(model, draft)
-      call check_materials(model, draft)
-      call note_formulations(model, draft)
-      call note_loose_nodes(model, draft)
+      call check_shapes(model%mesh, context)
+      if (.not. is_refined(context%refinement)) call check_edges(model, context)
+      call check_sections(model, context)
+      call check_materials(model, context)
+      call note_formulations(model, context)
+      call note_loose_nodes(model, context)
    end subroutine check_mesh
 
    !> Every element has a section.
-   subroutine check_sections(model, draft)
+   subroutine check_sections(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(number_list_t) :: without
       type(token_t) :: place
       integer(ip) :: e, first
 
-      if (draft%sections_unsure .and. has_errors()) return
+      if (context%sections_undetermined .and. has_errors()) return
       first = 0
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) /= 0) cycle
@@ -55,15 +55,15 @@ contains
          call add_number(without, model%mesh%element_id(e))
       end do
       if (first == 0) return
-      place = place_token(draft%deck, draft%element_place(first))
-      call report_error(draft%deck, place, 'E-SECTION', 'no *SOLID SECTION for element '//ids_text(numbers_of(without)), &
+      place = place_token(context%deck, context%element_place(first))
+      call report_error(context%deck, place, 'E-SECTION', 'no *SOLID SECTION for element '//ids_text(numbers_of(without)), &
                         expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
    end subroutine check_sections
 
    !> Materials in use have their constants, which fit the elements.
-   subroutine check_materials(model, draft)
+   subroutine check_materials(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       logical, dimension(size(model%materials)) :: strained, locks, oscillates
       integer(ip) :: e, i
 
@@ -84,13 +84,14 @@ contains
       end do
       do i = 1, size(model%materials, kind=ip)
          associate (material => model%materials(i))
-            if (.not. draft%elastic_given(i)) then
-               if (.not. (draft%elastic_spoiled(i) .and. has_errors())) then
-                  call report_error(draft%deck, draft%materials(i), 'E-MATERIAL', 'material '//material%name//' has no *ELASTIC', &
+            if (.not. context%elastic_given(i)) then
+               if (.not. (context%elastic_invalid(i) .and. has_errors())) then
+                  call report_error(context%deck, context%materials(i), 'E-MATERIAL', &
+                                    'material '//material%name//' has no *ELASTIC', &
                                     expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
                end if
-            else if (strained(i) .and. .not. draft%elastic_spoiled(i)) then
-               call check_strained(draft%deck, material%poisson, locks(i), oscillates(i), draft%poisson(i))
+            else if (strained(i) .and. .not. context%elastic_invalid(i)) then
+               call check_strained(context%deck, material%poisson, locks(i), oscillates(i), context%poisson(i))
             end if
          end associate
       end do
@@ -118,9 +119,9 @@ contains
    end subroutine check_strained
 
    !> BBAR is for four nodes in plane strain; elsewhere it changes nothing, which is told once a section.
-   subroutine note_formulations(model, draft)
+   subroutine note_formulations(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(number_list_t), allocatable :: elements(:)  ! of each section, those that it is not for
       integer(ip) :: i, e
 
@@ -134,26 +135,26 @@ contains
       end do
       do i = 1, size(model%sections, kind=ip)
          if (elements(i)%n == 0) cycle
-         call report_note(draft%deck, draft%sections(i), 'N-FORMULATION', 'FORMULATION=BBAR changes nothing in element '// &
+         call report_note(context%deck, context%sections(i), 'N-FORMULATION', 'FORMULATION=BBAR changes nothing in element '// &
                           ids_text(numbers_of(elements(i)))//' of set '//model%sections(i)%elset// &
                           ': it is for four nodes in plane strain', expected='CPE4 elements', keyword='SOLID SECTION')
       end do
    end subroutine note_formulations
 
-   subroutine note_loose_nodes(model, draft)
+   subroutine note_loose_nodes(model, context)
       type(model_t), intent(in) :: model
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(number_list_t) :: loose
       integer(ip) :: i, first
 
       first = 0
       do i = 1, model%mesh%n_nodes
-         if (draft%around%first(i + 1) > draft%around%first(i)) cycle
+         if (context%around%first(i + 1) > context%around%first(i)) cycle
          if (first == 0) first = i
          call add_number(loose, model%mesh%node_id(i))
       end do
       if (first == 0 .or. has_errors()) return
-      call report_note(draft%deck, place_token(draft%deck, draft%node_place(first)), 'N-NODE', 'node '// &
+      call report_note(context%deck, place_token(context%deck, context%node_place(first)), 'N-NODE', 'node '// &
                        ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
    end subroutine note_loose_nodes
 

@@ -2,14 +2,14 @@
 module atrito_check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_deck_error
-   use atrito_draft, only: draft_t, place_token
+   use atrito_build_context, only: build_context_t, place_token
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_end
    use atrito_messages, only: MOST_ERRORS
    use atrito_shape_functions, only: shape_gradients, shape_values, gauss_point
    use atrito_strings, only: to_text
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: check_shapes, corner_jacobians, judge_second_degree, nearest_order
@@ -23,32 +23,32 @@ module atrito_check_shapes
 
 contains
 
-   subroutine check_shapes(mesh, draft)
+   subroutine check_shapes(mesh, context)
       type(mesh_t), intent(in) :: mesh
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       logical, allocatable :: good(:)                  !< (runs of elements)
       integer(ip) :: run, first, last, e, shape, node, n
 
-      allocate (good(run_count(mesh%n_elements)))
+      allocate (good(chunk_count(mesh%n_elements)))
       !$omp parallel do default(none) private(first, last) shared(mesh, good) if(is_shared(mesh%n_elements))
       do run = 1, size(good, kind=ip)
-         call find_run(run, mesh%n_elements, first, last)
+         call find_chunk(run, mesh%n_elements, first, last)
          good(run) = all_good(mesh, first, last)
       end do
       !$omp end parallel do
       n = 0
       do run = 1, size(good, kind=ip)
          if (good(run)) cycle
-         call find_run(run, mesh%n_elements, first, last)
+         call find_chunk(run, mesh%n_elements, first, last)
          do e = first, last
             call judge_shape(mesh, e, shape, node)
             if (shape == SHAPE_GOOD) cycle
             n = n + 1
-            if (n <= MOST_ERRORS) call report_shape(draft%deck, mesh, e, shape, node, place_token(draft%deck, &
-                                                                                                  draft%element_place(e)))
+            if (n <= MOST_ERRORS) call report_shape(context%deck, mesh, e, shape, node, place_token(context%deck, &
+                                                                                                    context%element_place(e)))
          end do
       end do
-      if (n > MOST_ERRORS) call report_deck_error(draft%deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &
+      if (n > MOST_ERRORS) call report_deck_error(context%deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &
                            ' further elements are clockwise or degenerate', expected='corners counter-clockwise', keyword='ELEMENT')
    end subroutine check_shapes
 

@@ -2,7 +2,7 @@
 module atrito_contact_rules
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, place_text, has_errors
+   use atrito_build_context, only: build_context_t, place_text, has_errors
    use atrito_growth, only: resize
    use atrito_items, only: find_option, has_option, option_real
    use atrito_kinds, only: ip, lp, wp
@@ -39,26 +39,27 @@ module atrito_contact_rules
 contains
 
    !> All rules of a deck.
-   subroutine read_contact_rules(draft, rules)
-      type(draft_t), intent(in) :: draft
+   subroutine read_contact_rules(context, rules)
+      type(build_context_t), intent(in) :: context
       type(contact_rules_t), intent(out) :: rules
       integer(ip) :: i
 
-      do i = 1, draft%deck%n_cards
-         select case (keyword_name(draft%deck%cards(i)))
+      do i = 1, context%deck%n_cards
+         select case (keyword_name(context%deck%cards(i)))
          case ('CONTACT')
-            call read_contact_card(draft%deck, draft%deck%cards(i), rules)
+            call read_contact_card(context%deck, context%deck%cards(i), rules)
          case ('CONTACT INCLUSIONS')
-            if (has_option(draft%deck, draft%deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, ANY_BODY, 1_ip)
-            call read_lines(draft%deck%cards(i), draft, rules%included)
+            if (has_option(context%deck, context%deck%cards(i), 'ALL EXTERIOR')) call add_rule(rules%included, ANY_BODY, &
+                                                                                               ANY_BODY, 1_ip)
+            call read_lines(context%deck%cards(i), context, rules%included)
          case ('CONTACT EXCLUSIONS')
-            call read_lines(draft%deck%cards(i), draft, rules%excluded)
+            call read_lines(context%deck%cards(i), context, rules%excluded)
          case ('CONTACT PROPERTY ASSIGNMENT')
-            call read_lines(draft%deck%cards(i), draft, rules%assigned)
+            call read_lines(context%deck%cards(i), context, rules%assigned)
          end select
       end do
       if (.not. rules%given .or. rules%included%n > 0 .or. has_errors()) return
-      call report_error(draft%deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
+      call report_error(context%deck, rules%place, 'E-MISSING', '*CONTACT includes nothing', &
                         expected='*CONTACT INCLUSIONS, ALL EXTERIOR, or lines of surfaces', keyword='CONTACT INCLUSIONS')
    end subroutine read_contact_rules
 
@@ -86,33 +87,33 @@ contains
    end subroutine read_contact_card
 
    !> Lines of two surfaces, and of an interaction where one belongs.
-   subroutine read_lines(card, draft, rules)
+   subroutine read_lines(card, context, rules)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(rule_list_t), intent(inout) :: rules
       integer(ip) :: i, surface(2), value
       logical :: ok(3)
 
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (.not. draft%deck%lines(i)%ok) cycle
-         associate (line => draft%deck%lines(i))
-            call find_surface(card, line_item(draft%deck, line, 1_ip), draft, ANY_BODY, surface(1), ok(1))
-            call find_surface(card, line_item(draft%deck, line, 2_ip), draft, surface(1), surface(2), ok(2))
+         if (.not. context%deck%lines(i)%ok) cycle
+         associate (line => context%deck%lines(i))
+            call find_surface(card, line_item(context%deck, line, 1_ip), context, ANY_BODY, surface(1), ok(1))
+            call find_surface(card, line_item(context%deck, line, 2_ip), context, surface(1), surface(2), ok(2))
             value = 1
             ok(3) = .true.
             if (keyword_name(card) == 'CONTACT PROPERTY ASSIGNMENT') then
-               call find_interaction(line_item(draft%deck, line, 3_ip), draft, value, ok(3))
+               call find_interaction(line_item(context%deck, line, 3_ip), context, value, ok(3))
             end if
-            if (all(ok(:2))) ok(1) = has_body(draft%deck, card, line, draft%model, surface)
+            if (all(ok(:2))) ok(1) = has_body(context%deck, card, line, context%model, surface)
             if (all(ok)) call add_rule(rules, surface(1), surface(2), value)
          end associate
       end do
    end subroutine read_lines
 
-   subroutine find_surface(card, token, draft, default, surface, ok)
+   subroutine find_surface(card, token, context, default, surface, ok)
       type(card_t), intent(in) :: card
       type(token_t), intent(in) :: token
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: default             !< of an empty item
       integer(ip), intent(out) :: surface            !< place, or ANY_BODY
       logical, intent(out) :: ok                     !< .false.: unknown, reported
@@ -120,15 +121,17 @@ contains
       surface = default
       ok = .true.
       if (is_empty_token(token)) return
-      surface = find_name(draft%surface_names, token_text(draft%deck, token))
+      surface = find_name(context%surface_names, token_text(context%deck, token))
       ok = surface > 0
       if (.not. ok) then
-         call report_unknown(draft, token, 'surface', 'E-SURFACE', draft%surface_names, keyword_name(card))
-      else if (draft%model%surfaces(surface)%kind == SURFACE_SEGMENTS .and. .not. draft%model%surfaces(surface)%is_rigid_body) then
-         if (draft%rigid_unsure .and. has_errors()) return
+         call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, keyword_name(card))
+      else if (context%model%surfaces(surface)%kind == SURFACE_SEGMENTS &
+               .and. .not. context%model%surfaces(surface)%is_rigid_body) then
+         if (context%rigid_undetermined .and. has_errors()) return
          ok = .false.
-         call report_error(draft%deck, token, 'E-PAIR', 'the drawn surface '//draft%model%surfaces(surface)%name// &
-                           ' belongs to no body', expected='*RIGID BODY, ANALYTICAL SURFACE='//draft%model%surfaces(surface)%name, &
+         call report_error(context%deck, token, 'E-PAIR', 'the drawn surface '//context%model%surfaces(surface)%name// &
+                           ' belongs to no body', &
+                           expected='*RIGID BODY, ANALYTICAL SURFACE='//context%model%surfaces(surface)%name, &
                            keyword='RIGID BODY')
       end if
    end subroutine find_surface
@@ -155,15 +158,15 @@ contains
                                             keyword=keyword_name(card))
    end function has_body
 
-   subroutine find_interaction(token, draft, interaction, ok)
+   subroutine find_interaction(token, context, interaction, ok)
       type(token_t), intent(in) :: token
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       integer(ip), intent(out) :: interaction
       logical, intent(out) :: ok
 
-      interaction = find_name(draft%interaction_names, token_text(draft%deck, token))
+      interaction = find_name(context%interaction_names, token_text(context%deck, token))
       ok = interaction > 0
-      if (.not. ok) call report_unknown(draft, token, 'surface interaction', 'E-INTERACTION', draft%interaction_names, &
+      if (.not. ok) call report_unknown(context, token, 'surface interaction', 'E-INTERACTION', context%interaction_names, &
                                         'CONTACT PROPERTY ASSIGNMENT')
    end subroutine find_interaction
 

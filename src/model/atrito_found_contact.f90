@@ -5,7 +5,7 @@ module atrito_found_contact
    use atrito_contact_rules, only: contact_rules_t, rule_list_t, add_rule, last_rule, sort_rules, ANY_BODY
    use atrito_deck, only: deck_t
    use atrito_diagnostics, only: report_note, report_warning
-   use atrito_draft, only: draft_t, keep_token
+   use atrito_build_context, only: build_context_t, keep_token
    use atrito_faces, only: face_list_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
@@ -46,50 +46,50 @@ module atrito_found_contact
 contains
 
    !> Adds pairs to those that the deck gives, each with a surface for its slave; for models without any error.
-   subroutine find_contact(rules, draft)
+   subroutine find_contact(rules, context)
       type(contact_rules_t), intent(inout) :: rules
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(search_t) :: search
       type(chains_t) :: chains
 
       if (.not. rules%given) return
-      call begin_search(draft, rules, search)
-      call choose_parties(draft%model, rules, search)
-      call choose_slaves(draft%model, search)
+      call begin_search(context, rules, search)
+      call choose_parties(context%model, rules, search)
+      call choose_slaves(context%model, search)
       call make_chains(search, chains)
-      call make_pairs(rules, search, chains, draft)
-      call tell_what_was_found(draft%deck, rules, search, chains)
+      call make_pairs(rules, search, chains, context)
+      call tell_what_was_found(context%deck, rules, search, chains)
    end subroutine find_contact
 
-   subroutine begin_search(draft, rules, search)
-      type(draft_t), intent(in) :: draft
+   subroutine begin_search(context, rules, search)
+      type(build_context_t), intent(in) :: context
       type(contact_rules_t), intent(inout) :: rules
       type(search_t), intent(out) :: search
       integer(ip) :: i
 
-      call find_bodies(draft%model%mesh, search%bodies)
-      call name_bodies(draft%model, search%bodies)
-      call list_outlines(draft%model%mesh, draft%around, search%bodies%of_element, search%outlines)
+      call find_bodies(context%model%mesh, search%bodies)
+      call name_bodies(context%model, search%bodies)
+      call list_outlines(context%model%mesh, context%around, search%bodies%of_element, search%outlines)
       associate (n => search%outlines%faces%n)
          call list_holders(search%bodies%n, reshape(search%outlines%body, [1_ip, n]), search%first, search%of_body)
          allocate (search%other(n), search%law(n), source=0_ip)
          allocate (search%is_slave(n), source=.false.)
       end associate
-      call list_rigid(draft%model, rules%included, search%rigid)
+      call list_rigid(context%model, rules%included, search%rigid)
       allocate (search%masters(search%bodies%n + size(search%rigid)))
       do i = 1, size(search%rigid, kind=ip)
-         associate (surface => draft%model%surfaces(search%rigid(i)))
+         associate (surface => context%model%surfaces(search%rigid(i)))
             call master_of_segments(surface%points, search%masters(search%bodies%n + i), surface%is_arc, surface%centre)
          end associate
       end do
       ! what the deck gives as a pair is not to be found a second time
-      do i = 1, size(draft%model%pairs, kind=ip)
-         call add_rule(rules%excluded, draft%model%pairs(i)%slave, draft%model%pairs(i)%master, i)
+      do i = 1, size(context%model%pairs, kind=ip)
+         call add_rule(rules%excluded, context%model%pairs(i)%slave, context%model%pairs(i)%master, i)
       end do
       call sort_rules(rules%included)
       call sort_rules(rules%excluded)
       call sort_rules(rules%assigned)
-      call list_surfaces(draft%model, rules, search)
+      call list_surfaces(context%model, rules, search)
    end subroutine begin_search
 
    !> The rigid surfaces that are included, each once.
@@ -393,19 +393,19 @@ contains
    end subroutine follow_chain
 
    !> A pair for each chain, with a surface for its slave; the outline of a body is the master of all pairs that need it.
-   subroutine make_pairs(rules, search, chains, draft)
+   subroutine make_pairs(rules, search, chains, context)
       type(contact_rules_t), intent(in) :: rules
       type(search_t), intent(in) :: search
       type(chains_t), intent(in) :: chains
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(surface_t), allocatable :: surfaces(:)
       type(pair_t) :: pairs(chains%n)
       integer(ip) :: surface_of(size(search%masters)), number(chains%n), default_law, i, n
 
-      call provide_law(rules, search, draft, default_law)
-      n = size(draft%model%surfaces, kind=ip)
+      call provide_law(rules, search, context, default_law)
+      n = size(context%model%surfaces, kind=ip)
       allocate (surfaces(n + chains%n + search%bodies%n))
-      surfaces(:n) = draft%model%surfaces
+      surfaces(:n) = context%model%surfaces
       surface_of = 0
       surface_of(search%bodies%n + 1:) = search%rigid
       number = count_alike(search, chains)
@@ -430,11 +430,11 @@ contains
          end associate
          pairs(i)%outline = chains%outline(i)
          pairs(i)%quadrature_given = rules%quadrature_given
-         call keep_token(draft%slaves, size(draft%model%pairs, kind=ip) + i, rules%place)
-         call keep_token(draft%masters, size(draft%model%pairs, kind=ip) + i, rules%place)
+         call keep_token(context%slaves, size(context%model%pairs, kind=ip) + i, rules%place)
+         call keep_token(context%masters, size(context%model%pairs, kind=ip) + i, rules%place)
       end do
-      draft%model%surfaces = surfaces(:n)
-      draft%model%pairs = [draft%model%pairs, pairs]
+      context%model%surfaces = surfaces(:n)
+      context%model%pairs = [context%model%pairs, pairs]
    end subroutine make_pairs
 
    !> Of the chains of the same slave and the same other party the first, the second, ...
@@ -457,18 +457,18 @@ contains
    end function count_alike
 
    !> The law of pairs to which none is assigned, where there are such pairs.
-   subroutine provide_law(rules, search, draft, law)
+   subroutine provide_law(rules, search, context, law)
       type(contact_rules_t), intent(in) :: rules
       type(search_t), intent(in) :: search
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(out) :: law                        !< place of the interaction; 0: all pairs have one
 
       law = 0
       if (.not. any(search%is_slave .and. search%law == 0)) return
-      draft%model%interactions = [draft%model%interactions, interaction_t(name='(default)')]
-      law = size(draft%model%interactions, kind=ip)
-      call keep_token(draft%interactions, law, rules%place)
-      call report_note(draft%deck, rules%place, 'N-DEFAULT-LAW', 'no interaction is assigned to some of the contact that is '// &
+      context%model%interactions = [context%model%interactions, interaction_t(name='(default)')]
+      law = size(context%model%interactions, kind=ip)
+      call keep_token(context%interactions, law, rules%place)
+      call report_note(context%deck, rules%place, 'N-DEFAULT-LAW', 'no interaction is assigned to some of the contact that is '// &
                        'found: it is hard and without friction', keyword='CONTACT PROPERTY ASSIGNMENT')
    end subroutine provide_law
 

@@ -91,7 +91,7 @@ module atrito_model
       real(wp) :: tolerance = 1.0e-10_wp            !< of the outer loop
       integer(ip) :: max_iterations = 100           !< outer iterations
       real(wp) :: relaxation = 1.0_wp               !< of PICARD, 0 < r <= 1
-      logical :: is_coarse = .false.                !< box_problem_t%is_coarse: states that round-off turns to and fro
+      logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
    end type controls_t
 

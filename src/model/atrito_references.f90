@@ -3,7 +3,7 @@
 module atrito_references
    use atrito_deck, only: deck_t, token_t, token_text, is_id_token
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, is_spoiled, is_unsure, has_errors
+   use atrito_build_context, only: build_context_t, is_invalid, is_undetermined, has_errors
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, get_name
    use atrito_kinds, only: ip
@@ -36,8 +36,8 @@ contains
    end subroutine get_id
 
    !> The place of the node whose number an item is.
-   subroutine find_one_node(draft, token, node, ok, keyword)
-      type(draft_t), intent(in) :: draft
+   subroutine find_one_node(context, token, node, ok, keyword)
+      type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       integer(ip), intent(out) :: node
       logical, intent(out) :: ok
@@ -45,20 +45,20 @@ contains
       integer(ip) :: id
 
       node = 0
-      call get_id(draft%deck, token, 'node number', id, ok, keyword)
+      call get_id(context%deck, token, 'node number', id, ok, keyword)
       if (.not. ok) return
-      node = find_node(draft%model%mesh, id)
+      node = find_node(context%model%mesh, id)
       ok = node > 0
       if (ok) return
-      if (has_errors() .and. find_id(draft%spoiled_nodes, id) > 0 .or. is_unsure(draft, 'node')) return
-      call report_error(draft%deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
+      if (has_errors() .and. find_id(context%invalid_nodes, id) > 0 .or. is_undetermined(context, 'node')) return
+      call report_error(context%deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
                         expected='the number of a node that *NODE, *NGEN, *NFILL or *BLOCK defines ('// &
-                        range_text(draft%model%mesh%n_nodes, 'node', draft%greatest_node)//')', keyword=keyword)
+                        range_text(context%model%mesh%n_nodes, 'node', context%greatest_node)//')', keyword=keyword)
    end subroutine find_one_node
 
    !> The place of the element whose number an item is, in the mesh of the deck.
-   subroutine find_one_element(draft, token, element, ok, keyword)
-      type(draft_t), intent(in) :: draft
+   subroutine find_one_element(context, token, element, ok, keyword)
+      type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       integer(ip), intent(out) :: element
       logical, intent(out) :: ok
@@ -66,19 +66,19 @@ contains
       integer(ip) :: id
 
       element = 0
-      call get_id(draft%deck, token, 'element number', id, ok, keyword)
+      call get_id(context%deck, token, 'element number', id, ok, keyword)
       if (.not. ok) return
-      if (is_refined(draft%refinement)) then
-         element = find_id(draft%deck_elements, id)
+      if (is_refined(context%refinement)) then
+         element = find_id(context%deck_elements, id)
       else
-         element = find_element(draft%model%mesh, id)
+         element = find_element(context%model%mesh, id)
       end if
       ok = element > 0
       if (ok) return
-      if (has_errors() .and. find_id(draft%spoiled_elements, id) > 0 .or. is_unsure(draft, 'element')) return
-      call report_error(draft%deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
+      if (has_errors() .and. find_id(context%invalid_elements, id) > 0 .or. is_undetermined(context, 'element')) return
+      call report_error(context%deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
                         expected='the number of an element that *ELEMENT, *ELGEN or *BLOCK defines ('// &
-                        range_text(draft%model%mesh%n_elements, 'element', draft%greatest_element)//')', keyword=keyword)
+                        range_text(context%model%mesh%n_elements, 'element', context%greatest_element)//')', keyword=keyword)
    end subroutine find_one_element
 
    pure function range_text(n, noun, greatest) result(text)
@@ -94,43 +94,43 @@ contains
    end function range_text
 
    !> The places of the nodes that an item names: a number or a node set.
-   subroutine find_nodes(draft, token, members, ok, keyword)
-      type(draft_t), intent(in) :: draft
+   subroutine find_nodes(context, token, members, ok, keyword)
+      type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       integer(ip), allocatable, intent(out) :: members(:)
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
       integer(ip) :: node
 
-      if (is_id_token(draft%deck, token)) then
-         call find_one_node(draft, token, node, ok, keyword)
+      if (is_id_token(context%deck, token)) then
+         call find_one_node(context, token, node, ok, keyword)
          members = pack([node], [ok])
       else
-         call find_members(draft%model%node_sets, draft, token, 'node', members, ok, keyword)
+         call find_members(context%model%node_sets, context, token, 'node', members, ok, keyword)
       end if
    end subroutine find_nodes
 
    !> The places of the elements that an item names: a number or an element set.
-   subroutine find_elements(draft, token, members, ok, keyword)
-      type(draft_t), intent(in) :: draft
+   subroutine find_elements(context, token, members, ok, keyword)
+      type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       integer(ip), allocatable, intent(out) :: members(:)
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
       integer(ip) :: element
 
-      if (is_id_token(draft%deck, token)) then
-         call find_one_element(draft, token, element, ok, keyword)
+      if (is_id_token(context%deck, token)) then
+         call find_one_element(context, token, element, ok, keyword)
          members = pack([element], [ok])
-         if (is_refined(draft%refinement)) members = fine_elements(draft%refinement, members)
+         if (is_refined(context%refinement)) members = fine_elements(context%refinement, members)
       else
-         call find_members(draft%model%element_sets, draft, token, 'element', members, ok, keyword)
+         call find_members(context%model%element_sets, context, token, 'element', members, ok, keyword)
       end if
    end subroutine find_elements
 
-   subroutine find_members(list, draft, token, noun, members, ok, keyword)
+   subroutine find_members(list, context, token, noun, members, ok, keyword)
       type(set_list_t), intent(in) :: list
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
       integer(ip), allocatable, intent(out) :: members(:)
@@ -140,20 +140,20 @@ contains
       integer(ip) :: i
 
       members = [integer(ip) ::]
-      call get_name(draft%deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
+      call get_name(context%deck, token, noun//' number, or name of a set', name, ok, keyword=keyword)
       if (.not. ok) return
       i = find_set(list, name)
       ok = i > 0
       if (ok) then
          members = list%sets(i)%members
       else
-         call report_unknown(draft, token, noun//' set', 'E-SET', list%names, keyword)
+         call report_unknown(context, token, noun//' set', 'E-SET', list%names, keyword)
       end if
    end subroutine find_members
 
    !> An unknown name, unless an earlier error explains it.
-   subroutine report_unknown(draft, token, noun, id, known, keyword)
-      type(draft_t), intent(in) :: draft
+   subroutine report_unknown(context, token, noun, id, known, keyword)
+      type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: noun             !< what should have this name, e.g. 'element set'
       character(len=*), intent(in) :: id
@@ -161,15 +161,15 @@ contains
       character(len=*), intent(in) :: keyword
       character(len=:), allocatable :: expected
 
-      if (is_spoiled(draft, token_text(draft%deck, token)) .or. is_unsure(draft, noun)) return
+      if (is_invalid(context, token_text(context%deck, token)) .or. is_undetermined(context, noun)) return
       expected = 'name of '//article(noun)//noun//' of this deck'
       if (known%n == 0) expected = expected//'; there is none'
       if (has_room(SEVERITY_ERROR)) then
-         call report_error(draft%deck, token, id, 'unknown '//noun//' '//token_text(draft%deck, token), expected=expected, &
+         call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token), expected=expected, &
                            known=names_of(known), keyword=keyword)
       else
          ! it is only counted: no need to list the names that there are
-         call report_error(draft%deck, token, id, 'unknown '//noun//' '//token_text(draft%deck, token))
+         call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token))
       end if
    end subroutine report_unknown
 

@@ -4,7 +4,7 @@ module atrito_refine_model
    use atrito_build_nodes, only: MOST_NODES
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
-   use atrito_draft, only: draft_t, note_place
+   use atrito_build_context, only: build_context_t, note_place
    use atrito_element_table, only: DEGREE_OF
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
@@ -21,79 +21,79 @@ contains
 
    !> Replaces the mesh, and the members of all sets. A mesh that would be too large is reported and left as it is. Of a nine-node
    !> element come four of four nodes, on the same nodes; of one of four nodes comes one of nine.
-   subroutine refine_model(levels, shape, draft)
+   subroutine refine_model(levels, shape, context)
       integer(ip), intent(in) :: levels                !< >= 0; each quadrilateral into 4**levels
       integer(ip), intent(in) :: shape                 !< for all elements, place in SHAPES; 0: their own
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       type(mesh_t) :: coarse
       integer(ip) :: i, pieces
 
       pieces = 2**levels
-      if (DEGREE_OF(max(shape, 1_ip)) == 1 .and. any(DEGREE_OF(draft%model%mesh%shape) > 1)) then
+      if (DEGREE_OF(max(shape, 1_ip)) == 1 .and. any(DEGREE_OF(context%model%mesh%shape) > 1)) then
          pieces = 2*pieces
-         if (any(DEGREE_OF(draft%model%mesh%shape) == 1)) then
-            call report_deck_error(draft%deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
+         if (any(DEGREE_OF(context%model%mesh%shape) == 1)) then
+            call report_deck_error(context%deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
                                    expected='a mesh of one kind')
             return
          end if
       end if
-      if (.not. is_possible(levels, pieces, shape, draft)) return
-      coarse = draft%model%mesh
-      call refine_mesh(coarse, draft%around, pieces, shape, draft%model%mesh, draft%refinement)
-      draft%model%levels = levels
-      do i = 1, set_count(draft%model%node_sets)
-         associate (set => draft%model%node_sets%sets(i))
-            set%members = fine_nodes(coarse, draft%refinement, set%members)
+      if (.not. is_possible(levels, pieces, shape, context)) return
+      coarse = context%model%mesh
+      call refine_mesh(coarse, context%around, pieces, shape, context%model%mesh, context%refinement)
+      context%model%levels = levels
+      do i = 1, set_count(context%model%node_sets)
+         associate (set => context%model%node_sets%sets(i))
+            set%members = fine_nodes(coarse, context%refinement, set%members)
          end associate
       end do
-      do i = 1, set_count(draft%model%element_sets)
-         associate (set => draft%model%element_sets%sets(i))
-            set%members = fine_elements(draft%refinement, set%members)
+      do i = 1, set_count(context%model%element_sets)
+         associate (set => context%model%element_sets%sets(i))
+            set%members = fine_elements(context%refinement, set%members)
          end associate
       end do
-      draft%deck_elements = coarse%element_map
-      call keep_places(coarse, draft%model%mesh, draft)
-      draft%around = list_node_elements(draft%model%mesh)
+      context%deck_elements = coarse%element_map
+      call keep_places(coarse, context%model%mesh, context)
+      context%around = list_node_elements(context%model%mesh)
    end subroutine refine_model
 
    !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
-   logical function is_possible(levels, pieces, shape, draft)
+   logical function is_possible(levels, pieces, shape, context)
       integer(ip), intent(in) :: levels, pieces, shape
-      type(draft_t), intent(in) :: draft
+      type(build_context_t), intent(in) :: context
       type(token_t) :: nowhere
       integer(lp) :: n, greatest
 
-      n = count_fine_nodes(draft%model%mesh, pieces, shape)
-      greatest = maxval(draft%model%mesh%node_id(:draft%model%mesh%n_nodes))
+      n = count_fine_nodes(context%model%mesh, pieces, shape)
+      greatest = maxval(context%model%mesh%node_id(:context%model%mesh%n_nodes))
       is_possible = n <= int(MOST_NODES, lp)
       if (.not. is_possible) then
-         call report_deck_error(draft%deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
+         call report_deck_error(context%deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
                                 ' nodes', expected='a smaller number: each one more makes four elements of one')
          return
       end if
-      is_possible = greatest + (n - int(draft%model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
-      if (.not. is_possible) call report_deck_error(draft%deck, 'E-REFINE', '--refine '//to_text(levels)// &
+      is_possible = greatest + (n - int(context%model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
+      if (.not. is_possible) call report_deck_error(context%deck, 'E-REFINE', '--refine '//to_text(levels)// &
                           ': the numbers of the new '//'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
                                                     expected='smaller node numbers')
-      if (is_possible) is_possible = fits_memory(nowhere, draft, n, int(draft%model%mesh%n_elements, lp)*int(pieces, &
-                                                                                                             lp)**2)
+      if (is_possible) is_possible = fits_memory(nowhere, context, n, int(context%model%mesh%n_elements, lp)*int(pieces, &
+                                                                                                                 lp)**2)
    end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.
-   subroutine keep_places(coarse, fine, draft)
+   subroutine keep_places(coarse, fine, context)
       type(mesh_t), intent(in) :: coarse, fine
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: places(coarse%n_elements), e, k, node, children
 
-      places = draft%element_place(:coarse%n_elements)
-      children = draft%refinement%pieces**2
-      call note_place(draft%node_place, fine%n_nodes, 0_ip)
-      draft%node_place(coarse%n_nodes + 1:) = 0
+      places = context%element_place(:coarse%n_elements)
+      children = context%refinement%pieces**2
+      call note_place(context%node_place, fine%n_nodes, 0_ip)
+      context%node_place(coarse%n_nodes + 1:) = 0
       do e = fine%n_elements, 1, -1
-         call note_place(draft%element_place, e, places((e - 1)/children + 1))
+         call note_place(context%element_place, e, places((e - 1)/children + 1))
          do k = 1, fine%shape(e)
             node = fine%nodes(k, e)
-            if (node > coarse%n_nodes) draft%node_place(node) = draft%element_place(e)
+            if (node > coarse%n_nodes) context%node_place(node) = context%element_place(e)
          end do
       end do
    end subroutine keep_places

@@ -5,7 +5,7 @@ module atrito_results
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
-   public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, chatter_t
+   public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
    public :: body_motion_t, joint_t
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
@@ -32,21 +32,21 @@ module atrito_results
    end type contact_result_t
 
    !> A contact point that changes its state from one outer iteration to the next.
-   type :: chatter_t
+   type :: unsettled_t
       integer(ip) :: pair = 0, point = 0, node = 0  !< node: the user's number
       real(wp) :: x(2) = 0.0_wp                     !< [L]
       character(len=8) :: states = ' '              !< at the end of the last ones, oldest first: o open, c closed without
       !< friction, = sticking, + slipping along T, - against it
-   end type chatter_t
+   end type unsettled_t
 
    !> How a body was handled.
    type :: body_result_t
       character(len=:), allocatable :: name
       integer(ip) :: n_nodes = 0, n_elements = 0, n_equations = 0, n_contact_equations = 0
       integer(ip) :: n_free_motions = 0             !< rigid motions left by the supports
-      integer :: storage_kind = 0                   !< one of STORAGE_*; 0: not chosen yet
-      character(len=:), allocatable :: storage      !< its name
-      character(len=:), allocatable :: reason       !< why this storage
+      integer :: solver_kind = 0                   !< one of STORAGE_*; 0: not chosen yet
+      character(len=:), allocatable :: solver      !< its name
+      character(len=:), allocatable :: reason       !< why this solver
       character(len=:), allocatable :: order        !< how the order of the sparse solver was found
       integer(lp) :: profile = 0, memory = 0        !< entries; bytes
       integer(lp) :: most_memory = 0                !< bytes while it is factored
@@ -132,7 +132,7 @@ module atrito_results
       real(wp) :: error_estimate = 0.0_wp           !< of the stresses, in the energy norm, relative [%]; Zienkiewicz and Zhu
       type(iteration_t), allocatable :: iterations(:)
       integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
-      type(chatter_t), allocatable :: chatter(:)    !< of a run that did not converge, the most restless first
+      type(unsettled_t), allocatable :: unsettled(:)    !< of a run that did not converge, the most restless first
       real(wp) :: contraction = 0.0_wp              !< measured rate of the outer loop; 0 unknown
       real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions
       real(wp) :: equilibrium_residual = 0.0_wp

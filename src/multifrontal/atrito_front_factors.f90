@@ -20,7 +20,7 @@ module atrito_front_factors
 
    !> The factor of a class of fronts.
    type :: factor_t
-      integer(ip) :: order = 0, n_pivots = 0     !< the last class, of the kept equations, has no pivots
+      integer(ip) :: order = 0, n_pivots = 0     !< the last class, of the retained equations, has no pivots
       real(wp), allocatable :: columns(:)        !< those of L, packed from the diagonal down
       real(wp), allocatable :: update(:)         !< what is left of the border, packed, until the last parent has taken it
       logical :: done = .false.                  !< with usable pivots
@@ -68,16 +68,16 @@ module atrito_front_factors
 contains
 
    !> Finds the fronts of a matrix, their classes and their sizes; nothing is factored. `enough` of the fronts tells of the memory.
-   subroutine plan_fronts(elimination, n, n_kept, store, fronts)
+   subroutine plan_fronts(elimination, n, n_retained, store, fronts)
       type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_kept       !< equations; the last ones of them, which are not eliminated
+      integer(ip), intent(in) :: n, n_retained       !< equations; the last ones of them, which are not eliminated
       type(element_store_t), intent(in) :: store
       type(fronts_t), intent(out) :: fronts
       real(wp), allocatable :: entries(:)
       integer(ip) :: c
       integer :: no_memory
 
-      call build_front_tree(elimination, n, n_kept, store, fronts%front_tree_t)
+      call build_front_tree(elimination, n, n_retained, store, fronts%front_tree_t)
       if (.not. fronts%enough) return
       allocate (fronts%factors(fronts%n_classes), fronts%waiting(fronts%n_classes), stat=no_memory)
       fronts%enough = no_memory == 0
@@ -106,7 +106,7 @@ contains
       end do
    end subroutine change_waiting
 
-   !> Factors all classes. The last one, of the kept equations, is assembled only: its lower triangle, packed, is its update.
+   !> Factors all classes. The last one, of the retained equations, is assembled only: its lower triangle, packed, is its update.
    subroutine factor_fronts(fronts, store, diagonal, enough)
       type(fronts_t), intent(inout) :: fronts
       type(element_store_t), intent(in) :: store

@@ -19,7 +19,7 @@ module atrito_front_records
    !> Numbers before the children in a record.
    integer(ip), parameter :: HEADER = 4_ip
 
-   !> The supernodes with their elements: what is assembled where. The last one holds the kept equations.
+   !> The supernodes with their elements: what is assembled where. The last one holds the retained equations.
    type :: assembly_tree_t
       integer(ip) :: n = 0, n_supernodes = 0          !< equations; supernodes
       integer(ip), allocatable :: first(:)       !< (n_supernodes + 1) positions of supernode p: first(p)..first(p + 1) - 1
@@ -50,9 +50,9 @@ module atrito_front_records
 contains
 
    !> Sets up the tree of an elimination.
-   subroutine plant_tree(elimination, n, n_kept, store, tree)
+   subroutine plant_tree(elimination, n, n_retained, store, tree)
       type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_kept
+      integer(ip), intent(in) :: n, n_retained
       type(element_store_t), intent(in) :: store
       type(assembly_tree_t), intent(out) :: tree
       integer(ip) :: p, m
@@ -67,7 +67,7 @@ contains
       tree%enough = no_memory == 0
       if (.not. tree%enough) return
       tree%first = [1_ip, elimination%last + 1, n + 1]
-      tree%first(m) = n - n_kept + 1
+      tree%first(m) = n - n_retained + 1
       do p = 1, m - 1
          tree%parent(p) = elimination%parent(p)
          if (tree%parent(p) == 0) tree%parent(p) = m

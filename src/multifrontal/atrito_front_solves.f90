@@ -28,7 +28,7 @@ module atrito_front_solves
 
 contains
 
-   !> x <- L^-1 x for the eliminated positions; the kept ones take what it leaves for them.
+   !> x <- L^-1 x for the eliminated positions; the retained ones take what it leaves for them.
    subroutine forward(fronts, x)
       type(fronts_t), intent(in) :: fronts
       real(wp), intent(inout) :: x(:)            !< (n) by positions

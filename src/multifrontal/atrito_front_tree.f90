@@ -18,7 +18,7 @@ module atrito_front_tree
    private
    public :: front_tree_t, subtree_t, build_front_tree, cut_subtrees
 
-   !> The supernodes and the classes of their fronts. The last supernode holds the kept equations and is never eliminated.
+   !> The supernodes and the classes of their fronts. The last supernode holds the retained equations and is never eliminated.
    type, extends(class_list_t) :: front_tree_t
       integer(ip) :: n_supernodes = 0
       integer(ip), allocatable :: first(:)       !< (n_supernodes + 1) positions of supernode p: first(p)..first(p + 1) - 1
@@ -45,9 +45,9 @@ module atrito_front_tree
 contains
 
    !> Finds the fronts and their classes.
-   subroutine build_front_tree(elimination, n, n_kept, store, tree)
+   subroutine build_front_tree(elimination, n, n_retained, store, tree)
       type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_kept
+      integer(ip), intent(in) :: n, n_retained
       type(element_store_t), intent(in) :: store
       type(front_tree_t), intent(out) :: tree
       type(assembly_tree_t) :: assembly
@@ -56,7 +56,7 @@ contains
       real(wp), allocatable :: work(:)
 
       tree%enough = store%enough
-      if (tree%enough) call plant_tree(elimination, n, n_kept, store, assembly)
+      if (tree%enough) call plant_tree(elimination, n, n_retained, store, assembly)
       tree%enough = tree%enough .and. assembly%enough
       if (.not. tree%enough) return
       tree%n_supernodes = assembly%n_supernodes

@@ -10,7 +10,7 @@ module atrito_listing
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
-   use atrito_results, only: chatter_t, results_t, scene_t, balance_t, iteration_t
+   use atrito_results, only: unsettled_t, results_t, scene_t, balance_t, iteration_t
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
@@ -118,16 +118,16 @@ contains
       end do
    end function is_by_metis
 
-   !> Whether any body has a storage.
-   pure logical function uses(scene, storage)
+   !> Whether any body has a solver.
+   pure logical function uses(scene, solver)
       type(scene_t), intent(in) :: scene
-      character(len=*), intent(in) :: storage       !< skyline, ...
+      character(len=*), intent(in) :: solver       !< skyline, ...
       integer :: i
 
       uses = .false.
       do i = 1, size(scene%bodies)
-         if (.not. allocated(scene%bodies(i)%storage)) cycle
-         uses = uses .or. scene%bodies(i)%storage == storage
+         if (.not. allocated(scene%bodies(i)%solver)) cycle
+         uses = uses .or. scene%bodies(i)%solver == solver
       end do
    end function uses
 
@@ -180,27 +180,28 @@ contains
       do i = 1, size(results%iterations)
          call add_line(page, iteration_line(results%iterations(i)))
       end do
-      if (allocated(results%chatter)) call add_chatter(page, results%chatter)
+      if (allocated(results%unsettled)) call add_unsettled(page, results%unsettled)
    end subroutine add_iterations
 
    !> All points that changed their states in the last outer iterations.
-   subroutine add_chatter(page, chatter)
+   subroutine add_unsettled(page, unsettled)
       type(page_t), intent(inout) :: page
-      type(chatter_t), intent(in) :: chatter(:)
+      type(unsettled_t), intent(in) :: unsettled(:)
       integer :: i
 
-      if (size(chatter) == 0) return
+      if (size(unsettled) == 0) return
       call add_blank(page)
-      call add_paragraph(page, 'Points that chatter, with their states at the end of the last outer iterations, oldest first: ' &
+      call add_paragraph(page, &
+                         'Points that are unsettled, with their states at the end of the last outer iterations, oldest first: ' &
                          //'o open, = sticking, + slipping along T, - against it, c closed without friction', 3)
       call add_line(page, right('pair', 8)//right('point', 7)//right('node', 10)//right('x', 16)//right('y', 16)//'   states')
-      do i = 1, size(chatter)
-         associate (c => chatter(i))
+      do i = 1, size(unsettled)
+         associate (c => unsettled(i))
             call add_line(page, right(to_text(c%pair), 8)//right(to_text(c%point), 7)//right(to_text(c%node), 10)// &
                           right(number(c%x(1), DIGITS), 16)//right(number(c%x(2), DIGITS), 16)//'   '//c%states)
          end associate
       end do
-   end subroutine add_chatter
+   end subroutine add_unsettled
 
    pure function iteration_line(row) result(text)
       type(iteration_t), intent(in) :: row

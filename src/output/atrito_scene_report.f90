@@ -44,7 +44,7 @@ contains
       end do
    end subroutine describe_needs
 
-   !> A row a body: its size, storage and why.
+   !> A row a body: its size, solver and why.
    subroutine describe_bodies(page, scene, factored, some)
       type(page_t), intent(inout) :: page
       type(scene_t), intent(in) :: scene
@@ -56,7 +56,7 @@ contains
       n = body_count(scene)
       if (some) n = min(n, MOST_ROWS)
       call add_line(page, '   '//left('body', 13)//right('elements', 9)//right('equations', 10)//right('contact', 8)// &
-                    right('free', 5)//'  '//left('storage', 8)//right('entries', 10)//right('memory', 11))
+                    right('free', 5)//'  '//left('solver', 8)//right('entries', 10)//right('memory', 11))
       do i = 1, n
          call add_body(page, scene%bodies(i))
       end do
@@ -76,7 +76,7 @@ contains
 
       call add_line(page, '   '//left(text_of(body%name), 13)//right(to_text(body%n_elements), 9)// &
                     right(to_text(body%n_equations), 10)//right(to_text(body%n_contact_equations), 8)// &
-                    right(to_text(body%n_free_motions), 5)//'  '//left(text_of(body%storage), 8)// &
+                    right(to_text(body%n_free_motions), 5)//'  '//left(text_of(body%solver), 8)// &
                     right(to_text(body%profile), 10)//right(bytes(body%memory), 11))
    end subroutine add_body
 
@@ -86,7 +86,7 @@ contains
       logical, intent(in) :: factored
 
       if (allocated(body%reason)) then
-         call add_paragraph(page, text_of(body%name)//': '//text_of(body%storage)//', '//body%reason//bandwidth_text(body), 3)
+         call add_paragraph(page, text_of(body%name)//': '//text_of(body%solver)//', '//body%reason//bandwidth_text(body), 3)
       end if
       if (allocated(body%order)) call add_paragraph(page, text_of(body%name)//': order of elimination '//body%order, 3)
       if (.not. factored) return
@@ -96,19 +96,19 @@ contains
          call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most, at node '// &
                             to_text(body%worst_node)//' along '//to_text(body%worst_dof)//'; '// &
                             plural(body%sign_changes, 'sign change', 'sign changes'), 3)
-      else if (text_of(body%storage) == 'mumps' .and. body%n_equations > body%n_contact_equations) then
+      else if (text_of(body%solver) == 'mumps' .and. body%n_equations > body%n_contact_equations) then
          call add_paragraph(page, text_of(body%name)//': '//number(body%digits_lost, 2)//' digits lost at most; MUMPS does not' &
                             //' tell where', 3)
       end if
    end subroutine add_solver_remarks
 
-   !> Of a storage that it tells something about.
+   !> Of a solver that it tells something about.
    pure function bandwidth_text(body) result(text)
       type(body_result_t), intent(in) :: body
       character(len=:), allocatable :: text
 
       text = ' (half bandwidth '//to_text(body%half_bandwidth)//')'
-      if (any(text_of(body%storage) == ['sparse', 'mumps ', 'scene '])) text = ''
+      if (any(text_of(body%solver) == ['sparse', 'mumps ', 'scene '])) text = ''
    end function bandwidth_text
 
    pure function text_of(text) result(given)

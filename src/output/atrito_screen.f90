@@ -20,7 +20,7 @@ module atrito_screen
    integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
    integer, parameter :: SCREEN_LINES = 24
    integer, parameter :: MOST_OUTER = 4             !< outer iterations shown of a run that did not converge
-   integer, parameter :: CHATTER_LINES = 2
+   integer, parameter :: UNSETTLED_LINES = 2
    integer, parameter :: DIGITS = 5
    integer, parameter :: LABEL_WIDTH = 34           !< columns of a pair's name
 
@@ -83,7 +83,7 @@ contains
                        plural(model%mesh%n_nodes, 'node', 'nodes')//', '//to_text(scene%n_dofs)// &
                        ' '//trim(merge('free dofs         ', 'free displacements', scene%n_dofs >= 1000000)))
          call add_item(page, 'contact', contact_text(scene))
-         call add_item(page, 'solver', storages(scene)//iteration_text(model, results))
+         call add_item(page, 'solver', solvers(scene)//iteration_text(model, results))
       end associate
       if (results%converged .and. results%law_holds) then
          call add_item(page, 'checked', 'equilibrium to '//number(results%equilibrium_residual, 2)// &
@@ -109,8 +109,8 @@ contains
       end if
    end function contact_text
 
-   !> The storages in use, each once.
-   pure function storages(scene) result(text)
+   !> The solvers in use, each once.
+   pure function solvers(scene) result(text)
       type(scene_t), intent(in) :: scene
       character(len=:), allocatable :: text
       integer(ip) :: i
@@ -118,12 +118,12 @@ contains
       text = ''
       if (is_sparse_form(scene)) text = 'sparse'
       do i = 1, merge(0_ip, body_count(scene), is_sparse_form(scene))
-         if (.not. allocated(scene%bodies(i)%storage)) cycle
-         if (index(text, scene%bodies(i)%storage) > 0) cycle
+         if (.not. allocated(scene%bodies(i)%solver)) cycle
+         if (index(text, scene%bodies(i)%solver) > 0) cycle
          if (len(text) > 0) text = text//' and '
-         text = text//scene%bodies(i)%storage
+         text = text//scene%bodies(i)%solver
       end do
-   end function storages
+   end function solvers
 
    !> Whether all bodies are in one sparse matrix.
    pure logical function is_sparse_form(scene)
@@ -183,7 +183,7 @@ contains
       if (has_trail) has_trail = size(results%iterations) > 0
    end function has_trail
 
-   !> The last outer iterations, and the points that chatter; all of them are in the listing.
+   !> The last outer iterations, and the points that are unsettled; all of them are in the listing.
    subroutine add_trail(page, results, room)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
@@ -198,7 +198,7 @@ contains
          n = n + 1
          ends(n) = i
       end do
-      shown = min(n, MOST_OUTER, room - 2 - CHATTER_LINES)
+      shown = min(n, MOST_OUTER, room - 2 - UNSETTLED_LINES)
       call add_rule(page, '-')
       call add_line(page, right('outer', 7)//right('solves', 8)//right('open', 8)//right('stick', 8)//right('slip', 8)// &
                     right('residual', 14))
@@ -208,27 +208,27 @@ contains
                           right(to_text(row%stick), 8)//right(to_text(row%slip), 8)//right(number(row%residual, 3), 14))
          end associate
       end do
-      if (allocated(results%chatter)) call add_chatter(page, results)
+      if (allocated(results%unsettled)) call add_unsettled(page, results)
    end subroutine add_trail
 
    !> `node 12 o=o=o=o=`: as many points as two lines hold.
-   subroutine add_chatter(page, results)
+   subroutine add_unsettled(page, results)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
       character(len=:), allocatable :: text, next
       integer :: i
 
-      if (size(results%chatter) == 0) return
-      call add_line(page, left(plural(size(results%chatter, kind=ip), 'point chatters', 'points chatter') &
+      if (size(results%unsettled) == 0) return
+      call add_line(page, left(plural(size(results%unsettled, kind=ip), 'point is unsettled', 'points are unsettled') &
                                //' in the last outer iterations: o open, c closed, = stick, +- slip', WIDTH))
       text = ''
-      do i = 1, size(results%chatter)
-         next = '  node '//to_text(results%chatter(i)%node)//' '//trim(results%chatter(i)%states)
+      do i = 1, size(results%unsettled)
+         next = '  node '//to_text(results%unsettled(i)%node)//' '//trim(results%unsettled(i)%states)
          if (len(text) + len(next) > WIDTH) exit
          text = text//next
       end do
       call add_line(page, text)
-   end subroutine add_chatter
+   end subroutine add_unsettled
 
    !> A row a pair as in Quadro I of the paper, and a line of tractions.
    subroutine add_pairs(page, results, most)

@@ -1,7 +1,7 @@
 !> Whether a scene can stand at all, without solving it: the certificate of its loads, and the motion that it proves.
 module atrito_balance_probe
    use atrito_bodies, only: mode_at
-   use atrito_body_store, only: body_store_t
+   use atrito_body_cache, only: body_cache_t
    use atrito_certificate, only: certificate_t, prove_balance, BALANCE_IMPOSSIBLE, BALANCE_POSSIBLE
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_free_motion, only: free_motion_text
@@ -29,7 +29,7 @@ contains
       type(status_t), intent(out) :: status
       type(collapse_t), intent(out), optional :: collapse !< FALLS: the motion
       type(scene_data_t) :: data
-      type(body_store_t) :: store
+      type(body_cache_t) :: store
       type(asked_t) :: asked
       type(motion_rows_t) :: motions
       type(certificate_t) :: certificate

@@ -1,4 +1,4 @@
-!> What the storage of a body will take, while it is factored and afterwards.
+!> What the solver of a body will take, while it is factored and afterwards.
 module atrito_body_memory
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_bodies, only: order_by_dissection
@@ -6,8 +6,8 @@ module atrito_body_memory
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: element_store_t, elimination_t
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: STORAGE_SPARSE
-   use atrito_sparse_storage, only: expect_fronts
+   use atrito_solver_choice, only: SOLVER_SPARSE
+   use atrito_sparse_solver, only: expect_fronts
    implicit none (type, external)
    private
    public :: estimate_body_memory, count_body_memory
@@ -21,17 +21,17 @@ module atrito_body_memory
 
 contains
 
-   !> Estimates, as an upper bound, what is not told by the profile: the matrices of the elements, and the sparse storage, which
+   !> Estimates, as an upper bound, what is not told by the profile: the matrices of the elements, and the sparse solver, which
    !> takes a quarter more than expected where no two elements are equal.
    pure subroutine estimate_body_memory(fem, b, result)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b
-      type(body_result_t), intent(inout) :: result !< with its storage and what that is expected to take
+      type(body_result_t), intent(inout) :: result !< with its solver and what that is expected to take
       real(wp), parameter :: UNEQUAL = 1.25_wp
       integer(lp) :: elements
 
       elements = element_bytes(fem, b, different_share(fem, b))
-      if (result%storage_kind >= STORAGE_SPARSE) then
+      if (result%solver_kind >= SOLVER_SPARSE) then
          result%memory = int(UNEQUAL*real(result%memory, wp), lp)
          result%most_memory = result%memory + elements
       else
@@ -39,7 +39,7 @@ contains
       end if
    end subroutine estimate_body_memory
 
-   !> Counts what the sparse storage will take: order, elements and fronts are made, and nothing is factored.
+   !> Counts what the sparse solver will take: order, elements and fronts are made, and nothing is factored.
    subroutine count_body_memory(fem, b, result)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b
@@ -52,7 +52,7 @@ contains
       call order_by_dissection(fem%mesh, fem%bodies, b, elimination)
       result%order = elimination%text
       call collect_elements(fem, fem%bodies%list(b)%elements, store, fem%grain)
-      associate (kept => fem%bodies%list(b)%n_kept)
+      associate (kept => fem%bodies%list(b)%n_retained)
          call expect_fronts(elimination, fem%bodies%list(b)%n, kept, store, held, most, enough)
          if (.not. enough) return
          result%memory = held + REAL_BYTES*int(kept, lp)**2

@@ -5,28 +5,28 @@
 !> that and any rigid motion Z a; the forces on it balance, Z' (f - B' q) = 0, so F is as good as any generalised inverse.
 module atrito_condensed_body
    use atrito_kinds, only: ip, lp, wp
-   use atrito_assembly, only: fem_t, body_profile, assemble_body, kept_diagonal
+   use atrito_assembly, only: fem_t, body_profile, assemble_body, retained_diagonal
    use atrito_bodies, only: mode_at, order_by_dissection
    use atrito_dense, only: solve_cholesky, orthonormalise, multiply
    use atrito_dense_blocks, only: add_inverse_form, factor_in_blocks
    use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
-   use atrito_solver_choice, only: new_storage, needs_profile, storage_name, N_STORAGES, STORAGE_SKYLINE, STORAGE_BANDED, &
-                                   STORAGE_SPARSE, STORAGE_MUMPS
+   use atrito_solver_choice, only: new_solver, needs_profile, solver_name, N_STORAGES, SOLVER_SKYLINE, SOLVER_BANDED, &
+                                   SOLVER_SPARSE, SOLVER_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
-   use atrito_storage, only: storage_t, smallest_ratio
+   use atrito_linear_solver, only: linear_solver_t, smallest_ratio
    use atrito_strings, only: to_text
    use atrito_threads, only: is_shared
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: condensed_body_t, condense_body, check_held, choose_storage, set_load, contact_response, add_flexibilities, &
+   public :: condensed_body_t, condense_body, check_held, choose_solver, set_load, contact_response, add_flexibilities, &
              expand_body, motion_text, body_text, how_it_moves
 
    type :: condensed_body_t
-      class(storage_t), allocatable :: storage
-      real(wp), allocatable :: factor(:, :)        !< (n_kept, n_kept) Cholesky factor of S or S + alpha Q Q'
+      class(linear_solver_t), allocatable :: solver
+      real(wp), allocatable :: factor(:, :)        !< (n_retained, n_retained) Cholesky factor of S or S + alpha Q Q'
       real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
       logical :: is_near = .false.                 !< some elements have the stiffness of one that they are near to, and not equal
    end type condensed_body_t
@@ -43,8 +43,8 @@ module atrito_condensed_body
 
 contains
 
-   !> Chooses the storage of a body by its predicted cost, unless one is asked for, and says why.
-   subroutine choose_storage(profile, asked, kind, result)
+   !> Chooses the solver of a body by its predicted cost, unless one is asked for, and says why.
+   subroutine choose_solver(profile, asked, kind, result)
       type(profile_t), intent(in) :: profile
       integer, intent(in) :: asked                 !< STORAGE_* or 0 for the choice
       integer, intent(out) :: kind
@@ -57,36 +57,36 @@ contains
          kind = asked
          result%reason = 'asked for'
       else
-         kind = STORAGE_SPARSE
-         if (needs_profile(asked, profile%n)) kind = minloc(cost(:STORAGE_SPARSE), dim=1)
-         second = minloc(cost(:STORAGE_SPARSE), dim=1, mask=[STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE] /= kind)
-         result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//storage_name(second)
+         kind = SOLVER_SPARSE
+         if (needs_profile(asked, profile%n)) kind = minloc(cost(:SOLVER_SPARSE), dim=1)
+         second = minloc(cost(:SOLVER_SPARSE), dim=1, mask=[SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE] /= kind)
+         result%reason = 'predicted cost '//ratio_text(cost(second), cost(kind))//' of '//solver_name(second)
       end if
-      result%storage = storage_name(kind)
-      result%storage_kind = kind
+      result%solver = solver_name(kind)
+      result%solver_kind = kind
       result%half_bandwidth = half_bandwidth(profile)
       result%profile = profile_length(profile)
-      if (kind >= STORAGE_SPARSE) result%profile = int(sparse_entries(profile), lp)
-      result%memory = predict_memory(profile, kind) + kept_bytes(profile%n_kept)
+      if (kind >= SOLVER_SPARSE) result%profile = int(sparse_entries(profile), lp)
+      result%memory = predict_memory(profile, kind) + kept_bytes(profile%n_retained)
       result%most_memory = result%memory
-   end subroutine choose_storage
+   end subroutine choose_solver
 
-   !> The matrix of the kept equations.
-   elemental integer(lp) function kept_bytes(n_kept) result(bytes)
-      integer(ip), intent(in) :: n_kept
+   !> The matrix of the retained equations.
+   elemental integer(lp) function kept_bytes(n_retained) result(bytes)
+      integer(ip), intent(in) :: n_retained
 
-      bytes = 8_lp*int(n_kept, lp)**2
+      bytes = 8_lp*int(n_retained, lp)**2
    end function kept_bytes
 
-   !> Predicted cost of every storage, in operations of the skyline: nothing that depends on the machine.
+   !> Predicted cost of every solver, in operations of the skyline: nothing that depends on the machine.
    pure function predict_costs(profile) result(cost)
       type(profile_t), intent(in) :: profile
       real(wp) :: cost(N_STORAGES)
 
-      cost(STORAGE_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
-      cost(STORAGE_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
-      cost(STORAGE_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
-      cost(STORAGE_MUMPS) = cost(STORAGE_SPARSE)
+      cost(SOLVER_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
+      cost(SOLVER_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
+      cost(SOLVER_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
+      cost(SOLVER_MUMPS) = cost(SOLVER_SPARSE)
    end function predict_costs
 
    pure integer(lp) function predict_memory(profile, kind) result(bytes)
@@ -94,9 +94,9 @@ contains
       integer, intent(in) :: kind
 
       select case (kind)
-      case (STORAGE_SKYLINE)
+      case (SOLVER_SKYLINE)
          bytes = skyline_bytes(profile)
-      case (STORAGE_BANDED)
+      case (SOLVER_BANDED)
          bytes = banded_bytes(profile)
       case default
          bytes = sparse_bytes(profile)
@@ -110,7 +110,7 @@ contains
       text = to_text(own/max(other, tiny(other)), 2)
    end function ratio_text
 
-   !> Assembles, factors and condenses a body, by the storage that was chosen for `result` or that is chosen now.
+   !> Assembles, factors and condenses a body, by the solver that was chosen for `result` or that is chosen now.
    !>
    !> status: STATUS_SINGULAR with the body, node and motion in words; STATUS_INTERNAL when the memory does not suffice.
    subroutine condense_body(fem, i_body, asked, body, result, status)
@@ -126,20 +126,20 @@ contains
       call check_held(fem, i_body, status)
       if (.not. is_ok(status)) return
       call start_phase('order')
-      if (result%storage_kind < STORAGE_SPARSE) then
+      if (result%solver_kind < SOLVER_SPARSE) then
          call body_profile(fem, i_body, profile)
-         if (result%storage_kind == 0) call choose_storage(profile, asked, kind, result)
+         if (result%solver_kind == 0) call choose_solver(profile, asked, kind, result)
       end if
-      if (result%storage_kind >= STORAGE_SPARSE) then
-         call begin_profile(profile, fem%bodies%list(i_body)%n, fem%bodies%list(i_body)%n_kept)
+      if (result%solver_kind >= SOLVER_SPARSE) then
+         call begin_profile(profile, fem%bodies%list(i_body)%n, fem%bodies%list(i_body)%n_retained)
          call order_by_dissection(fem%mesh, fem%bodies, i_body, profile%elimination)
          result%order = profile%elimination%text
       end if
       call stop_phase('order')
-      call new_storage(result%storage_kind, body%storage)
+      call new_solver(result%solver_kind, body%solver)
       call start_phase('assemble')
-      call body%storage%create(profile, status)
-      if (is_ok(status)) call assemble_body(fem, i_body, body%storage, grain_for(fem, result%storage_kind), body%is_near)
+      call body%solver%create(profile, status)
+      if (is_ok(status)) call assemble_body(fem, i_body, body%solver, grain_for(fem, result%solver_kind), body%is_near)
       call stop_phase('assemble')
       if (.not. is_ok(status)) return
       call start_phase('factor')
@@ -148,11 +148,11 @@ contains
    end subroutine condense_body
 
    !> Fronts alone are the fewer for elements that are taken as equal.
-   pure real(wp) function grain_for(fem, storage_kind) result(grain)
+   pure real(wp) function grain_for(fem, solver_kind) result(grain)
       type(fem_t), intent(in) :: fem
-      integer, intent(in) :: storage_kind
+      integer, intent(in) :: solver_kind
 
-      grain = merge(fem%grain, 0.0_wp, storage_kind == STORAGE_SPARSE)
+      grain = merge(fem%grain, 0.0_wp, solver_kind == SOLVER_SPARSE)
    end function grain_for
 
    !> status: STATUS_SINGULAR when a body can move and no contact point touches it.
@@ -161,7 +161,7 @@ contains
       integer(ip), intent(in) :: i_body
       type(status_t), intent(inout) :: status
 
-      if (fem%bodies%list(i_body)%n_kept > 0 .or. size(fem%bodies%list(i_body)%modes, 2) == 0) return
+      if (fem%bodies%list(i_body)%n_retained > 0 .or. size(fem%bodies%list(i_body)%modes, 2) == 0) return
       call set_status(status, STATUS_SINGULAR, motion_text(fem, i_body, fem%bodies%list(i_body)%modes(:, 1)) &
                       //'; no support and no contact pair holds it')
    end subroutine check_held
@@ -173,10 +173,10 @@ contains
       type(body_result_t), intent(inout) :: result
       type(status_t), intent(out) :: status
 
-      call body%storage%factor(status)
+      call body%solver%factor(status)
       if (status%code == STATUS_INTERNAL) return
-      call report_pivots(fem, i_body, body%storage, result)
-      call report_fronts(body%storage, result)
+      call report_pivots(fem, i_body, body%solver, result)
+      call report_fronts(body%solver, result)
       if (.not. is_ok(status)) then
          call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': '//status%text//', node ' &
                          //to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
@@ -187,29 +187,29 @@ contains
       if (is_ok(status)) call report_contact_pivots(fem, i_body, body, result, status)
    end subroutine factor_body
 
-   subroutine report_pivots(fem, i_body, storage, result)
+   subroutine report_pivots(fem, i_body, solver, result)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
-      class(storage_t), intent(in) :: storage
+      class(linear_solver_t), intent(in) :: solver
       type(body_result_t), intent(inout) :: result
 
-      result%digits_lost = storage%report%digits_lost
-      result%sign_changes = storage%report%sign_changes
-      if (storage%report%worst_equation == 0) return
-      call name_equation(fem, i_body, storage%report%worst_equation, result)
+      result%digits_lost = solver%report%digits_lost
+      result%sign_changes = solver%report%sign_changes
+      if (solver%report%worst_equation == 0) return
+      call name_equation(fem, i_body, solver%report%worst_equation, result)
    end subroutine report_pivots
 
    !> What the sparse solver holds in fact, in place of what was predicted for it.
-   subroutine report_fronts(storage, result)
-      class(storage_t), intent(in) :: storage
+   subroutine report_fronts(solver, result)
+      class(linear_solver_t), intent(in) :: solver
       type(body_result_t), intent(inout) :: result
 
-      result%n_fronts = storage%report%n_fronts
-      result%n_different_fronts = storage%report%n_different
-      if (storage%report%n_fronts == 0) return
-      result%profile = storage%report%entries
-      result%memory = storage%memory_bytes() + kept_bytes(storage%n_kept)
-      result%most_memory = max(result%memory, storage%report%most_bytes)
+      result%n_fronts = solver%report%n_fronts
+      result%n_different_fronts = solver%report%n_different
+      if (solver%report%n_fronts == 0) return
+      result%profile = solver%report%entries
+      result%memory = solver%memory_bytes() + kept_bytes(solver%n_retained)
+      result%most_memory = max(result%memory, solver%report%most_bytes)
    end subroutine report_fronts
 
    subroutine name_equation(fem, i_body, equation, result)
@@ -241,8 +241,8 @@ contains
       integer(ip) :: i, first
 
       if (size(original) == 0) return
-      first = fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_kept
-      call kept_diagonal(fem, i_body, original)
+      first = fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained
+      call retained_diagonal(fem, i_body, original)
       do i = 1, size(original, kind=ip)
          lost = log10(original(i)/body%factor(i, i)**2)
          if (lost <= result%digits_lost) cycle
@@ -265,10 +265,10 @@ contains
       real(wp) :: alpha
       integer(ip) :: n, i, rank, failed, info
 
-      n = fem%bodies%list(i_body)%n_kept
+      n = fem%bodies%list(i_body)%n_retained
       allocate (body%factor(n, n))
       if (n == 0) return
-      call body%storage%get_schur(body%factor)
+      call body%solver%get_schur(body%factor)
       if (size(fem%bodies%list(i_body)%modes, 2) > 0) then
          alpha = sum([(body%factor(i, i)/n, i=1, n)])
          q = modes_at_contact(fem, i_body)
@@ -282,7 +282,7 @@ contains
                       //': its stiffness seen from the contact line is not positive')
    end subroutine factor_contact
 
-   !> The rigid motions at the contact dofs, (n_kept, n_modes).
+   !> The rigid motions at the contact dofs, (n_retained, n_modes).
    function modes_at_contact(fem, i_body) result(z)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
@@ -290,10 +290,10 @@ contains
       integer(ip) :: i, j, dof, k
 
       associate (body => fem%bodies%list(i_body))
-         allocate (z(body%n_kept, size(body%modes, 2)))
+         allocate (z(body%n_retained, size(body%modes, 2)))
          do i = 1, size(body%nodes, kind=ip)
             do dof = 1, 2
-               k = fem%bodies%equation(dof, body%nodes(i)) - (body%n - body%n_kept)
+               k = fem%bodies%equation(dof, body%nodes(i)) - (body%n - body%n_retained)
                if (k <= 0) cycle
                do j = 1, size(body%modes, 2, kind=ip)
                   z(k, j) = mode_at(body, body%modes(:, j), fem%mesh%x(:, body%nodes(i)), dof)
@@ -323,13 +323,13 @@ contains
          end do
          !$omp end parallel do
       end associate
-      call body%storage%reduce(body%load)
+      call body%solver%reduce(body%load)
    end subroutine set_load
 
    !> F times forces at the contact dofs, in place.
    subroutine contact_response(body, x)
       type(condensed_body_t), intent(in) :: body
-      real(wp), intent(inout), contiguous :: x(:, :) !< (n_kept, loads): forces [F] in, displacements [L] out
+      real(wp), intent(inout), contiguous :: x(:, :) !< (n_retained, loads): forces [F] in, displacements [L] out
 
       call solve_cholesky(body%factor, x)
    end subroutine contact_response
@@ -337,7 +337,7 @@ contains
    !> Adds B F B' to C for rows B on the contact dofs.
    subroutine add_flexibilities(body, forces, first, place, c)
       type(condensed_body_t), intent(in) :: body
-      real(wp), intent(inout), contiguous :: forces(:, :) !< (n_kept, rows) B'; destroyed
+      real(wp), intent(inout), contiguous :: forces(:, :) !< (n_retained, rows) B'; destroyed
       integer(ip), intent(in) :: first(:)          !< (rows) first entry of each that is not zero, ascending
       integer(ip), intent(in) :: place(:)          !< (rows) of each in C
       real(wp), intent(inout), contiguous :: c(:, :) !< [L/F]
@@ -350,15 +350,15 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       type(condensed_body_t), intent(in) :: body
-      real(wp), intent(in) :: u_contact(:)         !< (n_kept) [L]
+      real(wp), intent(in) :: u_contact(:)         !< (n_retained) [L]
       real(wp), intent(inout) :: u(:, :)           !< (2, n_nodes) [L]: the free dofs of this body are set
       real(wp), allocatable :: x(:, :)
       integer(ip) :: i, dof, equation
 
       associate (list => fem%bodies%list(i_body))
          x = body%load
-         x(list%n - list%n_kept + 1:, 1) = u_contact
-         call body%storage%expand(x)
+         x(list%n - list%n_retained + 1:, 1) = u_contact
+         call body%solver%expand(x)
          !$omp parallel do default(shared) private(dof, equation) if(is_shared(size(list%nodes, kind=ip)))
          do i = 1, size(list%nodes, kind=ip)
             do dof = 1, 2

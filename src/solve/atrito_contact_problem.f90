@@ -1,9 +1,9 @@
-!> The contact line of a scene and its box problem: C = B F B', G = B Z, g0 and h, summed over the bodies.
+!> The contact line of a scene and its bound-constrained QP: C = B F B', G = B Z, g0 and h, summed over the bodies.
 module atrito_contact_problem
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: mode_at
-   use atrito_box_problem, only: box_problem_t
+   use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_contact_rows, only: contact_rows_t, row_value
@@ -111,7 +111,7 @@ contains
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
-      type(box_problem_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem
       integer(ip) :: i, m, b
 
       problem%m = size(line%point, kind=ip)
@@ -135,7 +135,7 @@ contains
    end subroutine build_problem
 
    pure function direction_of(problem, rows, line, i) result(d)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: i
@@ -155,12 +155,12 @@ contains
       type(condensed_body_t), intent(in) :: condensed
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(inout) :: problem
+      type(bound_qp_t), intent(inout) :: problem
       real(wp), allocatable :: moved(:, :)
       integer(ip) :: dofs(2*(size(rows%node, 1))), j, n
       real(wp) :: coefficients(size(dofs))
 
-      n = fem%bodies%list(i_body)%n_kept
+      n = fem%bodies%list(i_body)%n_retained
       if (n == 0) return
       moved = condensed%load(size(condensed%load, 1) - n + 1:, :)
       call contact_response(condensed, moved)
@@ -177,14 +177,14 @@ contains
       type(condensed_body_t), intent(in) :: condensed
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(inout) :: problem
+      type(bound_qp_t), intent(inout) :: problem
       real(wp), allocatable :: forces(:, :)
       integer(ip), allocatable :: first(:), order(:)
       integer(ip) :: i, j, n
       integer(ip) :: dofs(2*(size(rows%node, 1)))
       real(wp) :: coefficients(size(dofs))
 
-      n = fem%bodies%list(i_body)%n_kept
+      n = fem%bodies%list(i_body)%n_retained
       if (n == 0) return
       allocate (first(problem%m))
       do j = 1, problem%m
@@ -242,7 +242,7 @@ contains
          do dof = 1, 2
             if (fem%bodies%equation(dof, node) == 0 .or. direction(dof) == 0.0_wp) cycle
             n = n + 1
-            dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_kept)
+            dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained)
             coefficients(n) = rows%coefficient(k, point)*direction(dof)
          end do
       end do
@@ -265,7 +265,7 @@ contains
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: f(:, :)
-      type(box_problem_t), intent(inout) :: problem
+      type(bound_qp_t), intent(inout) :: problem
       integer(ip) :: column(fem%bodies%n + 1)        ! of the first motion of each body
       integer(ip) :: b, i, j, k
 

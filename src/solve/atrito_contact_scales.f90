@@ -46,16 +46,16 @@ contains
       real(wp), intent(in) :: overlap            !< largest delta p [L]
       real(wp), intent(in) :: far                !< largest coordinate [L]
       type(contact_scales_t), intent(inout) :: scales
-      real(wp) :: motion, unsure
+      real(wp) :: motion, uncertainty
       integer(ip) :: j
 
       motion = overlap
-      unsure = 0.0_wp
+      uncertainty = 0.0_wp
       do j = first, last
          motion = max(motion, abs(row_value(rows, j, rows%normal(:, j), u)), abs(row_value(rows, j, rows%tangent(:, j), u)))
-         unsure = max(unsure, maxval(uncertain(rows%node(:rows%entries(j), j))))
+         uncertainty = max(uncertainty, maxval(uncertain(rows%node(:rows%entries(j), j))))
       end do
-      scales%slip = PLACE_TOLERANCE*motion + unsure
+      scales%slip = PLACE_TOLERANCE*motion + uncertainty
       scales%gap = scales%slip + ROUND_OFFS*EPS_MACH*far
    end subroutine measure_places
 

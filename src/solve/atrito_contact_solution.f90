@@ -2,12 +2,12 @@
 module atrito_contact_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_active_set, only: box_outcome_t, solve_box, is_settled
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, clear_vanishing, &
-                                 force_round_off, FREE, AT_LOWER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, clear_vanishing, &
+                              force_round_off, FREE, AT_LOWER
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, friction_bound, set_friction_bounds
    use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
-   use atrito_line_factor, only: line_factor_t, condition_of
+   use atrito_free_set_factor, only: free_set_factor_t, condition_of
    use atrito_proximal, only: solve_box_proximal
    use atrito_solve_history, only: solve_history_t
    use atrito_status, only: status_t, is_ok
@@ -29,7 +29,7 @@ module atrito_contact_solution
       type(box_state_t) :: state
       type(solve_history_t) :: history
       type(box_outcome_t) :: inner                    !< of the last inner problem; its condition after judge_condition
-      type(line_factor_t) :: factor                   !< of the last solve, or of one near it
+      type(free_set_factor_t) :: factor                   !< of the last solve, or of one near it
       type(constraint_rows_t), allocatable :: rows    !< of the unknowns, where they may depend on each other
       logical, allocatable :: is_shared(:)            !< (unknowns) with rows: the force is not unique, the least is given
       real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
@@ -44,7 +44,7 @@ contains
 
    !> Solves the inner problem for a frozen friction bound, from the present state. Image: nu S_rho of the pressure found.
    subroutine solve_with_bound(problem, line, tau, solution, image, status)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tau(:)                  !< (n) [F/L^2]; HUGE_REAL: no bound
       type(contact_solution_t), intent(inout) :: solution
@@ -78,7 +78,7 @@ contains
    !> A closed point may have a tension that is round-off, of the forces on the bodies there: another body may feel it. Such points
    !> open, where the others bear it without changing.
    subroutine open_tensions(problem, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(inout) :: solution
       type(box_state_t) :: state
       type(equality_solution_t) :: found
@@ -105,7 +105,7 @@ contains
    !> Forces of a pair that are round-off become none: at all its points what round-off of the displacements there may do, and far
    !> below the loads of the bodies that they hold. (A body without load between loaded ones has such forces.)
    subroutine clear_noise(problem, line, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
       logical :: beside_loads(problem%m)
@@ -128,7 +128,7 @@ contains
 
    !> The compliance of friction goes with its bound, which may be noise as well.
    pure logical function is_noise(problem, solution, beside_loads, unknowns)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       logical, intent(in) :: beside_loads(:)
       integer(ip), intent(in) :: unknowns(:)
@@ -149,7 +149,7 @@ contains
    end function is_noise
 
    pure function noise_beside_loads(problem, q) result(is_noise)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: q(:)
       logical :: is_noise(problem%m)
       integer(ip) :: j

@@ -1,7 +1,7 @@
 !> Solving with the dense form: bodies condensed to their contact dofs, and the flexibility of all points.
 module atrito_dense_form
-   use atrito_body_store, only: body_store_t, provide_bodies, release_bodies, forget_bodies
-   use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
+   use atrito_body_cache, only: body_cache_t, provide_bodies, release_bodies, forget_bodies
+   use atrito_bound_qp, only: bound_qp_t, DEPENDENT_POINTS
    use atrito_contact_problem, only: build_problem
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_refinement, only: refine_dense_solution
@@ -27,12 +27,12 @@ contains
    subroutine solve_dense_form(data, controls, store, results, solution, u, status)
       type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
-      type(box_problem_t) :: problem
+      type(bound_qp_t) :: problem
       logical :: is_right
 
       call solve_condensed(data, controls, store, results, problem, solution, u, status)
@@ -54,15 +54,15 @@ contains
    subroutine solve_condensed(data, controls, store, results, problem, solution, u, status)
       type(scene_data_t), intent(in) :: data
       type(controls_t), intent(in) :: controls
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
-      type(box_problem_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
 
       store%reporter = data%reporter
-      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%storage_kind, results%scene%bodies, status)
+      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, status)
       results%factorisations = store%factorisations
       if (.not. is_ok(status)) return
       results%scene%near_elements = any(store%bodies%is_near)
@@ -82,7 +82,7 @@ contains
    !> Puts a failure of the contact line into words.
    subroutine explain_failure(data, problem, solution, status)
       type(scene_data_t), intent(in) :: data
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       type(status_t), intent(inout) :: status
       integer(ip) :: node
@@ -98,7 +98,7 @@ contains
    !> The displacements of all bodies without their rigid motions.
    subroutine expand_bodies(data, store, solution, u)
       type(scene_data_t), intent(in) :: data
-      type(body_store_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store
       type(contact_solution_t), intent(in) :: solution
       real(wp), allocatable, intent(out) :: u(:, :)
       real(wp), allocatable :: contact(:, :)

@@ -8,7 +8,7 @@
 !>
 !> which leaves K~^-1 (K~ - K) times the error. Where a body floats K~^-1 is the inverse of atrito_condensed_body; r is in balance.
 module atrito_dense_refinement
-   use atrito_box_problem, only: box_problem_t
+   use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, set_load
    use atrito_contact_problem, only: add_displacements
    use atrito_contact_solution, only: contact_solution_t
@@ -52,7 +52,7 @@ contains
       type(scene_data_t), intent(in) :: data
       type(controls_t), intent(in) :: controls
       type(condensed_body_t), intent(inout) :: bodies(:)  !< as they were, on return
-      type(box_problem_t), intent(inout) :: problem
+      type(bound_qp_t), intent(inout) :: problem
       type(contact_solution_t), intent(inout) :: solution !< converged
       real(wp), intent(inout) :: u(:, :)                  !< without rigid motions, (2, n_nodes) [L]
       logical, intent(out) :: is_right
@@ -120,7 +120,7 @@ contains
       type(scene_data_t), intent(in) :: data
       type(controls_t), intent(in) :: controls
       type(condensed_body_t), intent(inout) :: bodies(:)
-      type(box_problem_t), intent(inout) :: problem
+      type(bound_qp_t), intent(inout) :: problem
       type(contact_solution_t), intent(inout) :: solution
       type(state_t), intent(inout) :: now
       type(status_t), intent(out) :: status

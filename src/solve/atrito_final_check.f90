@@ -13,7 +13,7 @@ module atrito_final_check
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_results, only: results_t
    use atrito_strings, only: to_text
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, chunk_count, find_chunk
    use atrito_weak_forces, only: contact_sizes_t, weak_parts_hold
    implicit none (type, external)
    private
@@ -50,7 +50,7 @@ contains
       real(wp), intent(out) :: reaction(:, :)   !< (2, n_nodes) [F]; 0 at free dofs
       type(equilibrium_t), intent(out) :: equilibrium
       type(contact_sizes_t), intent(in), optional :: sizes
-      type(extremes_t) :: found(run_count(fem%mesh%n_nodes))
+      type(extremes_t) :: found(chunk_count(fem%mesh%n_nodes))
       real(wp) :: allowed
       integer(ip) :: run, first, last, node
 
@@ -62,7 +62,7 @@ contains
       call internal_forces(fem, u, reaction, equilibrium%energy)
       !$omp parallel do schedule(static) private(first, last) if (is_shared(fem%mesh%n_nodes))
       do run = 1, size(found, kind=ip)
-         call find_run(run, fem%mesh%n_nodes, first, last)
+         call find_chunk(run, fem%mesh%n_nodes, first, last)
          call split_forces(u(:, first:last), f(:, first:last), contact(:, first:last), held(:, first:last), &
                            reaction(:, first:last), found(run))
       end do
@@ -152,7 +152,7 @@ contains
       type(body_t), intent(in) :: body
       real(wp), intent(in) :: f(:, :), contact(:, :)
       real(wp), intent(out) :: work(:), size_of_work
-      real(wp) :: sums(2, run_count(size(body%nodes, kind=ip))), total(2)
+      real(wp) :: sums(2, chunk_count(size(body%nodes, kind=ip))), total(2)
       integer(ip) :: j, run
 
       work = 0.0_wp
@@ -206,7 +206,7 @@ contains
       integer(ip) :: first, last, i, dof, node
 
       sums = 0.0_wp
-      call find_run(run, size(body%nodes, kind=ip), first, last)
+      call find_chunk(run, size(body%nodes, kind=ip), first, last)
       do i = first, last
          node = body%nodes(i)
          do dof = 1, 2

@@ -1,9 +1,9 @@
-!> Sums over all nodes of the forces on the bodies, run by run of the nodes.
+!> Sums over all nodes of the forces on the bodies, chunk by chunk of the nodes.
 module atrito_force_sums
    use atrito_kinds, only: ip, wp
    use atrito_range, only: work_of, unit_of
    use atrito_results, only: balance_t
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: sum_forces
@@ -24,20 +24,20 @@ contains
       real(wp), intent(in) :: contact(:, :)      !< B'q (2, n_nodes) [F]
       type(balance_t), intent(out) :: balance
       real(wp), intent(out) :: work              !< [F L]
-      type(sums_t) :: sums(run_count(size(u, 2, kind=ip)))
+      type(sums_t) :: sums(chunk_count(size(u, 2, kind=ip)))
       real(wp) :: unit
-      integer(ip) :: run, first, last
+      integer(ip) :: chunk, first, last
 
       unit = unit_of(u)
       !$omp parallel do schedule(static) private(first, last) if (is_shared(size(u, 2, kind=ip)))
-      do run = 1, size(sums, kind=ip)
-         call find_run(run, size(u, 2, kind=ip), first, last)
+      do chunk = 1, size(sums, kind=ip)
+         call find_chunk(chunk, size(u, 2, kind=ip), first, last)
          call sum_run(x(:, first:last), u(:, first:last), 1/unit, f(:, first:last), reaction(:, first:last), &
-                      contact(:, first:last), sums(run))
+                      contact(:, first:last), sums(chunk))
       end do
       !$omp end parallel do
-      do run = 1, size(sums, kind=ip)
-         associate (part => sums(run)%balance)
+      do chunk = 1, size(sums, kind=ip)
+         associate (part => sums(chunk)%balance)
             balance%applied = balance%applied + part%applied
             balance%reactions = balance%reactions + part%reactions
             balance%applied_moment = balance%applied_moment + part%applied_moment

@@ -2,12 +2,12 @@
 !> (atrito_multiplier_step) in one.
 module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, normal_bounds, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION
    use atrito_contact_system, only: contact_system_t
-   use atrito_idle_motions, only: settle_idle_motions
+   use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_multiplier_distance, only: distance_t, measure_distance, forces_that_are_none
    use atrito_multiplier_step, only: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, &
@@ -67,7 +67,7 @@ contains
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: x(:)
       type(status_t), intent(out) :: status
-      type(box_problem_t) :: shape
+      type(bound_qp_t) :: shape
       type(multiplier_t) :: multipliers
       type(loop_t) :: loop
       type(anderson_t) :: anderson
@@ -213,7 +213,7 @@ contains
    subroutine finish(system, line, shape, distance, multipliers, solution)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(in) :: shape
+      type(bound_qp_t), intent(in) :: shape
       type(distance_t), intent(in) :: distance
       type(multiplier_t), intent(inout) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
@@ -224,8 +224,8 @@ contains
          return
       end if
       call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
-      if (system%k > 0) call settle_idle_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
-                                                 solution%inner%idle)
+      if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
+                                                         solution%inner%undetermined)
       solution%p = pressure_of(line, solution%state%q)
       solution%tau = friction_bound(line, solution%p)
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
@@ -243,7 +243,7 @@ contains
    subroutine look_for_shared(system, rows, shape, multipliers, loop, solution)
       class(contact_system_t), intent(in) :: system
       type(constraint_rows_t), intent(in) :: rows
-      type(box_problem_t), intent(in) :: shape
+      type(bound_qp_t), intent(in) :: shape
       type(multiplier_t), intent(in) :: multipliers
       type(loop_t), intent(inout) :: loop
       type(contact_solution_t), intent(inout) :: solution
@@ -261,7 +261,7 @@ contains
    subroutine begin_solution(system, line, shape, multipliers, solution)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
-      type(box_problem_t), intent(out) :: shape
+      type(bound_qp_t), intent(out) :: shape
       type(multiplier_t), intent(out) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
       integer(ip) :: pair(line%n)

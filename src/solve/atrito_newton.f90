@@ -5,7 +5,7 @@
 !> is not symmetric. States change after each step as in the full steps of the active set.
 module atrito_newton
    use atrito_active_set, only: change_states
-   use atrito_box_problem, only: box_problem_t, set_residual, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_bound_qp, only: bound_qp_t, set_residual, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound
    use atrito_contact_solution, only: contact_solution_t, judge_condition, has_settled
    use atrito_dense, only: solve_lu
@@ -22,7 +22,7 @@ contains
    !> Iterates from the present state until nothing changes, or max_iterations. solution%converged says how it ended; a singular
    !> Jacobian ends it.
    subroutine iterate_newton(problem, line, controls, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(controls_t), intent(in) :: controls
       type(contact_solution_t), intent(inout) :: solution
@@ -77,7 +77,7 @@ contains
    end function is_row
 
    pure function is_active(problem, state) result(active)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       integer(ip), intent(in) :: state(:)
       logical :: active(size(state))
       integer(ip) :: i
@@ -87,7 +87,7 @@ contains
 
    !> d tau_j / d q_k = nu W_jk / w_k for the normal unknowns, (n points, n_normal).
    pure function bound_derivative(problem, line) result(dtau)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       real(wp) :: dtau(line%n, problem%n_normal)
       integer(ip) :: j, k, i
@@ -103,7 +103,7 @@ contains
 
    !> D of the tangential unknowns for the present bound; points without any take no part, points that get one begin stuck.
    pure subroutine update_compliances(problem, line, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
       integer(ip) :: i, j
@@ -124,7 +124,7 @@ contains
 
    !> The linear system for the changes, scaled: forces by 1/sqrt(C_ii + D_ii), motions to unit columns.
    pure subroutine build_system(problem, line, solution, dtau, active, jacobian, rhs)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(in) :: dtau(:, :)
@@ -159,7 +159,7 @@ contains
    end subroutine build_system
 
    pure function force_scale(problem, solution, active) result(scale)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: active(:)
       real(wp) :: scale(size(active))
@@ -169,7 +169,7 @@ contains
    end function force_scale
 
    pure function scale_of_motions(problem, active, scale) result(motion_scale)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       integer(ip), intent(in) :: active(:)
       real(wp), intent(in) :: scale(:)
       real(wp) :: motion_scale(problem%k)
@@ -183,7 +183,7 @@ contains
 
    !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
    pure subroutine stick_row(problem, line, solution, dtau, active, row, jacobian)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(in) :: dtau(:, :)
@@ -204,7 +204,7 @@ contains
 
    !> q - sign w tau(q) = 0 of a slipping point.
    pure subroutine slip_row(problem, line, solution, dtau, active, row, jacobian, rhs)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       real(wp), intent(in) :: dtau(:, :)
@@ -226,7 +226,7 @@ contains
    end subroutine slip_row
 
    pure subroutine apply_step(problem, active, step, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       integer(ip), intent(in) :: active(:)
       real(wp), intent(in) :: step(:)
       type(contact_solution_t), intent(inout) :: solution
@@ -238,7 +238,7 @@ contains
    end subroutine apply_step
 
    pure function scaled_forces(problem, active, solution) result(forces)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       integer(ip), intent(in) :: active(:)
       type(contact_solution_t), intent(in) :: solution
       real(wp) :: forces(size(active))
@@ -248,7 +248,7 @@ contains
 
    !> A slipping force is its bound to the last digit.
    pure subroutine put_slipping_at_bounds(problem, line, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
       integer(ip) :: i

@@ -2,7 +2,7 @@
 !> what is tried where it does not converge.
 module atrito_outer_loop
    use atrito_accelerator, only: picard_t, anderson_t
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t
    use atrito_coarse_line, only: interpolation_t, has_coarse_line, coarsen_line, start_from_coarse
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t, normal_bounds
@@ -41,7 +41,7 @@ module atrito_outer_loop
 contains
 
    subroutine solve_contact_line(problem, line, controls, reporter, solution, status, rows)
-      type(box_problem_t), intent(in), target :: problem
+      type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
       type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
@@ -60,7 +60,7 @@ contains
    end subroutine solve_contact_line
 
    subroutine continue_contact_line(problem, line, controls, reporter, solution, status)
-      type(box_problem_t), intent(in), target :: problem
+      type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
       type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
@@ -96,7 +96,7 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       type(interpolation_t) :: interpolation
-      type(box_problem_t) :: coarse_problem
+      type(bound_qp_t) :: coarse_problem
       type(contact_line_t) :: coarse_line
       type(contact_solution_t) :: coarse
       type(anderson_t) :: anderson
@@ -118,7 +118,7 @@ contains
    end subroutine solve_from_coarse
 
    recursive subroutine solve_coarse(problem, line, solution, status)
-      type(box_problem_t), intent(in), target :: problem
+      type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
@@ -171,7 +171,7 @@ contains
    end subroutine solve_from_plain_start
 
    subroutine begin_history(problem, line, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
 
@@ -179,7 +179,7 @@ contains
    end subroutine begin_history
 
    subroutine start(problem, line, solution, tau, status)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
       real(wp), allocatable, intent(out) :: tau(:)

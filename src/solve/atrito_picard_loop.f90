@@ -1,7 +1,7 @@
 !> The Picard loop on the weighted normal stress, with the accelerator that it is given.
 module atrito_picard_loop
    use atrito_accelerator, only: accelerator_t
-   use atrito_box_problem, only: box_problem_t
+   use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, solve_with_bound, judge_condition, has_settled, &
                                       may_be_round_off, relative_residual
@@ -17,7 +17,7 @@ module atrito_picard_loop
 
    !> What is to be solved, how, and who is told of it.
    type :: line_task_t
-      type(box_problem_t), pointer :: problem => null()
+      type(bound_qp_t), pointer :: problem => null()
       type(contact_line_t), pointer :: line => null()
       type(controls_t) :: controls
       type(reporter_t) :: reporter

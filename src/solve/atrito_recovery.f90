@@ -2,7 +2,7 @@
 module atrito_recovery
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at
-   use atrito_box_problem, only: FREE
+   use atrito_bound_qp, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, row_value
@@ -19,7 +19,7 @@ module atrito_recovery
    use atrito_range, only: unit_of
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
-   use atrito_threads, only: is_shared, run_count, find_run
+   use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
    public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
@@ -57,7 +57,7 @@ contains
       integer(ip) :: i, dof, k, first
 
       associate (body => fem%bodies%list(i_body))
-         first = body%n - body%n_kept
+         first = body%n - body%n_retained
          x = condensed%load(first + 1:, :)
          do i = 1, size(body%nodes, kind=ip)
             do dof = 1, 2
@@ -211,8 +211,8 @@ contains
       type(results_t), intent(inout) :: results
       type(point_rule_t) :: rules(MOST_NODES)
       logical, allocatable :: wanted(:)
-      integer(ip) :: rows(run_count(fem%mesh%n_elements) + 1) !< filled before each run of elements
-      integer(ip) :: run
+      integer(ip) :: rows(chunk_count(fem%mesh%n_elements) + 1) !< filled before each chunk of elements
+      integer(ip) :: chunk
 
       associate (requests => model%requests)
          if (.not. (requests%stress .or. requests%fields%stress)) return
@@ -226,8 +226,8 @@ contains
          allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
       end associate
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
-      do run = 1, size(rows, kind=ip) - 1
-         call add_stresses(fem, run, wanted, rules, rows(run), results)
+      do chunk = 1, size(rows, kind=ip) - 1
+         call add_stresses(fem, chunk, wanted, rules, rows(chunk), results)
       end do
       !$omp end parallel do
    end subroutine recover_stress
@@ -235,32 +235,32 @@ contains
    pure subroutine count_rows(fem, wanted, rows)
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: wanted(:)
-      integer(ip), intent(out) :: rows(:)            !< (runs + 1) before each run; all
-      integer(ip) :: run, e, first, last
+      integer(ip), intent(out) :: rows(:)            !< (chunks + 1) before each chunk; all
+      integer(ip) :: chunk, e, first, last
 
       rows(1) = 0
-      do run = 1, size(rows, kind=ip) - 1
-         call find_run(run, fem%mesh%n_elements, first, last)
-         rows(run + 1) = rows(run)
+      do chunk = 1, size(rows, kind=ip) - 1
+         call find_chunk(chunk, fem%mesh%n_elements, first, last)
+         rows(chunk + 1) = rows(chunk)
          do e = first, last
-            if (wanted(e)) rows(run + 1) = rows(run + 1) + SHAPES(fem%mesh%shape(e))%n_points
+            if (wanted(e)) rows(chunk + 1) = rows(chunk + 1) + SHAPES(fem%mesh%shape(e))%n_points
          end do
       end do
    end subroutine count_rows
 
-   !> The rows of one run of elements.
-   pure subroutine add_stresses(fem, run, wanted, rules, filled, results)
+   !> The rows of one chunk of elements.
+   pure subroutine add_stresses(fem, chunk, wanted, rules, filled, results)
       type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: run
+      integer(ip), intent(in) :: chunk
       logical, intent(in) :: wanted(:)
       type(point_rule_t), intent(in) :: rules(MOST_NODES)
-      integer(ip), intent(in) :: filled              !< rows before those of this run
+      integer(ip), intent(in) :: filled              !< rows before those of this chunk
       type(results_t), intent(inout) :: results
       type(point_geometry_t) :: geometry
       integer(ip) :: e, first, last, row
 
       row = filled
-      call find_run(run, fem%mesh%n_elements, first, last)
+      call find_chunk(chunk, fem%mesh%n_elements, first, last)
       do e = first, last
          if (wanted(e)) call add_element(fem, e, rules(fem%mesh%shape(e)), geometry, row, results)
       end do

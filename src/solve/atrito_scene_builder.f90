@@ -49,7 +49,7 @@ contains
       type(model_t), intent(in) :: model
       logical, intent(in) :: held(:, :)                        !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
-      integer, intent(in) :: asked                             !< storage asked for, or 0
+      integer, intent(in) :: asked                             !< solver asked for, or 0
       type(fem_t), intent(inout) :: fem
       integer(ip), allocatable :: first(:), contact_nodes(:)
       integer(ip) :: i, n_free

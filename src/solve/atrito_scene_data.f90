@@ -2,7 +2,7 @@
 module atrito_scene_data
    use atrito_assembled_scene, only: assembled_scene_t, assemble_scene, set_scene_load
    use atrito_assembly, only: fem_t
-   use atrito_body_store, only: body_store_t, take_numbering
+   use atrito_body_cache, only: body_cache_t, take_numbering
    use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: average_entries, build_line
@@ -16,7 +16,7 @@ module atrito_scene_data
    use atrito_reporter, only: reporter_t
    use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_scene_memory, only: check_average_memory, most_average_entries
-   use atrito_solver_choice, only: STORAGE_SPARSE
+   use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -35,14 +35,14 @@ module atrito_scene_data
       real(wp), allocatable :: f(:, :)                      !< (2, n_nodes) applied forces [F]
       integer :: contact_form = CONTACT_DENSE
       character(len=:), allocatable :: reason               !< why this form
-      integer :: storage_kind = 0                           !< that the bodies are numbered for
+      integer :: solver_kind = 0                           !< that the bodies are numbered for
       type(assembled_scene_t) :: assembled                  !< the sparse form, before any factorisation
       logical :: is_assembled = .false.
    end type scene_data_t
 
    !> What the user asks for.
    type :: asked_t
-      integer :: storage_kind = 0                           !< STORAGE_* or 0
+      integer :: solver_kind = 0                           !< STORAGE_* or 0
       integer :: contact_form = CONTACT_AUTO
       integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
    end type asked_t
@@ -53,7 +53,7 @@ contains
    !> message, when the averages need more memory than there is.
    subroutine prepare(model, store, asked, data, status)
       type(model_t), intent(in), target :: model
-      type(body_store_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(out) :: data
       type(status_t), intent(out) :: status
@@ -62,11 +62,11 @@ contains
       data%model => model
       call build_scene(model, data%fem, data%held, data%value, data%points)
       call choose_form(asked, data)
-      data%storage_kind = asked%storage_kind
+      data%solver_kind = asked%solver_kind
       ! all bodies in one matrix: none is numbered for a profile of its own
-      if (data%contact_form == CONTACT_SPARSE) data%storage_kind = STORAGE_SPARSE
-      call take_numbering(store, data%held, data%points, data%storage_kind, data%fem, known)
-      if (.not. known) call build_bodies(model, data%held, data%points, data%storage_kind, data%fem)
+      if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
+      call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known)
+      if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       call build_rows(data%points, data%rows)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &

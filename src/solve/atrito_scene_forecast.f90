@@ -11,7 +11,7 @@ module atrito_scene_forecast
    use atrito_model, only: model_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
-   use atrito_solver_choice, only: STORAGE_SPARSE
+   use atrito_solver_choice, only: SOLVER_SPARSE
    implicit none (type, external)
    private
    public :: forecast_memory, share_of
@@ -61,8 +61,8 @@ contains
       rows = 0
       do b = 1, size(scene%bodies, kind=ip)
          associate (body => scene%bodies(b))
-            most = max(most, held + with_holes(body%storage_kind, body%most_memory))
-            held = held + with_holes(body%storage_kind, body%memory) + REAL_BYTES*int(body%n_equations, lp)
+            most = max(most, held + with_holes(body%solver_kind, body%most_memory))
+            held = held + with_holes(body%solver_kind, body%memory) + REAL_BYTES*int(body%n_equations, lp)
             rows = max(rows, body%n_contact_equations*min(m, 2*int(body%n_contact_equations, lp)))
          end associate
       end do
@@ -71,12 +71,12 @@ contains
    end function dense_solving_bytes
 
    !> With what the updates of fronts leave behind between the factors when they are given back: nothing else fits there.
-   pure integer(lp) function with_holes(storage_kind, bytes)
-      integer, intent(in) :: storage_kind
+   pure integer(lp) function with_holes(solver_kind, bytes)
+      integer, intent(in) :: solver_kind
       integer(lp), intent(in) :: bytes
 
       with_holes = bytes
-      if (storage_kind >= STORAGE_SPARSE) with_holes = bytes + share_of(HOLES, bytes)
+      if (solver_kind >= SOLVER_SPARSE) with_holes = bytes + share_of(HOLES, bytes)
    end function with_holes
 
    pure integer(lp) function share_of(share, bytes)

@@ -2,7 +2,7 @@
 module atrito_scene_survey
    use atrito_assembly, only: body_profile
    use atrito_body_memory, only: estimate_body_memory, count_body_memory
-   use atrito_condensed_body, only: choose_storage
+   use atrito_condensed_body, only: choose_solver
    use atrito_contact_form, only: contact_form_name, CONTACT_SPARSE
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory, resident_memory
@@ -12,7 +12,7 @@ module atrito_scene_survey
    use atrito_scene_data, only: scene_data_t
    use atrito_scene_forecast, only: forecast_memory, share_of
    use atrito_scene_memory, only: check_memory
-   use atrito_solver_choice, only: STORAGE_SPARSE
+   use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t
    use atrito_strings, only: to_text, append_string
    use atrito_system, only: peak_memory, reusable_memory
@@ -53,7 +53,7 @@ contains
       call list_left_out(data, scene)
    end subroutine describe_scene
 
-   !> A body, and the storage of its matrix where it has one of its own.
+   !> A body, and the solver of its matrix where it has one of its own.
    subroutine describe_body(data, b, result)
       type(scene_data_t), intent(in) :: data
       integer(ip), intent(in) :: b
@@ -66,19 +66,19 @@ contains
          result%n_nodes = size(body%nodes, kind=ip)
          result%n_elements = size(body%elements, kind=ip)
          result%n_equations = body%n
-         result%n_contact_equations = body%n_kept
+         result%n_contact_equations = body%n_retained
          result%n_free_motions = size(body%modes, 2, kind=ip)
       end associate
       if (data%contact_form == CONTACT_SPARSE) then
-         result%storage = 'scene'
+         result%solver = 'scene'
       else
          call body_profile(data%fem, b, profile)
-         call choose_storage(profile, data%storage_kind, kind, result)
+         call choose_solver(profile, data%solver_kind, kind, result)
          call estimate_body_memory(data%fem, b, result)
       end if
    end subroutine describe_body
 
-   !> Counts what could be estimated only: the fronts of bodies with the sparse storage. A run, which makes them itself in a while,
+   !> Counts what could be estimated only: the fronts of bodies with the sparse solver. A run, which makes them itself in a while,
    !> wants it where the estimate does not fit.
    subroutine count_fronts(data, always, scene)
       type(scene_data_t), intent(in) :: data
@@ -86,12 +86,12 @@ contains
       type(scene_t), intent(inout) :: scene
       integer(ip) :: b
 
-      if (.not. any(scene%bodies%storage_kind == STORAGE_SPARSE)) return
+      if (.not. any(scene%bodies%solver_kind == SOLVER_SPARSE)) return
       if (.not. always) then
          if (scene%memory - scene%memory_before <= available_memory()) return
       end if
       do b = 1, size(scene%bodies, kind=ip)
-         if (scene%bodies(b)%storage_kind == STORAGE_SPARSE) call count_body_memory(data%fem, b, scene%bodies(b))
+         if (scene%bodies(b)%solver_kind == SOLVER_SPARSE) call count_body_memory(data%fem, b, scene%bodies(b))
       end do
       scene%peak_before = max(scene%peak_before, peak_memory())
       scene%memory = forecast_memory(data%model, data, scene)

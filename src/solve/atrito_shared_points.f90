@@ -1,7 +1,7 @@
 !> Points that share what they ask: rows of the constraints that depend on each other, so that their forces are not unique.
 module atrito_shared_points
    use atrito_assembly, only: fem_t
-   use atrito_box_problem, only: box_problem_t, DEPENDENT_POINTS
+   use atrito_bound_qp, only: bound_qp_t, DEPENDENT_POINTS
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t
@@ -32,7 +32,7 @@ contains
 
    !> Solves a line again whose rows depend on each other. status: as of solve_contact_line.
    subroutine solve_shared_points(problem, fem, rows, line, controls, reporter, solution, status)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line

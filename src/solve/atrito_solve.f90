@@ -1,9 +1,9 @@
 !> One static step, from the model to the results.
 module atrito_solve
    use atrito_blas_info, only: is_reference_blas
-   use atrito_body_store, only: body_store_t
+   use atrito_body_cache, only: body_cache_t
    use atrito_body_sums, only: sum_bodies
-   use atrito_chatter, only: report_chatter
+   use atrito_unsettled_points, only: report_unsettled
    use atrito_condensed_body, only: motion_text, body_text, how_it_moves
    use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_problem, only: motion_body
@@ -25,7 +25,7 @@ module atrito_solve
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
    use atrito_shared_points, only: note_shared_points
-   use atrito_solver_choice, only: STORAGE_SKYLINE, STORAGE_BANDED, STORAGE_SPARSE, STORAGE_MUMPS
+   use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
    use atrito_sparse_form, only: solve_sparse_form
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
@@ -38,8 +38,7 @@ module atrito_solve
    public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
    public :: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
 
-   integer, parameter :: SOLVER_AUTO = 0, SOLVER_SKYLINE = STORAGE_SKYLINE, SOLVER_BANDED = STORAGE_BANDED, &
-                         SOLVER_SPARSE = STORAGE_SPARSE, SOLVER_MUMPS = STORAGE_MUMPS
+   integer, parameter :: SOLVER_AUTO = 0
 
    type, extends(asked_t) :: solve_options_t
    end type solve_options_t
@@ -75,7 +74,7 @@ contains
       type(scene_t), intent(out) :: scene
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
-      type(body_store_t) :: store
+      type(body_cache_t) :: store
 
       call begin_scene(model, options, store, .true., data, scene, status)
    end subroutine survey_scene
@@ -84,7 +83,7 @@ contains
    subroutine begin_scene(model, options, store, exact, data, scene, status)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
-      type(body_store_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store
       logical, intent(in) :: exact                          !< all fronts are counted, before a run makes them
       type(scene_data_t), intent(out) :: data
       type(scene_t), intent(out) :: scene
@@ -108,8 +107,8 @@ contains
       type(reporter_t), intent(in) :: reporter
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
-      type(body_store_t), intent(inout), optional :: kept  !< bodies of an earlier run; on return those of this one
-      type(body_store_t) :: store
+      type(body_cache_t), intent(inout), optional :: kept  !< bodies of an earlier run; on return those of this one
+      type(body_cache_t) :: store
 
       if (present(kept)) then
          call solve_with_store(model, options, reporter, kept, results, status)
@@ -122,7 +121,7 @@ contains
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
       type(scene_data_t) :: data
@@ -154,7 +153,7 @@ contains
       if (.not. is_ok(status)) return
       ! with the fronts that the bodies have in place of those that were expected
       results%scene%memory = forecast_memory(model, data, results%scene)
-      call report_chatter(data%fem%mesh, data%points, data%rows, data%line, solution, results)
+      call report_unsettled(data%fem%mesh, data%points, data%rows, data%line, solution, results)
       call warn(data, solution, results)
    end subroutine solve_with_store
 
@@ -170,7 +169,7 @@ contains
    subroutine solve_without_near(data, controls, store, results, solution, status)
       type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
@@ -191,7 +190,7 @@ contains
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
       type(controls_t), intent(in) :: controls
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
@@ -236,7 +235,7 @@ contains
    subroutine try_others(data, controls, store, results, solution)
       type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
       type(controls_t) :: newton, patient_controls
@@ -266,7 +265,7 @@ contains
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
       type(controls_t), intent(in) :: controls
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(contact_solution_t), intent(inout) :: solution
       type(results_t) :: other
@@ -413,8 +412,8 @@ contains
 
       if (is_reference_blas()) call add_warning('W-BLAS', 'this program was linked with the reference BLAS; with OpenBLAS' &
                                                 //' it is about three times as fast')
-      if (allocated(solution%inner%idle)) then
-         call motion_body(data%fem, solution%inner%idle, b, mode)
+      if (allocated(solution%inner%undetermined)) then
+         call motion_body(data%fem, solution%inner%undetermined, b, mode)
          call add_warning('W-IDLE', motion_text(data%fem, b, mode)//': no load does it and nothing prevents it; the least' &
                           //' motion is given')
       end if

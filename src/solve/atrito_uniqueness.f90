@@ -6,7 +6,7 @@
 !> nu |C_nt|/C_nn = nu |K_nt|/K_tt. Sets: all points, and those that are closed in the solution. Directions: all the same,
 !> and those of the solution. Other sets and directions may be worse, hence an estimate. The average S_rho is left out.
 module atrito_uniqueness
-   use atrito_box_problem, only: box_problem_t, FREE, AT_LOWER
+   use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t
    use atrito_dense, only: eigen_symmetric, multiply_vector
    use atrito_dense_blocks, only: factor_in_blocks, solve_with_triangle
@@ -34,7 +34,7 @@ contains
 
    !> The estimate sigma; 0 without friction.
    function estimate_contraction(problem, line, compliance, state) result(sigma)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: compliance(:)       !< (m) D of the laws [L/F]
       integer(ip), intent(in) :: state(:)         !< (m) of the solution
@@ -55,7 +55,7 @@ contains
 
    !> The estimate of one set of points.
    function contraction_of(problem, line, compliance, state, set, can_slip) result(sigma)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: compliance(:)
       integer(ip), intent(in) :: state(:)
@@ -81,7 +81,7 @@ contains
    end function contraction_of
 
    subroutine build_map(problem, line, compliance, set, place, slipping, map, possible)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: compliance(:)
       integer(ip), intent(in) :: set(:)           !< normal unknowns

@@ -1,11 +1,11 @@
-!> What one linear solve of a deck's scene costs, by which a run of the program is measured (docs/performance.md): the bodies are glued
-!> together along their contact pairs, assembled, ordered, factored by MUMPS and solved once, with one thread.
+!> What one linear solve of a deck's scene costs, by which a run of the program is measured (docs/performance.md): the bodies are
+!> glued together along their contact pairs, assembled, ordered, factored by MUMPS and solved once, with one thread.
 !>
 !>    limit DECK.inp [--ordering amd|metis] [--numbering deck|backward|bodies] [--set NAME=VALUE] [--refine K]
 !>    limit DECK.inp --count [--set NAME=VALUE] [--refine K]
 !>
-!> --ordering   MUMPS's minimum degree (default), or METIS, whose time is counted. One process, one order: its peak memory is its own
-!> --numbering  of the equations: nodes as in the deck (default), backward, or the last body first
+!> --ordering   MUMPS's minimum degree (default), or METIS, whose time is counted. One process, one order: its peak memory is its
+!> own --numbering  of the equations: nodes as in the deck (default), backward, or the last body first
 !> --count      solves nothing, and tells the operations of the factorisation: AMD for each numbering, METIS
 !>
 !> Exit codes are those of atrito; bodies that cannot be glued are 1.

@@ -1,8 +1,8 @@
-!> What one linear solve of a deck's own scene costs: its bodies glued together, assembled, ordered, factored once by MUMPS and solved
-!> once. Nothing else: no contact, no stresses, no tables. A run is measured by it (docs/performance.md).
+!> What one linear solve of a deck's own scene costs: its bodies glued together, assembled, ordered, factored once by MUMPS and
+!> solved once. Nothing else: no contact, no stresses, no tables. A run is measured by it (docs/performance.md).
 !>
-!> The matrix is a plain sum of element matrices. The order is MUMPS's own minimum degree (AMD), or nested dissection by METIS, which
-!> is counted. What minimum degree finds depends on how the equations are numbered, by a factor of two and more, since ties
+!> The matrix is a plain sum of element matrices. The order is MUMPS's own minimum degree (AMD), or nested dissection by METIS,
+!> which is counted. What minimum degree finds depends on how the equations are numbered, by a factor of two and more, since ties
 !> decide: count_operations tells which numbering is the cheapest.
 !>
 !> What is not needed any more goes before the factorisation, the mesh included, so that the peak memory of the process is that of
@@ -18,7 +18,7 @@ module linear_solve
    use atrito_points, only: contact_points_t
    use atrito_scene_builder, only: build_scene
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
-   use atrito_storage, only: smallest_ratio
+   use atrito_linear_solver, only: smallest_ratio
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
    use glued_bodies, only: glued_t, glue_bodies, node_order, number_glued, count_entries, glued_load, assemble_glued, &
@@ -98,8 +98,8 @@ contains
       if (plan%keeps_scene) facts%u = glued_displacements(glued, x)
    end subroutine solve_once
 
-   !> Operations of the factorisation as the analysis counts them: by AMD for each numbering, by METIS for the deck's; negative where
-   !> METIS is missing.
+   !> Operations of the factorisation as the analysis counts them: by AMD for each numbering, by METIS for the deck's; negative
+   !> where METIS is missing.
    subroutine count_operations(model, amd_operations, metis_operations, status)
       type(model_t), intent(in), target :: model
       real(wp), intent(out) :: amd_operations(:)    !< (size(NUMBERINGS))

@@ -1,5 +1,5 @@
-!> Random numbers for the generator of scenes: L'Ecuyer's combined generator MRG32k3a (1999), the one of random_decks, as a state that
-!> is handed on.
+!> Random numbers for the generator of scenes: L'Ecuyer's combined generator MRG32k3a (1999), the one of random_decks, as a state
+!> that is handed on.
 module random_numbers
    use, intrinsic :: iso_fortran_env, only: int64, real64
    implicit none (type, external)

@@ -5,12 +5,12 @@ module atrito_mumps
    use atrito_mumps_library, only: mumps_trouble
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
-   use atrito_storage, only: storage_t
+   use atrito_linear_solver, only: linear_solver_t
    implicit none (type, external)
    private
    public :: mumps_t
 
-   type, extends(storage_t) :: mumps_t
+   type, extends(linear_solver_t) :: mumps_t
    contains
       procedure :: create => create_mumps
       procedure :: add => add_to_mumps
@@ -19,7 +19,7 @@ module atrito_mumps
       procedure :: reduce => reduce_by_mumps
       procedure :: expand => expand_by_mumps
       procedure :: memory_bytes => mumps_memory
-      procedure, nopass :: name => mumps_storage_name
+      procedure, nopass :: name => mumps_solver_name
    end type mumps_t
 
 contains
@@ -68,10 +68,10 @@ contains
       mumps_memory = 0
    end function mumps_memory
 
-   pure function mumps_storage_name() result(name)
+   pure function mumps_solver_name() result(name)
       character(len=:), allocatable :: name
 
       name = 'mumps'
-   end function mumps_storage_name
+   end function mumps_solver_name
 
 end module atrito_mumps

@@ -1,6 +1,6 @@
-!> Box problems for the tests of contact: random ones, all their states one by one, and how far a state is from a solution.
+!> Bound-constrained QPs for the tests of contact: random ones, all their states one by one, and how far a state is from a solution.
 module box_cases
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_dense, only: least_squares
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
    implicit none (type, external)
@@ -26,7 +26,7 @@ contains
    subroutine random_problem(seed, n_normal, n_shear, k, d_size, problem, bounds)
       integer(ip), intent(in) :: seed, n_normal, n_shear, k
       real(wp), intent(in) :: d_size
-      type(box_problem_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem
       type(box_bounds_t), intent(out) :: bounds
       integer(lp) :: state
       real(wp), allocatable :: flat(:)
@@ -64,7 +64,7 @@ contains
 
    !> All closed and stuck (FREE), or all open and slipping (AT_LOWER).
    pure subroutine start_state(problem, begin, state)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       integer(ip), intent(in) :: begin
       type(box_state_t), intent(out) :: state
 
@@ -72,10 +72,10 @@ contains
       allocate (state%q(problem%m), state%r(problem%m), state%a(problem%k), source=0.0_wp)
    end subroutine start_state
 
-   !> How far q, a are from the conditions of the box problem, whatever the states say: bounds and G'q = h over the largest
+   !> How far q, a are from the conditions of the bound-constrained QP, whatever the states say: bounds and G'q = h over the largest
    !> force, signs of r where q is at a bound and r = 0 where it is not over the largest term of r.
    pure real(wp) function kkt_residual(problem, bounds, state) result(worst)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
       real(wp), parameter :: AT_BOUND = 1.0e-11_wp
@@ -102,7 +102,7 @@ contains
 
    !> Tries every combination of states; `found`: one fulfils all conditions, and state is it.
    subroutine enumerate_states(problem, bounds, state, found)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(out) :: state
       logical, intent(out) :: found
@@ -126,7 +126,7 @@ contains
 
    !> The equations of one combination by least squares: where they contradict each other the conditions will not hold.
    subroutine solve_states(problem, bounds, state)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       real(wp) :: a(problem%m + problem%k, problem%m + problem%k), b(problem%m + problem%k), x(problem%m + problem%k)
@@ -159,7 +159,7 @@ contains
    !> What no contact force within the bounds can resist: the load's work on a motion less the most that the forces can take of
    !> it, over the size of both. Positive: there is no equilibrium, and the motion shows it (Farkas).
    pure real(wp) function certificate(problem, bounds, motion) result(excess)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       real(wp), intent(in) :: motion(:)
       real(wp) :: rate(problem%m), scale

@@ -1,6 +1,6 @@
-!> Random box problems and their conditions.
+!> Random bound-constrained QPs and their conditions.
 module contact_cases
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ contains
    subroutine random_problem(seed, n, k, problem, bounds, state)
       integer(lp), intent(inout) :: seed
       integer(ip), intent(in) :: n, k
-      type(box_problem_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem
       type(box_bounds_t), intent(out) :: bounds
       type(box_state_t), intent(out) :: state
       real(wp) :: a(2*n, 2*n)
@@ -59,9 +59,9 @@ contains
       allocate (state%q(m), state%a(k), state%r(m), source=0.0_wp)
    end subroutine random_problem
 
-   !> The largest violation of the conditions of the box problem, computed from q and a alone.
+   !> The largest violation of the conditions of the bound-constrained QP, computed from q and a alone.
    pure real(wp) function condition_error(problem, bounds, state) result(error)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
       real(wp) :: r(problem%m)

@@ -1,6 +1,6 @@
 !> A contact system of a few unknowns with a full matrix, for the tests of the multiplier method.
 module dense_system
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, FREE
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_system, only: contact_system_t
    use atrito_dense, only: factor_cholesky, solve_cholesky
@@ -77,7 +77,7 @@ contains
       type(multiplier_t), intent(out) :: multipliers
       type(box_state_t), intent(out) :: state
       type(status_t), intent(out) :: status
-      type(box_problem_t) :: shape
+      type(bound_qp_t) :: shape
       type(solve_history_t) :: history
       integer(ip) :: i
 

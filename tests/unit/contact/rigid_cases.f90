@@ -114,8 +114,8 @@ contains
                                           identity_average(scene%line%n - last)])
    end subroutine average_points
 
-   !> A semicircular arch of n voussoirs with straight sides, corners on circles of radius 1 -+ t/2, on rigid springings, under its own
-   !> weight; two points a joint, its ends.
+   !> A semicircular arch of n voussoirs with straight sides, corners on circles of radius 1 -+ t/2, on rigid springings, under its
+   !> own weight; two points a joint, its ends.
    subroutine arch_scene(n, t, nu, scene)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: t, nu

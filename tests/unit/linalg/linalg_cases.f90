@@ -3,9 +3,9 @@ module linalg_cases
    use atrito_dense, only: factor_cholesky, solve_cholesky, solve_lu, norm_one
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile
-   use atrito_solver_choice, only: new_storage
+   use atrito_solver_choice, only: new_solver
    use atrito_status, only: status_t, is_ok
-   use atrito_storage, only: storage_t
+   use atrito_linear_solver, only: linear_solver_t
    implicit none (type, external)
    private
    public :: ORDERS, RATIO_LIMIT, kept_counts, random_matrix, random_symmetric, random_profile, fill_storage, make_storage
@@ -18,7 +18,7 @@ module linalg_cases
 
 contains
 
-   !> The counts of kept equations that are tried with n equations.
+   !> The counts of retained equations that are tried with n equations.
    pure function kept_counts(n) result(counts)
       integer(ip), intent(in) :: n
       integer(ip) :: counts(4)
@@ -56,8 +56,8 @@ contains
    end subroutine random_symmetric
 
    !> A ragged profile, and a full matrix with it, positive definite by its diagonal.
-   subroutine random_profile(seed, n, n_kept, scale, profile, a)
-      integer(ip), intent(in) :: seed, n, n_kept
+   subroutine random_profile(seed, n, n_retained, scale, profile, a)
+      integer(ip), intent(in) :: seed, n, n_retained
       real(wp), intent(in) :: scale
       type(profile_t), intent(out) :: profile
       real(wp), allocatable, intent(out) :: a(:, :)
@@ -67,7 +67,7 @@ contains
       allocate (a(n, n))
       call random_matrix(seed, heights)
       call random_matrix(seed + 1, a)
-      call begin_profile(profile, n, n_kept)
+      call begin_profile(profile, n, n_retained)
       do j = 1, n
          height = int(abs(heights(j, 1))*real(min(j, 17 + n/10), wp))
          call add_to_profile(profile, [0, j, max(j - height, 1)])
@@ -83,11 +83,11 @@ contains
       a = scale*a
    end subroutine random_profile
 
-   !> Puts a full matrix into a storage, entry by entry as elements of two equations.
-   subroutine fill_storage(profile, a, storage)
+   !> Puts a full matrix into a solver, entry by entry as elements of two equations.
+   subroutine fill_storage(profile, a, solver)
       type(profile_t), intent(in) :: profile
       real(wp), intent(in) :: a(:, :)
-      class(storage_t), intent(inout) :: storage
+      class(linear_solver_t), intent(inout) :: solver
       real(wp) :: element(3, 3)
       integer(ip) :: i, j
 
@@ -97,92 +97,92 @@ contains
             element(:, 2) = 1e6_wp       ! belongs to a prescribed dof
             element(1, 3) = a(i, j)
             element(3, 1) = a(i, j)
-            call storage%add([i, 0, j], element)
+            call solver%add([i, 0, j], element)
          end do
-         call storage%add([j], reshape([a(j, j)], [1, 1]))
+         call solver%add([j], reshape([a(j, j)], [1, 1]))
       end do
    end subroutine fill_storage
 
-   !> Makes a storage of a kind from a full matrix, with the full profile, and factors it.
-   subroutine make_storage(kind, a, n_kept, storage, status)
+   !> Makes a solver of a kind from a full matrix, with the full profile, and factors it.
+   subroutine make_storage(kind, a, n_retained, solver, status)
       integer, intent(in) :: kind
       real(wp), intent(in) :: a(:, :)
-      integer(ip), intent(in) :: n_kept
-      class(storage_t), allocatable, intent(out) :: storage
+      integer(ip), intent(in) :: n_retained
+      class(linear_solver_t), allocatable, intent(out) :: solver
       type(status_t), intent(out) :: status
       type(profile_t) :: profile
       integer(ip) :: i, n
 
       n = size(a, 1)
-      call begin_profile(profile, n, n_kept)
+      call begin_profile(profile, n, n_retained)
       call add_to_profile(profile, [(i, i=1, n)])
       call close_profile(profile)
-      call new_storage(kind, storage)
-      call storage%create(profile, status)
-      call fill_storage(profile, a, storage)
-      call storage%factor(status)
+      call new_solver(kind, solver)
+      call solver%create(profile, status)
+      call fill_storage(profile, a, solver)
+      call solver%factor(status)
    end subroutine make_storage
 
    !> Solves A x = f for two loads by condensation; the residual over n, norms and epsilon.
-   function solve_ratio(kind, n, n_kept, scale) result(ratio)
+   function solve_ratio(kind, n, n_retained, scale) result(ratio)
       integer, intent(in) :: kind
-      integer(ip), intent(in) :: n, n_kept
+      integer(ip), intent(in) :: n, n_retained
       real(wp), intent(in) :: scale
       real(wp) :: ratio
-      class(storage_t), allocatable :: storage
+      class(linear_solver_t), allocatable :: solver
       type(profile_t) :: profile
       type(status_t) :: status
       real(wp), allocatable :: a(:, :), f(:, :), x(:, :), schur(:, :), kept(:, :)
       integer(ip) :: failed
 
-      call random_profile(n + n_kept, n, n_kept, scale, profile, a)
-      allocate (f(n, 2), schur(n_kept, n_kept))
+      call random_profile(n + n_retained, n, n_retained, scale, profile, a)
+      allocate (f(n, 2), schur(n_retained, n_retained))
       call random_matrix(3*n, f)
-      call new_storage(kind, storage)
-      call storage%create(profile, status)
-      call fill_storage(profile, a, storage)
-      call storage%factor(status)
+      call new_solver(kind, solver)
+      call solver%create(profile, status)
+      call fill_storage(profile, a, solver)
+      call solver%factor(status)
       ratio = huge(ratio)
       if (.not. is_ok(status)) return
       x = f
-      call storage%reduce(x)
-      call storage%get_schur(schur)
+      call solver%reduce(x)
+      call solver%get_schur(schur)
       call factor_cholesky(schur, failed)
       if (failed /= 0) return
-      kept = x(n - n_kept + 1:, :)
+      kept = x(n - n_retained + 1:, :)
       call solve_cholesky(schur, kept)
-      x(n - n_kept + 1:, :) = kept
-      call storage%expand(x)
+      x(n - n_retained + 1:, :) = kept
+      call solver%expand(x)
       ratio = 0.0_wp
       if (n > 0) ratio = norm_one(f - matmul(a, x))/(real(n, wp)*norm_one(x)*norm_one(a)*EPS_MACH)
    end function solve_ratio
 
    !> The Schur complement against the one by LU; the difference over n, norm and epsilon.
-   function schur_ratio(kind, n, n_kept, scale) result(ratio)
+   function schur_ratio(kind, n, n_retained, scale) result(ratio)
       integer, intent(in) :: kind
-      integer(ip), intent(in) :: n, n_kept
+      integer(ip), intent(in) :: n, n_retained
       real(wp), intent(in) :: scale
       real(wp) :: ratio
-      class(storage_t), allocatable :: storage
+      class(linear_solver_t), allocatable :: solver
       type(profile_t) :: profile
       type(status_t) :: status
       real(wp), allocatable :: a(:, :), interior(:, :), coupling(:, :), expected(:, :), schur(:, :)
       integer(ip) :: info, m
 
-      call random_profile(n + n_kept, n, n_kept, scale, profile, a)
-      m = n - n_kept
-      allocate (schur(n_kept, n_kept))
-      call new_storage(kind, storage)
-      call storage%create(profile, status)
-      call fill_storage(profile, a, storage)
-      call storage%factor(status)
-      call storage%get_schur(schur)
+      call random_profile(n + n_retained, n, n_retained, scale, profile, a)
+      m = n - n_retained
+      allocate (schur(n_retained, n_retained))
+      call new_solver(kind, solver)
+      call solver%create(profile, status)
+      call fill_storage(profile, a, solver)
+      call solver%factor(status)
+      call solver%get_schur(schur)
       interior = a(:m, :m)
       coupling = a(:m, m + 1:)
       call solve_lu(interior, coupling, info)
       expected = a(m + 1:, m + 1:) - matmul(a(m + 1:, :m), coupling)
       ratio = 0.0_wp
-      if (n_kept > 0) ratio = norm_one(schur - expected)/(real(n, wp)*norm_one(a)*EPS_MACH)
+      if (n_retained > 0) ratio = norm_one(schur - expected)/(real(n, wp)*norm_one(a)*EPS_MACH)
       if (.not. is_ok(status)) ratio = huge(ratio)
    end function schur_ratio
 

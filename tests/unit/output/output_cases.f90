@@ -81,7 +81,7 @@ contains
       allocate (results%contact(1), results%scene%bodies(1), results%scene%pairs(1))
       results%contact(1) = make_contact()
       results%scene%bodies(1)%name = 'ALL'
-      results%scene%bodies(1)%storage = 'skyline'
+      results%scene%bodies(1)%solver = 'skyline'
       results%scene%pairs(1)%slave = 'UNDER'
       results%scene%pairs(1)%master = 'FLOOR'
       results%scene%pairs(1)%n_points = 3

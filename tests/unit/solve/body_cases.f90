@@ -3,7 +3,7 @@ module body_cases
    use atrito_assembly, only: fem_t
    use atrito_average, only: build_average
    use atrito_bodies, only: find_bodies, number_equations, find_rigid_modes
-   use atrito_box_problem, only: box_problem_t
+   use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_contact_rows, only: contact_rows_t, build_rows
    use atrito_dense, only: norm_one
@@ -153,7 +153,7 @@ contains
    subroutine random_line(seed, n, nu, eps, k, problem, line)
       integer(ip), intent(in) :: seed, n, k
       real(wp), intent(in) :: nu, eps
-      type(box_problem_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem
       type(contact_line_t), intent(out) :: line
       integer(lp) :: state
       real(wp) :: spacing(n), x(2, n), a(n, n), r(n, n), coupling(n, n), flat(n*n), limit(1), ramp(n)

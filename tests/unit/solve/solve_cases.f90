@@ -1,7 +1,7 @@
 !> Small contact lines for the tests: one node against a rigid surface, and a line on an elastic half plane.
 module solve_cases
    use atrito_average, only: build_average, identity_average
-   use atrito_box_problem, only: box_problem_t
+   use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_friction_law, only: friction_law_t, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS
    use atrito_kinds, only: ip, wp
@@ -15,7 +15,7 @@ contains
    !> With B = 1 the flexibility is C = K^-1, here in the order (n, t), and g0 = C F. Coulomb's law with exact stick.
    subroutine one_node(k, f, nu, problem, line)
       real(wp), intent(in) :: k(2, 2), f(2), nu
-      type(box_problem_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem
       type(contact_line_t), intent(out) :: line
       real(wp) :: c(2, 2), determinant
 
@@ -42,7 +42,7 @@ contains
    subroutine half_plane(n, nu, eps, rho, problem, line)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: nu, eps, rho
-      type(box_problem_t), intent(out) :: problem
+      type(bound_qp_t), intent(out) :: problem
       type(contact_line_t), intent(out) :: line
       real(wp) :: x(2, n), h, r
       integer(ip) :: i, j

@@ -19,10 +19,10 @@ for lean in 0.3 0.6 1; do
       name=post-$lean-$nu
       run 3 post.inp "$name" --set px=0.5 --set lean=$lean --set nu=$nu
       says "$name" "$name.err" 'the loop cycles between 2 states'
-      # the point that chatters, on the screen with the last iterations, and in the listing
-      says "$name" "$name.err" '1 point chatters: node '
-      says "$name" "$name.out" '1 point chatters in the last outer iterations'
-      node=$(sed -n 's/.*1 point chatters: node \([0-9]*\).*/\1/p' "$name.err")
+      # the point that is unsettled, on the screen with the last iterations, and in the listing
+      says "$name" "$name.err" '1 point is unsettled: node '
+      says "$name" "$name.out" '1 point is unsettled in the last outer iterations'
+      node=$(sed -n 's/.*1 point is unsettled: node \([0-9]*\).*/\1/p' "$name.err")
       grep -Eq "^  node $node [oc=+-]*(o[c=+-]|[c=+-]o)[oc=+-]*\$" "$name.out" || complain "$name: the screen does not name node $node"
       grep -Eq "^ +1 +[12] +$node +[^ ]+ +[^ ]+ +[oc=+-]+\$" "$name/post.lst" || complain "$name: the listing does not name node $node"
       last=$(awk '!/^#/ { print $2, $9 }' "$name/iterations.tab" | tail -n 1)
@@ -55,7 +55,7 @@ run 3 slow.inp slow --refine 1
 marked slow
 says slow slow.err 'did not converge in 5 iterations'
 grep -Eq 'no point changes its state, the friction bound is off most at node [0-9]+;' slow.err || complain 'slow: no place is named'
-grep -q chatter slow.out && complain 'slow: points that have settled are said to chatter'
+grep -q unsettled slow.out && complain 'slow: points that have settled are said to be unsettled'
 run 0 "$input/ex1-plate-on-support.inp" whole --quiet
 unmarked whole
 finish

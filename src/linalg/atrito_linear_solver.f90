@@ -1,12 +1,12 @@
-!> What the body solvers have in common: a symmetric positive definite matrix with kept equations.
+!> What the body solvers have in common: a symmetric positive definite matrix with retained equations.
 !>
-!> The last n_kept equations (contact, index c) are kept, the others (interior, index i) are eliminated:
+!> The last n_retained equations (contact, index c) are kept, the others (interior, index i) are eliminated:
 !>
 !>     S = K_cc - K_ci K_ii^-1 K_ic                                                (condensation, docs/theory)
 !>
 !> Use: create, add every element matrix (one by one, or all in a store), factor; then get_schur, and for every load reduce, find
-!> x_c, expand. Without kept equations reduce followed by expand solves K x = f.
-module atrito_storage
+!> x_c, expand. Without retained equations reduce followed by expand solves K x = f.
+module atrito_linear_solver
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: element_store_t, unpack_matrix, smallest_ratio
    use atrito_profile, only: profile_t
@@ -14,7 +14,7 @@ module atrito_storage
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: storage_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status, smallest_ratio, ALL_DIGITS
+   public :: linear_solver_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status, smallest_ratio, ALL_DIGITS
 
    !> What a factorisation tells.
    type :: factor_report_t
@@ -29,12 +29,12 @@ module atrito_storage
       integer(lp) :: most_bytes = 0         !< that the factorisation takes for a while
    end type factor_report_t
 
-   type, abstract :: storage_t
+   type, abstract :: linear_solver_t
       integer(ip) :: n = 0                  !< equations
-      integer(ip) :: n_kept = 0             !< the last n_kept are kept
+      integer(ip) :: n_retained = 0             !< the last n_retained are kept
       type(factor_report_t) :: report        !< of the last call of factor
    contains
-      procedure(create_storage), deferred :: create
+      procedure(create_solver), deferred :: create
       procedure(add_matrix), deferred :: add
       procedure :: add_store => add_one_by_one
       procedure(factor_interior), deferred :: factor
@@ -43,22 +43,22 @@ module atrito_storage
       procedure(expand_solution), deferred :: expand
       procedure(count_bytes), deferred :: memory_bytes
       procedure(get_name), nopass, deferred :: name
-   end type storage_t
+   end type linear_solver_t
 
    abstract interface
 
       !> Makes room for a zero matrix of the profile. status: STATUS_INTERNAL when the memory is too small.
-      subroutine create_storage(self, profile, status)
-         import :: storage_t, profile_t, status_t
-         class(storage_t), intent(inout) :: self
+      subroutine create_solver(self, profile, status)
+         import :: linear_solver_t, profile_t, status_t
+         class(linear_solver_t), intent(inout) :: self
          type(profile_t), intent(in) :: profile           !< closed
          type(status_t), intent(out) :: status
-      end subroutine create_storage
+      end subroutine create_solver
 
       !> Adds an element matrix.
       subroutine add_matrix(self, equations, matrix)
-         import :: storage_t, ip, wp
-         class(storage_t), intent(inout) :: self
+         import :: linear_solver_t, ip, wp
+         class(linear_solver_t), intent(inout) :: self
          integer(ip), intent(in) :: equations(:)          !< equation numbers; 0 = prescribed, skipped
          real(wp), intent(in) :: matrix(:, :)             !< symmetric, (size(equations), size(equations))
       end subroutine add_matrix
@@ -66,36 +66,36 @@ module atrito_storage
       !> Factors K_ii and forms S, in place. status: STATUS_SINGULAR when K_ii is singular or indefinite; `report` then names
       !> the equation, and the matrix is lost. STATUS_INTERNAL when the memory is too small.
       subroutine factor_interior(self, status)
-         import :: storage_t, status_t
-         class(storage_t), intent(inout) :: self
+         import :: linear_solver_t, status_t
+         class(linear_solver_t), intent(inout) :: self
          type(status_t), intent(out) :: status
       end subroutine factor_interior
 
       !> The Schur complement, both triangles; after factor.
       subroutine get_schur_complement(self, schur)
-         import :: storage_t, wp
-         class(storage_t), intent(in) :: self
-         real(wp), intent(out) :: schur(:, :)             !< (n_kept, n_kept)
+         import :: linear_solver_t, wp
+         class(linear_solver_t), intent(in) :: self
+         real(wp), intent(out) :: schur(:, :)             !< (n_retained, n_retained)
       end subroutine get_schur_complement
 
       !> f_c <- f_c - K_ci K_ii^-1 f_i; f_i <- the half-solved part that expand wants. After factor.
       subroutine reduce_load(self, f)
-         import :: storage_t, wp
-         class(storage_t), intent(in) :: self
+         import :: linear_solver_t, wp
+         class(linear_solver_t), intent(in) :: self
          real(wp), intent(inout), contiguous :: f(:, :)   !< (n, loads)
       end subroutine reduce_load
 
       !> x_i <- K_ii^-1 (f_i - K_ic x_c), with f_i as reduce left it and x_c given.
       subroutine expand_solution(self, x)
-         import :: storage_t, wp
-         class(storage_t), intent(in) :: self
+         import :: linear_solver_t, wp
+         class(linear_solver_t), intent(in) :: self
          real(wp), intent(inout), contiguous :: x(:, :)   !< (n, loads): f_i above, x_c below
       end subroutine expand_solution
 
       !> Memory held [bytes].
       pure integer(lp) function count_bytes(self)
-         import :: storage_t, lp
-         class(storage_t), intent(in) :: self
+         import :: linear_solver_t, lp
+         class(linear_solver_t), intent(in) :: self
       end function count_bytes
 
       !> 'skyline', 'banded', ...
@@ -110,9 +110,9 @@ module atrito_storage
 
 contains
 
-   !> Adds the matrices of a store, in their order. The storage may empty the store.
+   !> Adds the matrices of a store, in their order. The solver may empty the store.
    subroutine add_one_by_one(self, store)
-      class(storage_t), intent(inout) :: self
+      class(linear_solver_t), intent(inout) :: self
       type(element_store_t), intent(inout) :: store
       real(wp), allocatable :: matrix(:, :)
       integer(ip) :: e, m, n, held
@@ -183,4 +183,4 @@ contains
       end if
    end subroutine set_pivot_status
 
-end module atrito_storage
+end module atrito_linear_solver

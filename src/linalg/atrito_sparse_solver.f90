@@ -1,14 +1,14 @@
-!> The sparse solver (atrito_multifrontal) as a storage, with the kept equations as the last front.
+!> The sparse solver (atrito_multifrontal) for a body, with the retained equations as the last front.
 !>
-!> No pivot is chosen: the matrix is positive definite, and the loss of digits is told by its pivots as in the other storages.
-module atrito_sparse_storage
+!> No pivot is chosen: the matrix is positive definite, and the loss of digits is told by its pivots as in the other solvers.
+module atrito_sparse_solver
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, chain_elimination, element_store_t, begin_store, add_to_store, move_store, &
                                   sum_diagonals, unpack_matrix, fronts_t, front_bytes_t, plan_fronts, expect_factors, &
                                   factor_fronts, forward, backward, held_bytes, tell_of_memory
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t
-   use atrito_storage, only: storage_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status
+   use atrito_linear_solver, only: linear_solver_t, factor_report_t, add_one_by_one, note_pivot, set_pivot_status
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
@@ -19,7 +19,7 @@ module atrito_sparse_storage
    !> Numbers of a supernode.
    integer(lp), parameter :: SUPERNODE_NUMBERS = 4_lp
 
-   type, extends(storage_t) :: sparse_t
+   type, extends(linear_solver_t) :: sparse_t
       private
       type(elimination_t) :: elimination
       type(element_store_t) :: store             !< until factor
@@ -44,12 +44,12 @@ contains
       type(status_t), intent(out) :: status
 
       self%n = profile%n
-      self%n_kept = profile%n_kept
+      self%n_retained = profile%n_retained
       self%report = factor_report_t()
       if (allocated(profile%elimination%position)) then
          self%elimination = profile%elimination
       else
-         self%elimination = chain_elimination(self%n, self%n_kept)
+         self%elimination = chain_elimination(self%n, self%n_retained)
       end if
       call begin_store(self%store)
    end subroutine create_fronts
@@ -83,7 +83,7 @@ contains
       logical :: enough
 
       self%report = factor_report_t()
-      call plan_fronts(self%elimination, self%n, self%n_kept, self%store, self%fronts)
+      call plan_fronts(self%elimination, self%n, self%n_retained, self%store, self%fronts)
       call expect_bytes(self%fronts, self%n, self%store, held, self%report%most_bytes)
       allocate (by_equation(self%n), diagonal(self%n), stat=no_memory)
       enough = self%fronts%enough .and. no_memory == 0
@@ -102,15 +102,15 @@ contains
    end subroutine factor_and_report
 
    !> What the solver will hold of a body, and for a while at the most [bytes], from the tree of its fronts.
-   subroutine expect_fronts(elimination, n, n_kept, store, held, most, enough)
+   subroutine expect_fronts(elimination, n, n_retained, store, held, most, enough)
       type(elimination_t), intent(in) :: elimination
-      integer(ip), intent(in) :: n, n_kept
+      integer(ip), intent(in) :: n, n_retained
       type(element_store_t), intent(in) :: store
       integer(lp), intent(out) :: held, most
       logical, intent(out) :: enough             !< memory to tell
       type(fronts_t) :: fronts
 
-      call plan_fronts(elimination, n, n_kept, store, fronts)
+      call plan_fronts(elimination, n, n_retained, store, fronts)
       call expect_bytes(fronts, n, store, held, most)
       enough = fronts%enough
    end subroutine expect_fronts
@@ -220,4 +220,4 @@ contains
       name = 'sparse'
    end function fronts_name
 
-end module atrito_sparse_storage
+end module atrito_sparse_solver

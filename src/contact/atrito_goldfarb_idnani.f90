@@ -1,4 +1,4 @@
-!> The finite dual method of Goldfarb and Idnani (1983) for the box problem.
+!> The finite dual method of Goldfarb and Idnani (1983) for the bound-constrained QP.
 !>
 !> It goes from one exact solution of a relaxed problem (some bounds of free unknowns broken, all multipliers right) to the next,
 !> and the dual value rises at every step, so no state comes back:
@@ -7,16 +7,16 @@
 !>         first fixed unknown whose multiplier reaches zero on the way is released, and the drive goes on;
 !>   (iii) when that leaves a body free, move along its motion until a multiplier reaches zero and release that unknown; when none
 !>         does, there is no equilibrium.
-module atrito_dual_steps
+module atrito_goldfarb_idnani
    use atrito_kinds, only: ip, wp
-   use atrito_box_problem, only: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
-                                 row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_line_factor, only: line_factor_t
+   use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
+                              row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: take_dual_steps, opening_motion
+   public :: take_goldfarb_idnani_steps, opening_motion
 
    !> State of the unknown that is being driven to its bound: fixed, its multiplier not yet judged.
    integer(ip), parameter :: DRIVEN = 4
@@ -27,15 +27,15 @@ module atrito_dual_steps
 contains
 
    !> Goes on from state%state until all conditions hold (solved), there is no equilibrium (solution%moves), or too many solves.
-   subroutine take_dual_steps(problem, bounds, state, history, solution, solved, status, kept)
-      type(box_problem_t), intent(in) :: problem
+   subroutine take_goldfarb_idnani_steps(problem, bounds, state, history, solution, solved, status, kept)
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(equality_solution_t), intent(out) :: solution
       logical, intent(out) :: solved
       type(status_t), intent(out) :: status
-      type(line_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t), intent(inout), optional :: kept
       integer(ip) :: left, worst, i
 
       solved = .false.
@@ -44,7 +44,7 @@ contains
       do while (is_ok(status) .and. left > 0 .and. .not. solution%moves)
          call find_worst(problem, bounds, state, worst)
          if (worst == 0) then
-            ! an idle motion may have turned a multiplier
+            ! an undetermined motion may have turned a multiplier
             solved = .not. any([(is_wrong(problem, state, i), i=1, problem%m)])
             if (solved) return
             call release_until_right(problem, bounds, state, history, solution, left, status, kept)
@@ -53,18 +53,18 @@ contains
          state%state(worst) = DRIVEN
          call drive_to_bound(problem, bounds, state, history, solution, left, status, kept)
       end do
-   end subroutine take_dual_steps
+   end subroutine take_goldfarb_idnani_steps
 
    !> (i) and, where a body is free, (iii).
    subroutine release_until_right(problem, bounds, state, history, solution, left, status, kept)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(equality_solution_t), intent(out) :: solution
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
-      type(line_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t), intent(inout), optional :: kept
       real(wp) :: t
       integer(ip) :: i, released, first
 
@@ -94,14 +94,14 @@ contains
 
    !> (ii) and (iii) for one unknown.
    subroutine drive_to_bound(problem, bounds, state, history, solution, left, status, kept)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state      !< one unknown is DRIVEN, beyond its bound
       type(solve_history_t), intent(inout) :: history
       type(equality_solution_t), intent(out) :: solution
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
-      type(line_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t), intent(inout), optional :: kept
       type(box_state_t) :: target
       real(wp) :: t, motion(problem%k)
       integer(ip) :: i, bound, first
@@ -145,12 +145,12 @@ contains
 
       if (.not. solution%hardly) return
       solution%moves = .false.
-      solution%idle = solution%motion
+      solution%undetermined = solution%motion
    end subroutine rest
 
    !> Whether r of a fixed unknown has the wrong sign, by more than round-off.
    pure logical function is_wrong(problem, state, i)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state
       integer(ip), intent(in) :: i
       real(wp) :: wrong
@@ -161,14 +161,14 @@ contains
    end function is_wrong
 
    subroutine solve_and_record(problem, bounds, state, history, solution, left, status, kept)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(inout) :: state
       type(solve_history_t), intent(inout) :: history
       type(equality_solution_t), intent(out) :: solution
       integer(ip), intent(inout) :: left
       type(status_t), intent(out) :: status
-      type(line_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t), intent(inout), optional :: kept
 
       call solve_free_set(problem, bounds%d, state, solution, status, kept)
       left = left - 1
@@ -177,7 +177,7 @@ contains
 
    !> The free unknown that breaks a bound most, as a force; 0 when none does.
    pure subroutine find_worst(problem, bounds, state, worst)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
       integer(ip), intent(out) :: worst
@@ -239,7 +239,7 @@ contains
 
    !> The motion, in the direction that gives the driven unknown's multiplier its sign.
    pure function opening_motion(problem, i, bound, motion) result(directed)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       integer(ip), intent(in) :: i, bound
       real(wp), intent(in) :: motion(:)
       real(wp) :: directed(size(motion))
@@ -252,7 +252,7 @@ contains
 
    !> The first fixed unknown whose multiplier reaches zero along a motion, and the distance to it; 0 when none does.
    pure subroutine find_first_reached(problem, state, motion, first, distance)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state
       real(wp), intent(in) :: motion(:)              !< (k)
       integer(ip), intent(out) :: first
@@ -272,4 +272,4 @@ contains
       end do
    end subroutine find_first_reached
 
-end module atrito_dual_steps
+end module atrito_goldfarb_idnani

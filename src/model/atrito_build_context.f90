@@ -1,9 +1,9 @@
 !> What the builders share while a model grows: the deck, the model so far, and what nobody needs afterwards, as places in the deck,
-!> and which names and numbers an error has spoiled.
+!> and which names and numbers an error has invalid.
 !>
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
-module atrito_draft
+module atrito_build_context
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_faces, only: node_elements_t
@@ -19,8 +19,9 @@ module atrito_draft
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: draft_t, block_t, BLOCK_SIDES
-   public :: prepare_draft, add_draft_block, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, is_unsure, has_errors
+   public :: build_context_t, block_t, BLOCK_SIDES
+   public :: prepare_context, add_context_block, invalidate_block, invalidate_name, invalidate_node, invalidate_element, &
+             is_invalid, is_undetermined, has_errors
    public :: place_token, place_text, note_place, note_places, keep_token, define_name, count_cards, ids_text
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
@@ -38,14 +39,14 @@ module atrito_draft
       logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
    end type block_t
 
-   type :: draft_t
+   type :: build_context_t
       type(deck_t), pointer :: deck => null()
       type(model_t), pointer :: model => null()        !< so far
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
-      type(name_list_t) :: spoiled                     !< names whose definition is faulty
+      type(name_list_t) :: invalid                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
-      type(name_list_t) :: unsure                      !< nouns: one of these should have been defined, its name is not known
-      type(id_map_t) :: spoiled_nodes, spoiled_elements
+      type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
+      type(id_map_t) :: invalid_nodes, invalid_elements
       integer(ip) :: greatest_node = 0, greatest_element = 0        !< ids
       integer(ip), allocatable :: node_place(:), element_place(:)   !< > 0: token; < 0: card
       integer(ip) :: n_blocks = 0
@@ -58,83 +59,83 @@ module atrito_draft
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
-      logical, allocatable :: elastic_given(:), elastic_spoiled(:)  !< for each material
-      logical :: sections_unsure = .false.             !< a *SOLID SECTION could not be understood
-      logical :: pairs_unsure = .false.                !< a *CONTACT PAIR could not be understood
-      logical :: rigid_unsure = .false.                !< a *RIGID BODY names another surface than it should
+      logical, allocatable :: elastic_given(:), elastic_invalid(:)  !< for each material
+      logical :: sections_undetermined = .false.             !< a *SOLID SECTION could not be understood
+      logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
+      logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
       integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in model%prescribed; 0: free
       integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
-   end type draft_t
+   end type build_context_t
 
    integer(ip), parameter :: MOST_IDS = 8              !< numbers told in a message
 
 contains
 
-   !> Begins a draft: the names and numbers that faulty cards would have defined are spoiled.
-   subroutine prepare_draft(deck, draft)
+   !> Begins a context: the names and numbers that faulty cards would have defined are invalid.
+   subroutine prepare_context(deck, context)
       type(deck_t), intent(in), target :: deck
-      type(draft_t), intent(out) :: draft
+      type(build_context_t), intent(out) :: context
       integer(ip) :: i
 
-      draft%deck => deck
-      allocate (draft%blocks(64), draft%set_card(0))
-      allocate (draft%node_place(64), draft%element_place(64))
-      allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
-      allocate (draft%slaves(0), draft%masters(0))
-      allocate (draft%card_done(deck%n_cards), source=.false.)
-      allocate (draft%block_of_card(deck%n_cards), source=0_ip)
+      context%deck => deck
+      allocate (context%blocks(64), context%set_card(0))
+      allocate (context%node_place(64), context%element_place(64))
+      allocate (context%surfaces(0), context%materials(0), context%poisson(0), context%sections(0), context%interactions(0))
+      allocate (context%slaves(0), context%masters(0))
+      allocate (context%card_done(deck%n_cards), source=.false.)
+      allocate (context%block_of_card(deck%n_cards), source=0_ip)
       if (.not. has_errors()) return
       do i = 1, deck%n_cards
-         call note_nameless(deck%cards(i), draft)
+         call note_nameless(deck%cards(i), context)
          if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
-         call spoil_options(deck%cards(i), draft)
-         if (len(keyword_name(deck%cards(i))) == 0) call spoil_numbers(deck%cards(i), draft)
+         call invalidate_options(deck%cards(i), context)
+         if (len(keyword_name(deck%cards(i))) == 0) call invalidate_numbers(deck%cards(i), context)
       end do
-   end subroutine prepare_draft
+   end subroutine prepare_context
 
    !> Keeps a block; where there is no room the list doubles.
-   pure subroutine add_draft_block(draft, block)
-      type(draft_t), intent(inout) :: draft
+   pure subroutine add_context_block(context, block)
+      type(build_context_t), intent(inout) :: context
       type(block_t), intent(in) :: block
       type(block_t), allocatable :: longer(:)
 
-      if (draft%n_blocks == size(draft%blocks)) then
-         allocate (longer(2*draft%n_blocks))
-         longer(:draft%n_blocks) = draft%blocks
-         call move_alloc(longer, draft%blocks)
+      if (context%n_blocks == size(context%blocks)) then
+         allocate (longer(2*context%n_blocks))
+         longer(:context%n_blocks) = context%blocks
+         call move_alloc(longer, context%blocks)
       end if
-      draft%n_blocks = draft%n_blocks + 1
-      draft%blocks(draft%n_blocks) = block
-      if (draft%block_of_card(block%card) == 0) draft%block_of_card(block%card) = draft%n_blocks
-   end subroutine add_draft_block
+      context%n_blocks = context%n_blocks + 1
+      context%blocks(context%n_blocks) = block
+      if (context%block_of_card(block%card) == 0) context%block_of_card(block%card) = context%n_blocks
+   end subroutine add_context_block
 
    !> A definition without its name, or with one that cannot be read: any unknown name may be the one that was meant.
-   subroutine note_nameless(card, draft)
+   subroutine note_nameless(card, context)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
 
       select case (keyword_name(card))
       case ('MATERIAL')
-         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'material')
+         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'material')
       case ('SURFACE INTERACTION')
-         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'surface interaction')
+         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface interaction')
       case ('SURFACE')
-         if (is_nameless(draft%deck, card, 'NAME')) call note_unsure(draft, 'surface')
+         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface')
       case ('NSET')
-         if (is_nameless(draft%deck, card, 'NSET')) call note_unsure(draft, 'node set')
+         if (is_nameless(context%deck, card, 'NSET')) call note_undetermined(context, 'node set')
       case ('ELSET')
-         if (is_nameless(draft%deck, card, 'ELSET')) call note_unsure(draft, 'element set')
+         if (is_nameless(context%deck, card, 'ELSET')) call note_undetermined(context, 'element set')
       case ('BLOCK')
-         if (.not. is_nameless(draft%deck, card, 'ELSET')) return
-         call note_unsure(draft, 'node set')
-         call note_unsure(draft, 'earlier node set')
-         call note_unsure(draft, 'element set')
-         call note_unsure(draft, 'earlier element set')
-         call note_unsure(draft, 'surface')
+         if (.not. is_nameless(context%deck, card, 'ELSET')) return
+         call note_undetermined(context, 'node set')
+         call note_undetermined(context, 'earlier node set')
+         call note_undetermined(context, 'element set')
+         call note_undetermined(context, 'earlier element set')
+         call note_undetermined(context, 'surface')
       end select
    end subroutine note_nameless
 
-   !> The option that names a thing is not there or cannot be read; misspelt options are left to spoil_options.
+   !> The option that names a thing is not there or cannot be read; misspelt options are left to invalidate_options.
    logical function is_nameless(deck, card, option)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -162,79 +163,80 @@ contains
       has_control = any([(iachar(name(i:i)) < iachar(' '), i=1, len(name))])
    end function has_control
 
-   subroutine spoil_options(card, draft)
+   subroutine invalidate_options(card, context)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       character(len=:), allocatable :: name
       integer :: i
 
       if (.not. allocated(card%options)) return
       do i = 1, size(card%options)
-         name = token_text(draft%deck, card%options(i)%name)
+         name = token_text(context%deck, card%options(i)%name)
          if (len(keyword_name(card)) == 0) then
-            if (same_name(name, 'MATERIAL')) draft%sections_unsure = .true.
-            if (same_name(name, 'INTERACTION')) draft%pairs_unsure = .true.
+            if (same_name(name, 'MATERIAL')) context%sections_undetermined = .true.
+            if (same_name(name, 'INTERACTION')) context%pairs_undetermined = .true.
          end if
          if (.not. card%options(i)%has_value) cycle
-         if (.not. is_empty_token(card%options(i)%value)) call spoil_name(draft, token_text(draft%deck, card%options(i)%value))
+         if (.not. is_empty_token(card%options(i)%value)) call invalidate_name(context, token_text(context%deck, &
+                                                                                                   card%options(i)%value))
       end do
-   end subroutine spoil_options
+   end subroutine invalidate_options
 
    !> What an unknown keyword would have defined begins each of its lines.
-   subroutine spoil_numbers(card, draft)
+   subroutine invalidate_numbers(card, context)
       type(card_t), intent(in) :: card
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: i
 
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (draft%deck%lines(i)%n_tokens == 0) cycle
-         call spoil_node(draft%deck%lines(i), draft)
-         call spoil_element(draft%deck%lines(i), draft)
+         if (context%deck%lines(i)%n_tokens == 0) cycle
+         call invalidate_node(context%deck%lines(i), context)
+         call invalidate_element(context%deck%lines(i), context)
       end do
-   end subroutine spoil_numbers
+   end subroutine invalidate_numbers
 
-   subroutine note_unsure(draft, noun)
-      type(draft_t), intent(inout) :: draft
+   subroutine note_undetermined(context, noun)
+      type(build_context_t), intent(inout) :: context
       character(len=*), intent(in) :: noun
 
-      if (.not. has_name(draft%unsure, noun)) call add_name(draft%unsure, noun)
-   end subroutine note_unsure
+      if (.not. has_name(context%undetermined, noun)) call add_name(context%undetermined, noun)
+   end subroutine note_undetermined
 
    !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
    !> A block that could not be made: its sets, and the numbers of nodes and elements from there on.
-   subroutine spoil_block(draft, name)
-      type(draft_t), intent(inout) :: draft
+   subroutine invalidate_block(context, name)
+      type(build_context_t), intent(inout) :: context
       character(len=*), intent(in) :: name
 
-      call spoil_name(draft, name)
-      call note_unsure(draft, 'node')
-      call note_unsure(draft, 'element')
-   end subroutine spoil_block
+      call invalidate_name(context, name)
+      call note_undetermined(context, 'node')
+      call note_undetermined(context, 'element')
+   end subroutine invalidate_block
 
-   subroutine spoil_name(draft, name)
-      type(draft_t), intent(inout) :: draft
+   subroutine invalidate_name(context, name)
+      type(build_context_t), intent(inout) :: context
       character(len=*), intent(in) :: name
 
-      call add_name(draft%spoiled, name)
-   end subroutine spoil_name
+      call add_name(context%invalid, name)
+   end subroutine invalidate_name
 
    !> Passes over, in silence, all that refers to the node with which a data line begins.
-   subroutine spoil_node(line, draft)
+   subroutine invalidate_node(line, context)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
 
-      call spoil_id(draft%deck, line, draft%spoiled_nodes)
-   end subroutine spoil_node
+      call invalidate_id(context%deck, line, context%invalid_nodes)
+   end subroutine invalidate_node
 
-   !> As spoil_node for an element.
-   subroutine spoil_element(line, draft)
+   !> As invalidate_node for an element.
+   subroutine invalidate_element(line, context)
       type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
+      type(build_context_t), intent(inout) :: context
 
-      call spoil_id(draft%deck, line, draft%spoiled_elements)
-   end subroutine spoil_element
+      call invalidate_id(context%deck, line, context%invalid_elements)
+   end subroutine invalidate_element
 
-   subroutine spoil_id(deck, line, map)
+   subroutine invalidate_id(deck, line, map)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       type(id_map_t), intent(inout) :: map
@@ -248,49 +250,49 @@ contains
       text = text(verify(text//' ', '-'):)             ! -6 and 6.0 are meant to be 6
       call read_integer(text(:scan(text//'.', '.') - 1), id, outcome)
       if (outcome == NUMBER_OK .and. id > 0) call add_id(map, id, 1_ip, known)
-   end subroutine spoil_id
+   end subroutine invalidate_id
 
    !> True when a name, or that of the block whose side or copy it is, is to be passed over in silence.
-   logical function is_spoiled(draft, name)
-      type(draft_t), intent(in) :: draft
+   logical function is_invalid(context, name)
+      type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: name
       integer :: i, k
 
-      is_spoiled = .false.
+      is_invalid = .false.
       if (.not. has_errors()) return
-      is_spoiled = is_spoiled_block(draft, name)
+      is_invalid = is_invalid_block(context, name)
       do i = 1, size(BLOCK_SIDES)
          k = len(name) - len_trim(BLOCK_SIDES(i))
-         if (is_spoiled .or. k < 0) cycle
-         if (same_name(name(k + 1:), BLOCK_SIDES(i))) is_spoiled = is_spoiled_block(draft, name(:k))
+         if (is_invalid .or. k < 0) cycle
+         if (same_name(name(k + 1:), BLOCK_SIDES(i))) is_invalid = is_invalid_block(context, name(:k))
       end do
-   end function is_spoiled
+   end function is_invalid
 
    !> The name itself, or without the -2-3 of a copy.
-   logical function is_spoiled_block(draft, name) result(is_spoiled)
-      type(draft_t), intent(in) :: draft
+   logical function is_invalid_block(context, name) result(is_invalid)
+      type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: name
       integer :: i, k
 
-      is_spoiled = has_name(draft%spoiled, name)
+      is_invalid = has_name(context%invalid, name)
       k = len(name)
       do i = 1, 2
-         if (is_spoiled) return
+         if (is_invalid) return
          k = verify(name(:k), '0123456789', back=.true.) - 1
          if (k < 1) return
          if (name(k + 1:k + 1) /= '-') return
       end do
-      is_spoiled = has_name(draft%spoiled, name(:k))
-   end function is_spoiled_block
+      is_invalid = has_name(context%invalid, name(:k))
+   end function is_invalid_block
 
    !> True when one of these should have been defined, under a name that is not known.
-   logical function is_unsure(draft, noun)
-      type(draft_t), intent(in) :: draft
+   logical function is_undetermined(context, noun)
+      type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: noun
 
-      is_unsure = .false.
-      if (has_errors()) is_unsure = has_name(draft%unsure, noun)
-   end function is_unsure
+      is_undetermined = .false.
+      if (has_errors()) is_undetermined = has_name(context%undetermined, noun)
+   end function is_undetermined
 
    logical function has_errors()
       has_errors = count_messages(SEVERITY_ERROR) > 0
@@ -405,4 +407,4 @@ contains
       if (n < size(ids)) text = text//' and '//to_text(size(ids, kind=ip) - n)//' more'
    end function ids_text
 
-end module atrito_draft
+end module atrito_build_context

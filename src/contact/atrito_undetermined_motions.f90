@@ -1,11 +1,12 @@
 !> Motions that nothing holds and no load drives, on the sparse form of the bodies.
 !>
 !> With the states of a solution, one step of the proximal method leaves such a motion as it is and takes all others to less than a
-!> millionth: a <- H^-1 (kappa a), H the matrix that was factored last. So a vector without pattern becomes an idle motion, or
-!> nothing. Of the displacements that differ by idle motions those are given whose relative displacements at the points are least.
-module atrito_idle_motions
+!> millionth: a <- H^-1 (kappa a), H the matrix that was factored last. So a vector without pattern becomes an undetermined motion,
+!> or nothing. Of the displacements that differ by undetermined motions those are given whose relative displacements at the points
+!> are least.
+module atrito_undetermined_motions
    use atrito_bodies, only: reduce_columns
-   use atrito_box_problem, only: box_bounds_t, box_state_t, FREE
+   use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE
    use atrito_constraint_rows, only: multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
    use atrito_dense, only: least_squares
@@ -13,31 +14,32 @@ module atrito_idle_motions
    use atrito_multiplier_step, only: multiplier_t, set_forces
    implicit none (type, external)
    private
-   public :: settle_idle_motions
+   public :: settle_undetermined_motions
 
-   integer(ip), parameter :: MOST_IDLE = 6_ip    !< motions that are looked for
-   real(wp), parameter :: NO_PART = 1.0e-3_wp    !< of a vector that is left of it without idle motion
-   real(wp), parameter :: STAYS = 0.999_wp       !< of an idle motion without its round-off
+   integer(ip), parameter :: MOST_UNDETERMINED = 6_ip    !< motions that are looked for
+   real(wp), parameter :: NO_PART = 1.0e-3_wp    !< of a vector that is left of it without undetermined motion
+   real(wp), parameter :: STAYS = 0.999_wp       !< of an undetermined motion without its round-off
    real(wp), parameter :: STAYS_PUT = 1.0e-9_wp  !< of a row in a motion of size one
    real(wp), parameter :: DEPENDENT = 1.0e-8_wp
 
 contains
 
-   !> Takes the least motion, unless points would penetrate. idle: one of the motions, (k); not allocated when there is none.
-   subroutine settle_idle_motions(system, bounds, n_normal, multipliers, state, idle)
+   !> Takes the least motion, unless points would penetrate. undetermined: one of the motions, (k); not allocated when there is
+   !> none.
+   subroutine settle_undetermined_motions(system, bounds, n_normal, multipliers, state, undetermined)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
       integer(ip), intent(in) :: n_normal
       type(multiplier_t), intent(inout) :: multipliers
       type(box_state_t), intent(inout) :: state
-      real(wp), allocatable, intent(out) :: idle(:)
+      real(wp), allocatable, intent(out) :: undetermined(:)
       real(wp), allocatable :: basis(:, :)
       type(multiplier_t) :: least
       type(box_state_t) :: least_state
 
-      call find_idle_motions(system, multipliers, basis)
+      call find_undetermined_motions(system, multipliers, basis)
       if (size(basis, 2) == 0) return
-      idle = simplest(basis(system%n - system%k + 1:, :))
+      undetermined = simplest(basis(system%n - system%k + 1:, :))
       least = multipliers
       least_state = state
       call reduce_motion(system, basis, least%x)
@@ -47,10 +49,10 @@ contains
       multipliers = least
       state%a = least_state%a
       where (state%state /= FREE) state%r = least_state%r
-   end subroutine settle_idle_motions
+   end subroutine settle_undetermined_motions
 
    !> basis: (n, motions), their amplitudes orthonormal; the displacements in them are round-off.
-   subroutine find_idle_motions(system, multipliers, basis)
+   subroutine find_undetermined_motions(system, multipliers, basis)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
       real(wp), allocatable, intent(out) :: basis(:, :)
@@ -58,7 +60,7 @@ contains
       real(wp), allocatable :: found(:, :)
       integer(ip) :: n, i
 
-      allocate (found(system%n, min(MOST_IDLE, system%k)))
+      allocate (found(system%n, min(MOST_UNDETERMINED, system%k)))
       n = 0
       associate (first => system%n - system%k + 1)
          do i = 1, size(found, 2, kind=ip)
@@ -78,9 +80,9 @@ contains
          end do
       end associate
       basis = found(:, :n)
-   end subroutine find_idle_motions
+   end subroutine find_undetermined_motions
 
-   !> An idle motion strains nothing: what strain there is is round-off of the step, and is taken out.
+   !> An undetermined motion strains nothing: what strain there is is round-off of the step, and is taken out.
    subroutine take_out_held(system, multipliers, v)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -142,7 +144,7 @@ contains
       call system%solve(v)
    end subroutine apply_step
 
-   !> Least squares of B x over the idle motions; those that no row sees get the amplitude zero.
+   !> Least squares of B x over the undetermined motions; those that no row sees get the amplitude zero.
    subroutine reduce_motion(system, basis, x)
       class(contact_system_t), intent(in) :: system
       real(wp), intent(in) :: basis(:, :)
@@ -162,4 +164,4 @@ contains
       if (info == 0) x = x - matmul(basis, amplitude)
    end subroutine reduce_motion
 
-end module atrito_idle_motions
+end module atrito_undetermined_motions

@@ -2,21 +2,21 @@
 !>
 !> From one solve of a contact line to the next few unknowns change their state and D changes little. Restricted to the unknowns
 !> that are still free, with the diagonal for those that have become free, the factor is the preconditioner for the next set
-!> (atrito_kept_factor).
-module atrito_line_factor
+!> (atrito_dual_preconditioner).
+module atrito_free_set_factor
    use atrito_dense, only: estimate_condition
    use atrito_dense_blocks, only: factor_in_blocks, solve_with_triangle
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: line_factor_t, relation_t, factor_free_set, condition_of, is_worth_keeping, relate_sets, apply_inverse
+   public :: free_set_factor_t, relation_t, factor_free_set, condition_of, is_worth_keeping, relate_sets, apply_inverse
 
-   type :: line_factor_t
+   type :: free_set_factor_t
       integer(ip), allocatable :: set(:)         !< (n) unknowns; not allocated: there is no factor
       real(wp), allocatable :: scale(:)          !< (n) of the rows and columns
       real(wp), allocatable :: matrix(:, :)      !< (n, n) factor below and on the diagonal, the scaled matrix above
       integer(ip) :: steps = 0                   !< more than a near set takes, in all the solves that it served since
-   end type line_factor_t
+   end type free_set_factor_t
 
    !> How a set of unknowns lies in that of a factor.
    type :: relation_t
@@ -42,7 +42,7 @@ contains
       real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       integer(ip), intent(in) :: set(:)
-      type(line_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor
       integer(ip), intent(out) :: dependent      !< 0, or an unknown whose row depends on those before; then there is no factor
       integer(ip) :: i, n, failed
 
@@ -94,7 +94,7 @@ contains
 
    !> Estimate of the condition of the scaled matrix, in the 1-norm. Its norm is that of the upper triangle, which is still there.
    real(wp) function condition_of(factor) result(condition)
-      type(line_factor_t), intent(in) :: factor
+      type(free_set_factor_t), intent(in) :: factor
       real(wp), allocatable :: sums(:)
       integer(ip) :: j, n
 
@@ -112,7 +112,7 @@ contains
 
    !> Where the unknowns of a set stand in a factor.
    pure subroutine relate_sets(factor, m, set, scale, relation)
-      type(line_factor_t), intent(in) :: factor
+      type(free_set_factor_t), intent(in) :: factor
       integer(ip), intent(in) :: m               !< unknowns there are
       integer(ip), intent(in) :: set(:)
       real(wp), intent(in) :: scale(:)           !< its present scale
@@ -133,7 +133,7 @@ contains
 
    !> P^-1 x in scaled form: the factor's inverse on the unknowns it has, the unit diagonal on the others.
    subroutine apply_inverse(factor, relation, x, y)
-      type(line_factor_t), intent(in) :: factor
+      type(free_set_factor_t), intent(in) :: factor
       type(relation_t), intent(in) :: relation
       real(wp), intent(in) :: x(:)               !< (n)
       real(wp), intent(out) :: y(:)              !< (n)
@@ -151,4 +151,4 @@ contains
       end do
    end subroutine apply_inverse
 
-end module atrito_line_factor
+end module atrito_free_set_factor

@@ -2,7 +2,7 @@
 !>
 !> Numbering and rigid motions serve again when mesh, supports and contact nodes are the same numbers; a factored body serves
 !> again when its materials are, too; its reduced load when the load is the same as well. Nothing is guessed from what was varied.
-module atrito_body_store
+module atrito_body_cache
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
@@ -17,9 +17,9 @@ module atrito_body_store
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_store_t, provide_bodies, take_numbering, release_bodies, forget_bodies
+   public :: body_cache_t, provide_bodies, take_numbering, release_bodies, forget_bodies
 
-   type :: body_store_t
+   type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
       logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
       integer(ip) :: factorisations = 0                !< of the last call of provide_bodies
@@ -31,11 +31,11 @@ module atrito_body_store
       integer(ip), allocatable, private :: section_of(:)   !< (n_elements)
       logical, allocatable, private :: held(:, :)      !< (2, n_nodes)
       type(contact_points_t), allocatable, private :: points(:)
-      integer, private :: asked = 0                    !< storage asked for
+      integer, private :: asked = 0                    !< solver asked for
       real(wp), private :: grain = 0.0_wp              !< [L] of the elements that were taken as equal
       real(wp), allocatable, private :: load(:, :)     !< (2, n_nodes) [F] the reduced load
       type(body_result_t), allocatable, private :: results(:)
-   end type body_store_t
+   end type body_cache_t
 
 contains
 
@@ -43,7 +43,7 @@ contains
    !>
    !> status: STATUS_SINGULAR of condense_body.
    subroutine provide_bodies(store, fem, held, points, load, asked, results, status)
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
@@ -85,7 +85,7 @@ contains
    end subroutine provide_bodies
 
    subroutine remember(store, fem, held, points, load, asked, results, same_bodies)
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)
       type(contact_points_t), intent(in) :: points(:)
@@ -110,23 +110,23 @@ contains
 
    !> Gives the memory of the factored bodies back, unless they are kept for a next run.
    subroutine release_bodies(store)
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
 
       if (allocated(store%bodies) .and. .not. store%keeps) deallocate (store%bodies)
    end subroutine release_bodies
 
    !> Gives them back in any case.
    subroutine forget_bodies(store)
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
 
       store%holds = .false.
       if (allocated(store%bodies)) deallocate (store%bodies)
    end subroutine forget_bodies
 
    !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same: how they
-   !> are numbered depends on the storage.
+   !> are numbered depends on the solver.
    subroutine take_numbering(store, held, points, asked, fem, taken)
-      type(body_store_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
       integer, intent(in) :: asked                     !< STORAGE_* or 0
@@ -140,7 +140,7 @@ contains
 
    !> Mesh, supports and contact nodes decide on bodies and numbering.
    pure logical function has_same_numbering(store, held, points, fem) result(same)
-      type(body_store_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store
       logical, intent(in) :: held(:, :)
       type(contact_points_t), intent(in) :: points(:)
       type(fem_t), intent(in) :: fem
@@ -165,7 +165,7 @@ contains
 
    !> Whether a factored body is the same as one of this scene.
    pure logical function serves_again(store, fem, b, same_bodies) result(again)
-      type(body_store_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b
       logical, intent(in) :: same_bodies
@@ -173,7 +173,7 @@ contains
 
       again = .false.
       if (.not. same_bodies) return
-      if (.not. allocated(store%bodies(b)%storage)) return
+      if (.not. allocated(store%bodies(b)%solver)) return
       do i = 1, size(fem%bodies%list(b)%elements, kind=ip)
          e = fem%bodies%list(b)%elements(i)
          if (.not. is_same_section(store%sections(store%section_of(e)), fem%sections(fem%section_of(e)))) return
@@ -190,7 +190,7 @@ contains
    end function is_same_section
 
    pure logical function has_same_load(store, fem, b, load)
-      type(body_store_t), intent(in) :: store
+      type(body_cache_t), intent(in) :: store
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b
       real(wp), intent(in) :: load(:, :)
@@ -206,12 +206,12 @@ contains
 
    !> Hands a kept body over without a copy.
    subroutine take_back(store, b, body, result)
-      type(body_store_t), intent(inout) :: store
+      type(body_cache_t), intent(inout) :: store
       integer(ip), intent(in) :: b
       type(condensed_body_t), intent(inout) :: body
       type(body_result_t), intent(out) :: result
 
-      call move_alloc(store%bodies(b)%storage, body%storage)
+      call move_alloc(store%bodies(b)%solver, body%solver)
       call move_alloc(store%bodies(b)%factor, body%factor)
       call move_alloc(store%bodies(b)%load, body%load)
       body%is_near = store%bodies(b)%is_near
@@ -226,7 +226,7 @@ contains
       type(body_result_t), intent(in) :: result
 
       call report_progress(reporter, 'body '//result%name//'  dofs '//to_text(fem%bodies%list(b)%n)//'  contact dofs ' &
-                           //to_text(fem%bodies%list(b)%n_kept)//'  '//body%storage%name())
+                           //to_text(fem%bodies%list(b)%n_retained)//'  '//body%solver%name())
    end subroutine report_body
 
-end module atrito_body_store
+end module atrito_body_cache

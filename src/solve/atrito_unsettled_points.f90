@@ -1,25 +1,25 @@
 !> Which points keep a run from converging: those whose state changed in the last outer iteration, or more than once in the last
 !> ones; where there is none, the one whose friction bound is off most.
-module atrito_chatter
+module atrito_unsettled_points
    use atrito_contact_line, only: contact_line_t, friction_bound
    use atrito_contact_rows, only: contact_rows_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_points, only: contact_points_t
-   use atrito_results, only: results_t, chatter_t
+   use atrito_results, only: results_t, unsettled_t
    use atrito_solve_history, only: state_letters
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: report_chatter
+   public :: report_unsettled
 
    integer(ip), parameter :: MOST_NAMED = 5        !< nodes in the verdict
 
 contains
 
-   !> Fills results%chatter, the most restless points first, and adds to the verdict of a run that did not converge.
-   subroutine report_chatter(mesh, points, rows, line, solution, results)
+   !> Fills results%unsettled, the most restless points first, and adds to the verdict of a run that did not converge.
+   subroutine report_unsettled(mesh, points, rows, line, solution, results)
       type(mesh_t), intent(in) :: mesh
       type(contact_points_t), intent(in) :: points(:)
       type(contact_rows_t), intent(in) :: rows
@@ -31,18 +31,18 @@ contains
 
       if (solution%converged .or. .not. allocated(solution%history%states)) return
       order = restless_points(solution%history%states(:, :solution%history%kept))
-      allocate (results%chatter(size(order)))
+      allocate (results%unsettled(size(order)))
       do i = 1, size(order, kind=ip)
-         results%chatter(i) = point_of(mesh, points, rows, line%point(order(i)))
-         results%chatter(i)%states = state_letters(solution%history%states(order(i), :solution%history%kept))
+         results%unsettled(i) = point_of(mesh, points, rows, line%point(order(i)))
+         results%unsettled(i)%states = state_letters(solution%history%states(order(i), :solution%history%kept))
       end do
       if (.not. allocated(results%verdict)) results%verdict = 'not converged'
       if (size(order) > 0) then
-         results%verdict = results%verdict//'; '//chatter_text(results%chatter)
+         results%verdict = results%verdict//'; '//unsettled_text(results%unsettled)
       else
          results%verdict = results%verdict//slowest_text(mesh, rows, line, solution)
       end if
-   end subroutine report_chatter
+   end subroutine report_unsettled
 
    !> Normal unknowns that find no rest, by the number of their changes. One that has changed once and stayed has settled.
    pure function restless_points(states) result(order)
@@ -67,7 +67,7 @@ contains
       type(contact_points_t), intent(in) :: points(:)
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j                  !< of the contact line
-      type(chatter_t) :: point
+      type(unsettled_t) :: point
 
       point%pair = 1
       point%point = j
@@ -79,21 +79,21 @@ contains
       point%x = points(point%pair)%x(:, point%point)
    end function point_of
 
-   function chatter_text(chatter) result(text)
-      type(chatter_t), intent(in) :: chatter(:)     !< at least one
+   function unsettled_text(unsettled) result(text)
+      type(unsettled_t), intent(in) :: unsettled(:)     !< at least one
       character(len=:), allocatable :: text
       integer(ip) :: i
 
-      if (size(chatter) == 1) then
-         text = '1 point chatters: node '//to_text(chatter(1)%node)
+      if (size(unsettled) == 1) then
+         text = '1 point is unsettled: node '//to_text(unsettled(1)%node)
       else
-         text = to_text(size(chatter, kind=ip))//' points chatter: nodes '//to_text(chatter(1)%node)
-         do i = 2, min(size(chatter, kind=ip), MOST_NAMED)
-            text = text//', '//to_text(chatter(i)%node)
+         text = to_text(size(unsettled, kind=ip))//' points are unsettled: nodes '//to_text(unsettled(1)%node)
+         do i = 2, min(size(unsettled, kind=ip), MOST_NAMED)
+            text = text//', '//to_text(unsettled(i)%node)
          end do
-         if (size(chatter) > MOST_NAMED) text = text//', ...'
+         if (size(unsettled) > MOST_NAMED) text = text//', ...'
       end if
-   end function chatter_text
+   end function unsettled_text
 
    !> No point changes its state: where the friction bound is furthest from its image.
    function slowest_text(mesh, rows, line, solution) result(text)
@@ -111,4 +111,4 @@ contains
              //to_text(mesh%node_id(rows%node(1, maxloc(change, dim=1))))
    end function slowest_text
 
-end module atrito_chatter
+end module atrito_unsettled_points

@@ -9,23 +9,23 @@
 !> C is the flexibility of the bodies seen from the points, D the compliances of the laws (delta/w, eps/(w tau)), G the rigid
 !> motions at the points, h the loads' work on them (docs/theory/formulation.md, section 4).
 !> With a shift v in the state, r = g0 + v - (C + D) q + G a.
-module atrito_box_problem
+module atrito_bound_qp
    use atrito_kinds, only: ip, wp
    use atrito_dense, only: solve_cholesky, eigen_symmetric
    use atrito_dense_blocks, only: multiply_symmetric
-   use atrito_kept_factor, only: free_system_t, solve_with_kept, scaled_product
-   use atrito_line_factor, only: line_factor_t, factor_free_set, condition_of, is_worth_keeping
+   use atrito_dual_preconditioner, only: free_system_t, solve_with_kept, scaled_product
+   use atrito_free_set_factor, only: free_set_factor_t, factor_free_set, condition_of, is_worth_keeping
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: box_problem_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, set_residual, clear_vanishing, &
+   public :: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, set_residual, clear_vanishing, &
              is_vanishing, row_round_off, force_round_off
    public :: FREE, AT_LOWER, AT_UPPER, FROZEN, DEPENDENT_POINTS
 
    !> State of an unknown. FROZEN: q = 0 whatever r is (a point without friction).
    integer(ip), parameter :: FREE = 0, AT_LOWER = 1, AT_UPPER = 2, FROZEN = 3
 
-   type :: box_problem_t
+   type :: bound_qp_t
       integer(ip) :: m = 0                       !< unknown forces
       integer(ip) :: k = 0                       !< rigid motions
       integer(ip) :: n_normal = 0                !< the first ones are normal
@@ -36,7 +36,7 @@ module atrito_box_problem
       real(wp), allocatable :: h_size(:)         !< (k) [F] the same of all forces without sign; not allocated: |h|
       real(wp), allocatable :: weight(:)         !< (m) weight of the point [L^2]: stress = q / weight
       logical :: is_coarse = .false.             !< all rows have the round-off of the largest
-   end type box_problem_t
+   end type bound_qp_t
 
    type :: box_bounds_t
       real(wp), allocatable :: lower(:), upper(:) !< (m) [F]; upper may be huge
@@ -57,7 +57,7 @@ module atrito_box_problem
       logical :: moves = .false.                 !< the free set does not hold a motion that the load works on
       real(wp), allocatable :: motion(:)         !< (k) that motion, in the direction of the load
       logical :: hardly = .false.                !< with moves: so little load that the body rests where nothing stops it
-      real(wp), allocatable :: idle(:)           !< (k) a motion that neither the free set nor the load touches; else not allocated
+      real(wp), allocatable :: undetermined(:) !< (k) a motion that neither the free set nor the load touches; else not allocated
       real(wp) :: condition = 1.0_wp             !< of the scaled matrix of the free set
       integer(ip) :: dependent = 0               !< an unknown whose row depends on others; 0: none
    end type equality_solution_t
@@ -79,14 +79,14 @@ contains
    !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. solution%moves: no equilibrium, and a is
    !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (solution%dependent).
    subroutine solve_free_set(problem, d, state, solution, status, kept)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(inout) :: state
       type(equality_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       !> Factor of an earlier solve, which serves again where it can, or of this one; solution%condition is left to condition_of.
-      type(line_factor_t), intent(inout), optional :: kept
-      type(line_factor_t) :: own
+      type(free_set_factor_t), intent(inout), optional :: kept
+      type(free_set_factor_t) :: own
 
       if (present(kept)) then
          call solve_with_factor(problem, d, kept, state, solution, status)
@@ -97,9 +97,9 @@ contains
    end subroutine solve_free_set
 
    subroutine solve_with_factor(problem, d, factor, state, solution, status)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
-      type(line_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor
       type(box_state_t), intent(inout) :: state
       type(equality_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
@@ -125,7 +125,7 @@ contains
 
    !> The equations of the free unknowns, scaled to a unit diagonal of C + D.
    subroutine free_system(problem, d, state, held, system)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
       type(box_state_t), intent(in) :: state
       real(wp), allocatable, intent(out) :: held(:) !< (m) forces of the fixed unknowns
@@ -151,7 +151,7 @@ contains
 
    !> [M -G; -G' 0] [q; a] = [rhs; -load] by the complement of M, with one refinement.
    subroutine solve_saddle(problem, factor, system, held, q, a, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: factor(:, :)       !< of M
       type(free_system_t), intent(in) :: system
       real(wp), intent(in) :: held(:)            !< (m) forces of the fixed unknowns
@@ -222,7 +222,7 @@ contains
    !> the solution on the bodies that move, and by what was cancelled in it; those before the bodies have moved to where they touch
    !> may be larger by any factor, and say nothing.
    subroutine judge_motions(problem, complement, system, held, q, a, solution)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(complement_t), intent(in) :: complement
       type(free_system_t), intent(in) :: system
       real(wp), intent(in) :: held(:)
@@ -251,7 +251,7 @@ contains
             motion = motion + complement%vectors(:, j)*part
             solution%hardly = solution%hardly .and. abs(part) <= LITTLE_LOAD*size_of_part + round_off
          else
-            solution%idle = way
+            solution%undetermined = way
          end if
       end do
       if (all(motion == 0.0_wp)) return
@@ -260,7 +260,7 @@ contains
    end subroutine judge_motions
 
    pure function size_of_load(problem)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp) :: size_of_load(problem%k)
 
       size_of_load = abs(problem%h)
@@ -269,7 +269,7 @@ contains
 
    !> The force [F] that each unknown alone would need to undo what its displacement is made of.
    pure function forces_of_places(problem, system, a) result(force)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(free_system_t), intent(in) :: system
       real(wp), intent(in) :: a(:)
       real(wp) :: force(problem%m)
@@ -284,7 +284,7 @@ contains
 
    !> Sets r = g0 - (C + D) q + G a and its round-off.
    subroutine set_residual(problem, d, state)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)
       type(box_state_t), intent(inout) :: state
       real(wp) :: cq(problem%m), moved(problem%m)
@@ -299,7 +299,7 @@ contains
    !> Round-off of one r, of the terms that it is made of [L]: a fixed unknown is released when r is wrong by more. Rows of stiff
    !> bodies beside soft ones have far less of it than state%slack.
    pure real(wp) function row_round_off(problem, state, i) result(slack)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       type(box_state_t), intent(in) :: state
       integer(ip), intent(in) :: i
       integer(ip) :: j
@@ -321,7 +321,7 @@ contains
 
    !> The same as a force [F].
    pure real(wp) function force_round_off(problem, d, state, i) result(force)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(in) :: state
       integer(ip), intent(in) :: i
@@ -331,7 +331,7 @@ contains
 
    !> Forces that are what refinement leaves of none become none.
    pure subroutine clear_vanishing(problem, d, state)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(inout) :: state
       integer(ip) :: i
@@ -343,7 +343,7 @@ contains
 
    !> Whether a force is what refinement leaves of none.
    pure logical function is_vanishing(problem, d, state, i)
-      type(box_problem_t), intent(in) :: problem
+      type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
       type(box_state_t), intent(in) :: state
       integer(ip), intent(in) :: i
@@ -359,4 +359,4 @@ contains
       if (size(x) > 0) largest = maxval(abs(x))
    end function largest
 
-end module atrito_box_problem
+end module atrito_bound_qp

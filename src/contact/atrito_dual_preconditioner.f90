@@ -7,11 +7,11 @@
 !>
 !> with s = 0. They go on until r is round-off of the terms it is made of; then comes one refinement, as after a solve with a factor
 !> of its own. All of it is scaled to a unit diagonal of M = C + D.
-module atrito_kept_factor
+module atrito_dual_preconditioner
    use atrito_dense, only: eigen_symmetric
    use atrito_dense_blocks, only: multiply_symmetric
    use atrito_kinds, only: ip, wp
-   use atrito_line_factor, only: line_factor_t, relation_t, relate_sets, apply_inverse
+   use atrito_free_set_factor, only: free_set_factor_t, relation_t, relate_sets, apply_inverse
    implicit none (type, external)
    private
    public :: free_system_t, solve_with_kept, scaled_product
@@ -52,7 +52,7 @@ contains
    !> Solves from the present q and a. solved is false where the factor's set is not near or has served its time, a motion is held
    !> weakly, or the steps would take longer than a factor: q and a are then as they were.
    subroutine solve_with_kept(factor, c, system, q, a, solved)
-      type(line_factor_t), intent(inout) :: factor
+      type(free_set_factor_t), intent(inout) :: factor
       real(wp), intent(in), contiguous :: c(:, :) !< (m, m) [L/F]
       type(free_system_t), intent(in) :: system
       real(wp), intent(inout) :: q(:)            !< (n) scaled
@@ -88,7 +88,7 @@ contains
 
    !> P^-1 G and the inverse of G' P^-1 G, where the set holds all motions.
    subroutine prepare_motions(factor, system, p, held)
-      type(line_factor_t), intent(in) :: factor
+      type(free_set_factor_t), intent(in) :: factor
       type(free_system_t), intent(in) :: system
       type(preconditioner_t), intent(inout) :: p
       logical, intent(out) :: held
@@ -123,7 +123,7 @@ contains
 
    !> One step with both residuals.
    subroutine correct(factor, c, system, p, found, remains)
-      type(line_factor_t), intent(in) :: factor
+      type(free_set_factor_t), intent(in) :: factor
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
       type(preconditioner_t), intent(in) :: p
@@ -156,7 +156,7 @@ contains
 
    !> Conjugate gradients until the largest entry of r is small enough.
    subroutine take_steps(factor, c, system, p, most, enough, found, step)
-      type(line_factor_t), intent(in) :: factor
+      type(free_set_factor_t), intent(in) :: factor
       real(wp), intent(in), contiguous :: c(:, :)
       type(free_system_t), intent(in) :: system
       type(preconditioner_t), intent(in) :: p
@@ -214,4 +214,4 @@ contains
       product = (moved(system%set) + system%d*force(system%set))*system%scale
    end function scaled_product
 
-end module atrito_kept_factor
+end module atrito_dual_preconditioner
