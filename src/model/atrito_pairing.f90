@@ -4,7 +4,8 @@ module atrito_pairing
    use atrito_kinds, only: ip, wp
    use atrito_master, only: master_t, master_of_faces, master_of_segments
    use atrito_model, only: model_t, SURFACE_SEGMENTS
-   use atrito_points, only: contact_points_t, pair_with_master
+   use atrito_nodal_points, only: pair_with_master
+   use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
    public :: order_slaves, pair_all, element_thickness

@@ -168,9 +168,9 @@ contains
       allocate (scene%flexibility(scene%rows%n), source=0.0_wp)
       do i = 1, scene%rows%n
          j = line%point(i)
-         do k = 1, rows%entries(j)
-            node = rows%node(k, j)
-            d = rows%coefficient(k, j)*direction_of(rows, line, i)
+         do k = rows%first(j), rows%first(j + 1) - 1
+            node = rows%node(k)
+            d = rows%coefficient(k)*direction_of(rows, line, i)
             first = scene%numbering%before(fem%bodies%of_node(node))
             scene%flexibility(i) = scene%flexibility(i) &
                                    + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)

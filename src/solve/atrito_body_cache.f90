@@ -155,9 +155,8 @@ contains
       do i = 1, size(points, kind=ip)
          associate (old => store%points(i), new => points(i))
             if (old%n /= new%n) return
-            if (any(old%node /= new%node) .or. any(old%n_master /= new%n_master)) return
-            if (any(old%master_node /= new%master_node)) return
-            if (any((old%master_shape /= 0.0_wp) .neqv. (new%master_shape /= 0.0_wp))) return
+            if (any(old%first /= new%first)) return
+            if (any(old%entry /= new%entry)) return
          end associate
       end do
       same = .true.

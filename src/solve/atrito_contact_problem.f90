@@ -96,9 +96,9 @@ contains
       integer(ip) :: k, dof
 
       has_unknown = .false.
-      do k = 1, rows%entries(j)
+      do k = rows%first(j), rows%first(j + 1) - 1
          do dof = 1, 2
-            has_unknown = has_unknown .or. (direction(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k, j)) > 0)
+            has_unknown = has_unknown .or. (direction(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) > 0)
          end do
       end do
    end function has_unknown
@@ -157,7 +157,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(inout) :: problem
       real(wp), allocatable :: moved(:, :)
-      integer(ip) :: dofs(2*(size(rows%node, 1))), j, n
+      integer(ip) :: dofs(2*rows%longest), j, n
       real(wp) :: coefficients(size(dofs))
 
       n = fem%bodies%list(i_body)%n_retained
@@ -181,7 +181,7 @@ contains
       real(wp), allocatable :: forces(:, :)
       integer(ip), allocatable :: first(:), order(:)
       integer(ip) :: i, j, n
-      integer(ip) :: dofs(2*(size(rows%node, 1)))
+      integer(ip) :: dofs(2*rows%longest)
       real(wp) :: coefficients(size(dofs))
 
       n = fem%bodies%list(i_body)%n_retained
@@ -236,14 +236,14 @@ contains
       dofs = 0
       coefficients = 0.0_wp
       n = 0
-      do k = 1, rows%entries(point)
-         node = rows%node(k, point)
+      do k = rows%first(point), rows%first(point + 1) - 1
+         node = rows%node(k)
          if (fem%bodies%of_node(node) /= i_body) cycle
          do dof = 1, 2
             if (fem%bodies%equation(dof, node) == 0 .or. direction(dof) == 0.0_wp) cycle
             n = n + 1
             dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained)
-            coefficients(n) = rows%coefficient(k, point)*direction(dof)
+            coefficients(n) = rows%coefficient(k)*direction(dof)
          end do
       end do
    end subroutine row_entries
@@ -278,9 +278,9 @@ contains
          call clear_balanced_load(problem%h_size(column(b):column(b + 1) - 1), problem%h(column(b):column(b + 1) - 1))
       end do
       do i = 1, problem%m
-         do k = 1, rows%entries(line%point(i))
-            b = fem%bodies%of_node(rows%node(k, line%point(i)))
-            call add_motion_row(fem, b, rows%node(k, line%point(i)), rows%coefficient(k, line%point(i)), &
+         do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
+            b = fem%bodies%of_node(rows%node(k))
+            call add_motion_row(fem, b, rows%node(k), rows%coefficient(k), &
                                 direction_of(problem, rows, line, i), problem%g(i, column(b):column(b + 1) - 1))
          end do
       end do

@@ -53,7 +53,7 @@ contains
       uncertainty = 0.0_wp
       do j = first, last
          motion = max(motion, abs(row_value(rows, j, rows%normal(:, j), u)), abs(row_value(rows, j, rows%tangent(:, j), u)))
-         uncertainty = max(uncertainty, maxval(uncertain(rows%node(:rows%entries(j), j))))
+         uncertainty = max(uncertainty, maxval(uncertain(rows%node(rows%first(j):rows%first(j + 1) - 1))))
       end do
       scales%slip = PLACE_TOLERANCE*motion + uncertainty
       scales%gap = scales%slip + ROUND_OFFS*EPS_MACH*far

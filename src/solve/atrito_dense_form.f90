@@ -88,7 +88,7 @@ contains
       integer(ip) :: node
 
       if (status%text == DEPENDENT_POINTS) then
-         node = data%rows%node(1, data%line%point(solution%inner%dependent))
+         node = data%rows%node(data%rows%first(data%line%point(solution%inner%dependent)))
          call set_status(status, STATUS_SINGULAR, 'the contact point at node '//to_text(data%fem%mesh%node_id(node)) &
                          //trim(merge(' (normal)    ', ' (tangential)', solution%inner%dependent <= problem%n_normal)) &
                          //' repeats what other points ask: two pairs share it, or the slave is finer than its own dofs')

@@ -6,7 +6,7 @@ module atrito_final_check
    use atrito_average, only: apply_average
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t, last_of_pair
-   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_contact_rows, only: contact_rows_t, row_value, bodies_of_row
    use atrito_contact_scales, only: contact_scales_t, measure_places, printed_as_none, usual_growth
    use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
    use atrito_internal_forces, only: internal_forces, internal_force_sizes
@@ -183,7 +183,7 @@ contains
       do round = 1, size(values, kind=ip)
          changed = .false.
          do j = 1, rows%n
-            associate (bodies => fem%bodies%of_node(rows%node(:rows%entries(j), j)))
+            associate (bodies => bodies_of_row(rows, j, fem%bodies%of_node))
                largest = maxval(values(bodies))
                do k = 1, size(bodies, kind=ip)
                   if (is_loaded(bodies(k)) .or. values(bodies(k)) >= largest) cycle

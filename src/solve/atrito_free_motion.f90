@@ -236,8 +236,8 @@ contains
       associate (body => fem%bodies%list(mechanism%bodies(1)), mode => mechanism%mode(:, 1))
          centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
          do j = 1, rows%n
-            if (norm2(fem%mesh%x(:, rows%node(1, j)) - centre) > SMALL*body%size) cycle
-            text = ', which is node '//to_text(fem%mesh%node_id(rows%node(1, j)))//' of the contact,'
+            if (norm2(fem%mesh%x(:, rows%node(rows%first(j))) - centre) > SMALL*body%size) cycle
+            text = ', which is node '//to_text(fem%mesh%node_id(rows%node(rows%first(j))))//' of the contact,'
             return
          end do
       end associate

@@ -52,7 +52,7 @@ contains
       do j = 1, points%n
          new%bodies(1) = body_of_node(points%node(j))
          new%bodies(2) = 0
-         if (points%n_master(j) > 0) new%bodies(2) = body_of_node(points%master_node(1, j))
+         if (.not. points%rigid) new%bodies(2) = body_of_node(points%entry(points%first(j + 1) - 1))
          do k = n, before + 1, -1                           ! most often that of the point before
             if (all(joints(k)%bodies == new%bodies)) exit
          end do

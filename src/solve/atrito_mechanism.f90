@@ -81,8 +81,8 @@ contains
          apart = row_value(rows, j, rows%normal(:, j), u) + by_friction(j)
          along = row_value(rows, j, rows%tangent(:, j), u)
          closed(j) = apart >= -least
-         do k = 1, rows%entries(j)
-            mechanism%touches = mechanism%touches .or. any(abs(u(:, rows%node(k, j))) > least)
+         do k = rows%first(j), rows%first(j + 1) - 1
+            mechanism%touches = mechanism%touches .or. any(abs(u(:, rows%node(k))) > least)
          end do
          if (.not. closed(j)) mechanism%opens(line%pair(j)) = .true.
          if (closed(j) .and. abs(along) > least) mechanism%slides(line%pair(j)) = .true.

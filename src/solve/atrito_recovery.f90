@@ -40,8 +40,8 @@ contains
       force = 0.0_wp
       do j = 1, rows%n
          at_point = line%weight(j)*(max(solution%p(j), 0.0_wp)*rows%normal(:, j) + solution%t(j)*rows%tangent(:, j))
-         do k = 1, rows%entries(j)
-            force(:, rows%node(k, j)) = force(:, rows%node(k, j)) + rows%coefficient(k, j)*at_point
+         do k = rows%first(j), rows%first(j + 1) - 1
+            force(:, rows%node(k)) = force(:, rows%node(k)) + rows%coefficient(k)*at_point
          end do
       end do
    end function contact_forces

@@ -4,13 +4,13 @@ module atrito_row_entries
    use atrito_bodies, only: bodies_t, body_t, mode_at
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t
+   use atrito_contact_rows, only: contact_rows_t, bodies_of_row
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
    public :: build_constraint_rows, motions_of_row, first_motions, direction_of, work_on_motion
 
-   integer(ip), parameter :: MOST_MOTIONS = 6_ip !< of a row: it touches two bodies at most
+   integer(ip), parameter :: MOST_MODES = 3_ip   !< of a body
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp !< motions are of size one: what is below rounding of that is no motion
 
 contains
@@ -34,7 +34,11 @@ contains
       constraints%n_columns = before(fem%bodies%n + 1)
       if (with_motions) constraints%n_columns = first_motion(fem%bodies%n + 1) - 1
       constraints%point = line%point
-      n = 2*sum(rows%entries(line%point)) + merge(MOST_MOTIONS*constraints%n, 0_ip, with_motions)
+      n = 0
+      do i = 1, constraints%n
+         n = n + 2*(rows%first(line%point(i) + 1) - rows%first(line%point(i)))
+         if (with_motions) n = n + MOST_MODES*count_bodies(bodies_of_row(rows, line%point(i), fem%bodies%of_node))
+      end do
       allocate (constraints%first(constraints%n + 1), constraints%column(n), constraints%value(n))
       constraints%first(1) = 1
       do i = 1, constraints%n
@@ -50,6 +54,16 @@ contains
       constraints%value = constraints%value(:n)
    end subroutine build_constraint_rows
 
+   pure integer(ip) function count_bodies(bodies) result(n)
+      integer(ip), intent(in) :: bodies(:)       !< of the entries of a row
+      integer(ip) :: k
+
+      n = 0
+      do k = 1, size(bodies, kind=ip)
+         if (.not. any(bodies(:k - 1) == bodies(k))) n = n + 1
+      end do
+   end function count_bodies
+
    pure subroutine displacements_of_row(fem, rows, line, i, before, n, column, value)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -64,13 +78,13 @@ contains
 
       direction = direction_of(rows, line, i)
       n = 0
-      do k = 1, rows%entries(line%point(i))
-         node = rows%node(k, line%point(i))
+      do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
+         node = rows%node(k)
          do dof = 1, 2
             if (direction(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) == 0) cycle
             n = n + 1
             column(n) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
-            value(n) = rows%coefficient(k, line%point(i))*direction(dof)
+            value(n) = rows%coefficient(k)*direction(dof)
          end do
       end do
    end subroutine displacements_of_row
@@ -90,8 +104,8 @@ contains
 
       direction = direction_of(rows, line, i)
       n = 0
-      do k = 1, rows%entries(line%point(i))
-         node = rows%node(k, line%point(i))
+      do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
+         node = rows%node(k)
          b = fem%bodies%of_node(node)
          if (b == 0) cycle
          do mode = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
@@ -103,7 +117,7 @@ contains
                motion(e) = first_motion(b) + mode - 1
                value(e) = 0.0_wp
             end if
-            value(e) = value(e) + rows%coefficient(k, line%point(i))*along_motion(fem, fem%bodies%list(b), mode, node, direction)
+            value(e) = value(e) + rows%coefficient(k)*along_motion(fem, fem%bodies%list(b), mode, node, direction)
          end do
       end do
       kept = 0

@@ -88,15 +88,12 @@ contains
       type(number_list_t) :: found
       logical, allocatable :: taken(:)
       integer(ip), allocatable :: of_body(:, :), place(:)
-      integer(ip) :: i, j, k
+      integer(ip) :: i, j
 
       taken = bodies%of_node == 0
       do i = 1, size(points, kind=ip)
-         do j = 1, points(i)%n
-            call take(points(i)%node(j))
-            do k = 1, points(i)%n_master(j)
-               if (points(i)%master_shape(k, j) /= 0.0_wp) call take(points(i)%master_node(k, j))
-            end do
+         do j = 1, size(points(i)%entry, kind=ip)
+            call take(points(i)%entry(j))
          end do
       end do
       nodes = numbers_of(found)

@@ -113,7 +113,7 @@ contains
       do j = 1, data%line%n
          if (data%line%normal(j) > 0 .or. data%line%delta(j) > 0.0_wp) cycle
          if (data%line%known_overlap(j) <= 1.0e-12_wp*(maxval(abs(data%fem%mesh%x)))) cycle
-         call set_status(status, STATUS_DECK, 'node '//to_text(data%fem%mesh%node_id(data%rows%node(1, j))) &
+         call set_status(status, STATUS_DECK, 'node '//to_text(data%fem%mesh%node_id(data%rows%node(data%rows%first(j)))) &
                          //' is prescribed to penetrate a hard contact by '//to_text(data%line%known_overlap(j)) &
                          //' [L]; a penalty (PRESSURE-OVERCLOSURE=LINEAR) could take it')
          return

@@ -3,7 +3,7 @@ module atrito_scene_elimination
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t, ROW_ENTRIES
+   use atrito_contact_rows, only: contact_rows_t, bodies_of_row
    use atrito_kinds, only: ip, wp
    use atrito_multifrontal, only: dissection_t, order_elements, elimination_t
    implicit none (type, external)
@@ -121,13 +121,13 @@ contains
       type(contact_line_t), intent(in) :: line
       type(scene_numbering_t), intent(in) :: numbering
       integer(ip), allocatable, intent(out) :: nodes(:, :), n_nodes_of(:)
-      integer(ip), parameter :: MOST = max(CORNERS, ROW_ENTRIES) + ROW_ENTRIES
-      integer(ip) :: j, e, b, n_elements, n_points
+      integer(ip) :: j, e, b, n_elements, n_points, most
       logical :: seen(fem%bodies%n)
 
       n_elements = fem%mesh%n_elements
       n_points = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
-      allocate (nodes(max(size(fem%mesh%nodes, 1, kind=ip), MOST), n_elements + n_points + fem%bodies%n), &
+      most = max(size(fem%mesh%nodes, 1, kind=ip), max(CORNERS, rows%longest) + rows%longest)
+      allocate (nodes(most, n_elements + n_points + fem%bodies%n), &
                 n_nodes_of(n_elements + n_points + fem%bodies%n))
       nodes(:size(fem%mesh%nodes, 1), :n_elements) = fem%mesh%nodes(:, :n_elements)
       n_nodes_of(:n_elements) = fem%mesh%shape(:n_elements)
@@ -137,7 +137,7 @@ contains
          if (line%normal(j) == 0 .and. line%tangential(j) == 0) cycle
          e = e + 1
          call list_nodes_of_point(fem, rows, numbering, j, nodes(:, e), n_nodes_of(e))
-         seen(fem%bodies%of_node(rows%node(:rows%entries(j), j))) = .true.
+         seen(bodies_of_row(rows, j, fem%bodies%of_node)) = .true.
       end do
       do b = 1, fem%bodies%n
          if (seen(b) .or. numbering%n_motions(b) == 0) cycle
@@ -157,14 +157,15 @@ contains
       integer(ip), intent(in) :: j
       integer(ip), intent(inout) :: nodes(:)
       integer(ip), intent(out) :: n
-      integer(ip) :: k, b
+      integer(ip) :: entries, k, b
 
-      n = max(rows%entries(j), CORNERS)
-      do k = 1, n
-         nodes(k) = rows%node(1 + mod(k - 1, rows%entries(j)), j)
+      entries = rows%first(j + 1) - rows%first(j)
+      n = max(entries, CORNERS)
+      do k = 0, n - 1
+         nodes(k + 1) = rows%node(rows%first(j) + mod(k, entries))
       end do
-      do k = 1, rows%entries(j)
-         b = fem%bodies%of_node(rows%node(k, j))
+      do k = rows%first(j), rows%first(j + 1) - 1
+         b = fem%bodies%of_node(rows%node(k))
          if (numbering%n_motions(b) == 0) cycle
          if (any(nodes(:n) == fem%mesh%n_nodes + b)) cycle
          n = n + 1

@@ -63,7 +63,7 @@ contains
          if (line%normal(j) > 0) is_shared(j) = solution%is_shared(line%normal(j))
          if (line%tangential(j) > 0) is_shared(j) = is_shared(j) .or. solution%is_shared(line%tangential(j))
       end do
-      nodes = mesh%node_id(rows%node(1, pack([(j, j=1, line%n)], is_shared)))
+      nodes = mesh%node_id(rows%node(rows%first(pack([(j, j=1, line%n)], is_shared))))
       if (size(nodes) == 0) return
       call add_note('N-SHARED', shared_text(size(nodes, kind=ip), each_once(nodes)) &
                     //'; displacements and sums of the forces are, and of the forces the least are given')

@@ -75,7 +75,7 @@ contains
          point%point = point%point - points(point%pair)%n
          point%pair = point%pair + 1
       end do
-      point%node = mesh%node_id(rows%node(1, j))
+      point%node = mesh%node_id(rows%node(rows%first(j)))
       point%x = points(point%pair)%x(:, point%point)
    end function point_of
 
@@ -108,7 +108,7 @@ contains
       if (.not. line%has_friction .or. .not. allocated(solution%p)) return
       change = abs(friction_bound(line, solution%p) - solution%tau)
       text = '; no point changes its state, the friction bound is off most at node ' &
-             //to_text(mesh%node_id(rows%node(1, maxloc(change, dim=1))))
+             //to_text(mesh%node_id(rows%node(rows%first(maxloc(change, dim=1)))))
    end function slowest_text
 
 end module atrito_unsettled_points

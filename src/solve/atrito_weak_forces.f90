@@ -107,8 +107,8 @@ contains
       do j = 1, sizes%rows%n
          ! a pair without any force asks for nothing
          if (largest(sizes%pair(j)) <= 0.0_wp) cycle
-         do k = 1, sizes%rows%entries(j)
-            associate (node => sizes%rows%node(k, j), other => min(sizes%rows%node(k, j), size(round_off, 2, kind=ip)))
+         do k = sizes%rows%first(j), sizes%rows%first(j + 1) - 1
+            associate (node => sizes%rows%node(k), other => min(sizes%rows%node(k), size(round_off, 2, kind=ip)))
                do dof = 1, 2
                   if (held(dof, node)) cycle
                   excess = abs(residual(dof, node)) - round_off(dof, other)

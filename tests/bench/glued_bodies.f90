@@ -83,7 +83,8 @@ contains
       end if
       do j = 1, points%n
          a = first_of(first, points%node(j))
-         b = first_of(first, points%master_node(maxloc(points%master_shape(:, j), dim=1), j))
+         b = first_of(first, points%entry(points%first(j) - 1 + &
+                                          minloc(points%coefficient(points%first(j):points%first(j + 1) - 1), dim=1)))
          first(max(a, b)) = min(a, b)
       end do
    end subroutine glue_pair

@@ -14,7 +14,8 @@ module body_cases
    use atrito_friction_law, only: friction_law_t, FRICTION_NONLOCAL, KERNEL_POINTS
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, add_element, add_node, element_coordinates, trim_mesh
-   use atrito_points, only: contact_points_t, pair_surfaces
+   use atrito_nodal_points, only: pair_surfaces
+   use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
    public :: scene_case_t, stacked_blocks, full_matrix, random_line, random_numbers
