@@ -7,29 +7,18 @@ module atrito_nodal_points
    use atrito_id_map, only: id_map_t
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t
    use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, look_at_end, &
                             nearest_end
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, clear_small_component, CORNER
    implicit none (type, external)
    private
    public :: pair_surfaces, pair_with_master, finds_master
 
-   !> The nodal rule on a face, in the order of travel.
-   type :: nodal_rule_t
-      integer(ip) :: n = 0
-      integer(ip) :: node(3) = 0
-      real(wp) :: s(3) = 0.0_wp                     !< arc length from the face's first node [L]
-      real(wp) :: weight(3) = 0.0_wp                !< [L]
-      real(wp) :: normal(2, 3) = 0.0_wp             !< outward unit normals of the face
-   end type nodal_rule_t
-
    !> Most entries of a point: the slave's node and a face of the master.
    integer(ip), parameter :: NODAL_ENTRIES = 4
-   !> From this sine on two faces meet at a corner, and do not stand for a curve.
-   real(wp), parameter, public :: CORNER = 0.8_wp
    !> Errors of rounding that a distance may have.
    real(wp), parameter :: ROUND_OFFS = 8.0_wp
    !> Sides match when their nodes are this close, in parts of an edge.
@@ -105,32 +94,6 @@ contains
       end do
    end function finds_master
 
-   !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner.
-   pure real(wp) function turn_at(mesh, slave, i, rule) result(turn)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
-      type(nodal_rule_t), intent(in) :: rule        !< of face i
-      type(nodal_rule_t) :: other
-      integer(ip) :: k
-
-      turn = sine(rule%normal(:, 1), rule%normal(:, rule%n))
-      do k = max(i - 1, 1_ip), min(i + 1, slave%n)
-         if (k == i) cycle
-         other = nodal_rule(mesh, slave%element(k), slave%face(k))
-         if (k < i) turn = max(turn, sine(other%normal(:, other%n), rule%normal(:, 1)))
-         if (k > i) turn = max(turn, sine(rule%normal(:, rule%n), other%normal(:, 1)))
-      end do
-      if (turn > CORNER) turn = 0.0_wp
-   end function turn_at
-
-   pure real(wp) function sine(a, b)
-      real(wp), intent(in) :: a(2), b(2)            !< unit vectors
-
-      sine = abs(a(1)*b(2) - a(2)*b(1))
-      if (dot_product(a, b) < 0.0_wp) sine = 1.0_wp
-   end function sine
-
    !> One point a slave node; weights and normals of the faces that share it are summed.
    pure subroutine place_points(mesh, thickness, slave, used, points)
       type(mesh_t), intent(in) :: mesh
@@ -156,49 +119,9 @@ contains
       end do
       do i = 1, points%n
          points%normal(:, i) = points%normal(:, i)/norm2(points%normal(:, i))
-         call clear_round_off(points%x(:, i), points%length(i), points%normal(:, i))
+         call clear_small_component(points%x(:, i), points%length(i), points%normal(:, i))
       end do
    end subroutine place_points
-
-   !> A component of the normal that is round-off of the coordinates is none: along a symmetry line or a supported base the rows of
-   !> the points are zero only then.
-   pure subroutine clear_round_off(x, length, normal)
-      real(wp), intent(in) :: x(2), length
-      real(wp), intent(inout) :: normal(2)
-
-      where (abs(normal) < max(1.0e-13_wp, 8*EPS_MACH*maxval(abs(x))/length)) normal = 0.0_wp
-      normal = normal/norm2(normal)
-   end subroutine clear_round_off
-
-   !> Trapezoidal or Simpson's rule on a face. On a curved face the Jacobian differs from node to node. Simpson's weights times the
-   !> normals are the nodal forces of a uniform pressure, to the last bit: the shape functions times dx/dt are cubics.
-   pure function nodal_rule(mesh, element, face) result(rule)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, face
-      type(nodal_rule_t) :: rule
-      integer(ip) :: nodes(3), k, n
-      real(wp) :: x(2, 3), t(3), w(3)
-
-      nodes = 0
-      n = size(face_nodes(mesh, element, face), kind=ip)
-      nodes(:n) = face_nodes(mesh, element, face)
-      x(:, :n) = mesh%x(:, nodes(:n))
-      rule%n = n
-      if (n == 2) then
-         t(:n) = [-1.0_wp, 1.0_wp]
-         w(:n) = 1.0_wp
-      else
-         nodes = nodes([1, 3, 2])
-         t = [-1.0_wp, 0.0_wp, 1.0_wp]
-         w = [1.0_wp, 4.0_wp, 1.0_wp]/3.0_wp
-      end if
-      rule%node = nodes
-      do k = 1, n
-         rule%s(k) = face_arc_length(x(:, :n), t(k))
-         rule%weight(k) = w(k)*norm2(face_direction(x(:, :n), t(k)))
-         rule%normal(:, k) = outward_normal(x(:, :n), t(k))
-      end do
-   end function nodal_rule
 
    !> Initial distances, and the master's shape functions where each point faces it. A distance that is round-off of the
    !> coordinates is none: displacements may be smaller than that.
@@ -209,7 +132,7 @@ contains
       type(contact_points_t), intent(inout) :: points
       type(sight_t) :: sight
       integer(ip), allocatable :: nodes(:)
-      real(wp) :: round_off
+      real(wp) :: round_off, spacing(points%n)
       integer(ip) :: i
 
       if (points%n == 0) return
@@ -225,8 +148,28 @@ contains
          if (master%rigid) cycle
          nodes = face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))
          call add_entries(nodes, -face_shape_values(size(nodes, kind=ip), 2*sight%t - 1), i, points)
+         spacing(i) = norm2(master%d(:, sight%piece))/(size(nodes) - 1)
       end do
+      if (.not. master%rigid) call find_coarsest(spacing, points)
    end subroutine look_for_master
+
+   !> Where neighbours on the slave lie farthest apart, by the distance of the master's nodes that they face: what is pushed
+   !> between them meets no point.
+   pure subroutine find_coarsest(spacing, points)
+      real(wp), intent(in) :: spacing(:)            !< of the master's nodes at each point [L]
+      type(contact_points_t), intent(inout) :: points
+      real(wp) :: distance
+      integer(ip) :: i
+
+      do i = 2, points%n
+         distance = points%s(i) - points%s(i - 1)
+         ! neighbours on a face, not on both sides of faces that are left out
+         if (distance > 2*(points%length(i) + points%length(i - 1))) cycle
+         if (distance <= points%coarseness*min(spacing(i - 1), spacing(i))) cycle
+         points%coarseness = distance/min(spacing(i - 1), spacing(i))
+         points%coarse_node = points%node(i)
+      end do
+   end subroutine find_coarsest
 
    !> Each slave node faces a master node, and both sides are of one order.
    pure logical function are_matching(mesh, slave, master, points)

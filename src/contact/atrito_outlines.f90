@@ -9,7 +9,7 @@ module atrito_outlines
    use atrito_mesh, only: mesh_t, face_nodes, face_end
    use atrito_piece_tree, only: search_t, begin_search, next_leaf, FACING
    use atrito_pieces, only: place_at, normal_at, cross_piece, END_TOLERANCE
-   use atrito_nodal_points, only: CORNER
+   use atrito_slave_faces, only: CORNER
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private

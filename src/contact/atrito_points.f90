@@ -26,6 +26,9 @@ module atrito_points
       integer(lp), allocatable :: faces(:)          !< a number of its own for each of the slave's faces that are not left out
       logical :: matching = .false.                 !< every point faces a master node and the orders are equal
       logical :: rigid = .false.
+      logical :: is_mortar = .false.
+      real(wp) :: coarseness = 0.0_wp               !< NODAL: largest distance of slave nodes over that of the master's there
+      integer(ip) :: coarse_node = 0                !< where
    end type contact_points_t
 
 contains

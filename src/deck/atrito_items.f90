@@ -1,5 +1,6 @@
 !> Values of items and options: what the model's constructors ask of a deck. Failures are reported here, at their place.
 module atrito_items
+   use atrito_keyword_table, only: find_choice
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, is_empty_token, keyword_name, reading_order
    use atrito_diagnostics, only: report_error
@@ -299,7 +300,7 @@ contains
       if (present(place)) place = option%value
    end subroutine option_text
 
-   !> The word chosen by an option, in capitals; its default in the table when it is not given. An option that may stand alone
+   !> The word chosen by an option, as the table has it; its default in the table when it is not given. An option that may stand alone
    !> (NLGEOM) is then its first word.
    pure function option_word(deck, card, name) result(word)
       type(deck_t), intent(in) :: deck
@@ -307,14 +308,19 @@ contains
       character(len=*), intent(in) :: name
       character(len=:), allocatable :: word
       logical :: found
-      integer :: i
+      integer :: i, choice
 
       call option_text(deck, card, name, word, found)
       word = upper_case(word)
-      if (found .or. card%keyword < 1) return
+      if (card%keyword < 1) return
       associate (options => deck%keywords(card%keyword)%options)
          do i = 1, size(options)
             if (options(i)%name /= name) cycle
+            if (found) then
+               choice = find_choice(options(i)%choices, word)
+               if (choice > 0) word = options(i)%choices(choice)%name
+               return
+            end if
             word = options(i)%default
             if (has_option(deck, card, name) .and. size(options(i)%choices) > 0) word = options(i)%choices(1)%name
          end do

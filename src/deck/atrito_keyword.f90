@@ -140,7 +140,7 @@ contains
       keywords%n_items = 0
    end subroutine finish_form
 
-   !> Adds an option. choices: words separated by blanks, with their marks.
+   !> Adds an option. choices: words separated by blanks, with their marks; `_` stands for a blank within one.
    subroutine add_option(keywords, name, kind, doc, default, choices, needs, dimension)
       type(keyword_list_t), intent(inout) :: keywords
       character(len=*), intent(in) :: name, doc
@@ -260,11 +260,22 @@ contains
       call split_text(list, ' ', words)
       allocate (choices(size(words)))
       do i = 1, size(words)
-         choices(i)%name = without_marks(words(i)%s)
+         choices(i)%name = with_blanks(without_marks(words(i)%s))
          choices(i)%built = .not. has_mark(words(i)%s, '-')
          choices(i)%own = has_mark(words(i)%s, '+')
       end do
    end function choices_of
+
+   pure function with_blanks(word) result(text)
+      character(len=*), intent(in) :: word
+      character(len=len(word)) :: text
+      integer :: i
+
+      text = word
+      do i = 1, len(word)
+         if (word(i:i) == '_') text(i:i) = ' '
+      end do
+   end function with_blanks
 
    !> The pieces of a text between marks; none of an empty text.
    pure subroutine split_text(text, mark, pieces)

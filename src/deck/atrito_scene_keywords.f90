@@ -91,12 +91,14 @@ contains
       type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'CONTACT PAIR', LEVEL_MODEL, 'two surfaces that may touch', &
-                          doc='The contact points lie on the slave. NODAL: on its nodes, trapezoidal rule. GAUSS: on segments '// &
-                          'cut at the nodes of both sides. MORTAR: the same segments, pressure on the nodes of the slave.')
+                          doc='The contact points are the slave''s nodes. NODAL: the gap at each, by the trapezoidal or '// &
+                          'Simpson''s rule. MORTAR: the gap in the mean round each, by integrals over segments cut at '// &
+                          'the nodes of both sides, for sides that do not match.')
       call add_option(k, 'INTERACTION!', KIND_NAME, 'the law of contact')
-      call add_option(k, 'QUADRATURE+', KIND_WORD, 'where the contact points lie; NODAL when the sides match or the master '// &
-                      'is rigid', choices='NODAL -GAUSS -MORTAR')
-      call add_option(k, '(TYPE)', KIND_WORD, 'discretisation of other programs')
+      call add_option(k, 'QUADRATURE+', KIND_WORD, 'how the gap is measured; left out: NODAL where the sides match or the '// &
+                      'master is rigid, else MORTAR', choices='NODAL MORTAR')
+      call add_option(k, 'TYPE', KIND_WORD, 'the same in the words of other programs: NODAL or MORTAR', &
+                      choices='NODE_TO_SURFACE SURFACE_TO_SURFACE')
       call add_option(k, '(SMALL SLIDING)', KIND_FLAG, 'sliding is always small')
       call add_form(k, 'one pair a line', 1, ANY_NUMBER)
       call add_item(k, 'slave', KIND_NAME, 'surface of elements, one connected chain')
@@ -111,7 +113,7 @@ contains
                           '*CONTACT PAIR goes before what is found.')
       call add_option(k, 'DISTANCE+', KIND_REAL, 'faces farther apart than this take no part; half a face when left out', &
                       dimension='L')
-      call add_option(k, 'QUADRATURE+', KIND_WORD, 'as of *CONTACT PAIR', choices='NODAL -GAUSS -MORTAR')
+      call add_option(k, 'QUADRATURE+', KIND_WORD, 'as of *CONTACT PAIR', choices='NODAL MORTAR')
       call add_example(k, '*CONTACT|*CONTACT INCLUSIONS, ALL EXTERIOR|*CONTACT PROPERTY ASSIGNMENT|, , rough')
 
       call define_keyword(k, 'CONTACT INCLUSIONS', LEVEL_MODEL, 'what may touch', parent='CONTACT', &

@@ -1,11 +1,13 @@
 !> *SURFACE INTERACTION with *SURFACE BEHAVIOR and *FRICTION, and *CONTACT PAIR.
 module atrito_build_contact
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_empty_token, keyword_name
-   use atrito_diagnostics, only: report_error
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_contact_rules, only: quadrature_of
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, keep_token, define_name, count_cards
-   use atrito_items, only: get_real, has_option, option_text, option_word
+   use atrito_items, only: get_real, find_option, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: interaction_t, pair_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
+   use atrito_model, only: interaction_t, pair_t, QUADRATURE_AUTO, QUADRATURE_NODAL, &
+                           FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_name_list, only: find_name
    use atrito_references, only: report_unknown
    use atrito_strings, only: to_text
@@ -170,7 +172,7 @@ contains
       pair%interaction = find_name(context%interaction_names, name)
       if (found .and. pair%interaction == 0) call report_unknown(context, place, 'surface interaction', 'E-INTERACTION', &
                                                                  context%interaction_names, 'CONTACT PAIR')
-      pair%quadrature_given = has_option(context%deck, card, 'QUADRATURE')
+      call read_quadrature(context%deck, card, pair%quadrature)
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
          call find_surface(context%deck%lines(i), 1_ip, context, pair%slave)
@@ -183,6 +185,32 @@ contains
          call keep_token(context%masters, n_pairs, line_item(context%deck, context%deck%lines(i), 2_ip))
       end do
    end subroutine read_pair_card
+
+   !> QUADRATURE, or TYPE in the words of other programs.
+   subroutine read_quadrature(deck, card, quadrature)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(out) :: quadrature
+      character(len=:), allocatable :: word
+      type(option_t) :: option
+      integer(ip) :: by_type
+      logical :: found
+
+      quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
+      word = option_word(deck, card, 'TYPE')
+      by_type = quadrature_of(word)
+      if (by_type == QUADRATURE_AUTO) return
+      call find_option(deck, card, 'TYPE', option, found)
+      if (quadrature == QUADRATURE_AUTO) then
+         call report_note(deck, option%value, 'N-QUADRATURE', 'TYPE='//word//' means QUADRATURE=' &
+                          //merge('NODAL ', 'MORTAR', by_type == QUADRATURE_NODAL), keyword='CONTACT PAIR')
+         quadrature = by_type
+      else if (quadrature /= by_type) then
+         call report_error(deck, option%value, 'E-QUADRATURE', 'TYPE='//word//' and QUADRATURE=' &
+                           //option_word(deck, card, 'QUADRATURE')//' are different things', &
+                           expected='one of them', keyword='CONTACT PAIR')
+      end if
+   end subroutine read_quadrature
 
    subroutine find_surface(line, item, context, surface)
       type(data_line_t), intent(in) :: line

@@ -9,7 +9,7 @@ module atrito_check_contact
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, FRICTION_NONLOCAL, KERNEL_LINE
+   use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_points, only: contact_points_t
    use atrito_sorting, only: sorted_places, each_once
@@ -30,6 +30,9 @@ module atrito_check_contact
    end type pairs_context_t
 
    real(wp), parameter :: LINE_SPACINGS = 3.0_wp       !< KERNEL=LINE needs so many spacings within rho
+
+   !> Distance of slave nodes over that of the master's from which on NODAL points are too few: 3 elements on 2 are not.
+   real(wp), parameter :: COARSE = 1.6_wp
 
 contains
 
@@ -305,10 +308,16 @@ contains
       if (points%n_left_out > 0) call report_note(context%deck, context%slaves(i), 'N-LEFT-OUT', &
                                                   to_text(points%n_left_out)//' of '// &
                to_text(points%n_faces)//' faces of the slave are left out: a point of them finds no master', keyword='CONTACT PAIR')
-      if (.not. (points%matching .or. points%rigid .or. model%pairs(i)%quadrature_given)) then
-         call report_error(context%deck, context%slaves(i), 'E-QUADRATURE', 'the nodes of the two sides '//of_pair(model, i)// &
-                           'do not match, and MORTAR, the quadrature for such sides, is not built yet', &
-                           expected='QUADRATURE=NODAL, or sides whose nodes face each other', keyword='CONTACT PAIR')
+      if (points%is_mortar .and. model%pairs(i)%quadrature == QUADRATURE_AUTO) then
+         call report_note(context%deck, context%slaves(i), 'N-MORTAR', 'the nodes of the two sides '//of_pair(model, i)// &
+                          'do not match: QUADRATURE=MORTAR', keyword='CONTACT PAIR')
+      end if
+      if (points%coarseness > COARSE .and. .not. points%is_mortar) then
+         call report_warning(context%deck, context%slaves(i), 'W-COARSE-SLAVE', 'at node ' &
+                             //to_text(model%mesh%node_id(points%coarse_node))//' the nodes of the slave '//of_pair(model, i)// &
+                             'lie '//to_text(points%coarseness, 2)//' times as far apart as those of the master, and with '// &
+                             'QUADRATURE=NODAL nothing keeps the master out between them', &
+                             expected='QUADRATURE=MORTAR, or the finer side as slave', keyword='CONTACT PAIR')
       end if
       if (.not. is_judged) call judge_radius(context%deck, context%interactions(model%pairs(i)%interaction), &
                                              model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)

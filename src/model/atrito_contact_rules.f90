@@ -4,16 +4,16 @@ module atrito_contact_rules
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, place_text, has_errors
    use atrito_growth, only: resize
-   use atrito_items, only: find_option, has_option, option_real
+   use atrito_items, only: find_option, has_option, option_real, option_word
    use atrito_kinds, only: ip, lp, wp
-   use atrito_model, only: model_t, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_name_list, only: find_name
    use atrito_references, only: report_unknown
    use atrito_sorting, only: sorted_places
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: contact_rules_t, rule_list_t, read_contact_rules, add_rule, last_rule, sort_rules, ANY_BODY
+   public :: contact_rules_t, rule_list_t, read_contact_rules, add_rule, last_rule, sort_rules, quadrature_of, ANY_BODY
 
    !> Stands for the outlines of all bodies in the place of a surface.
    integer(ip), parameter :: ANY_BODY = 0_ip
@@ -31,7 +31,7 @@ module atrito_contact_rules
       logical :: given = .false.
       type(token_t) :: place                         !< of the *CONTACT
       real(wp) :: distance = 0.0_wp                  !< [L]; 0: half a face
-      logical :: quadrature_given = .false.
+      integer(ip) :: quadrature = QUADRATURE_AUTO
       type(rule_list_t) :: included, excluded
       type(rule_list_t) :: assigned                  !< value: place of the interaction
    end type contact_rules_t
@@ -79,12 +79,26 @@ contains
       end if
       rules%given = .true.
       rules%place = card%place
-      rules%quadrature_given = has_option(deck, card, 'QUADRATURE')
+      rules%quadrature = quadrature_of(option_word(deck, card, 'QUADRATURE'))
       call option_real(deck, card, 'DISTANCE', WHAT, rules%distance, found)
       if (.not. found .or. rules%distance > 0.0_wp) return
       call find_option(deck, card, 'DISTANCE', option, found)
       call report_error(deck, option%value, 'E-VALUE', 'DISTANCE = '//to_text(rules%distance), expected=WHAT, keyword='CONTACT')
    end subroutine read_contact_card
+
+   !> By the words of QUADRATURE, and of TYPE in other programs; QUADRATURE_AUTO where there is none.
+   pure integer(ip) function quadrature_of(word) result(quadrature)
+      character(len=*), intent(in) :: word
+
+      select case (word)
+      case ('NODAL', 'NODE TO SURFACE')
+         quadrature = QUADRATURE_NODAL
+      case ('MORTAR', 'SURFACE TO SURFACE')
+         quadrature = QUADRATURE_MORTAR
+      case default
+         quadrature = QUADRATURE_AUTO
+      end select
+   end function quadrature_of
 
    !> Lines of two surfaces, and of an interaction where one belongs.
    subroutine read_lines(card, context, rules)

@@ -429,7 +429,7 @@ contains
             pairs(i)%interaction = merge(search%law(first), default_law, search%law(first) > 0)
          end associate
          pairs(i)%outline = chains%outline(i)
-         pairs(i)%quadrature_given = rules%quadrature_given
+         pairs(i)%quadrature = rules%quadrature
          call keep_token(context%slaves, size(context%model%pairs, kind=ip) + i, rules%place)
          call keep_token(context%masters, size(context%model%pairs, kind=ip) + i, rules%place)
       end do

@@ -14,12 +14,13 @@ module atrito_model
    public :: controls_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
-   public :: QUADRATURE_NODAL, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
+   public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
+   public :: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
    public :: LOAD_PRESSURE, LOAD_BODY
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
    character(len=8), parameter :: FORMULATION_NAME(2) = ['STANDARD', 'BBAR    ']
-   integer(ip), parameter :: QUADRATURE_NODAL = 1
+   integer(ip), parameter :: QUADRATURE_AUTO = 0, QUADRATURE_NODAL = 1, QUADRATURE_MORTAR = 2
    integer(ip), parameter :: METHOD_ANDERSON = 1, METHOD_PICARD = 2, METHOD_NEWTON = 3
    character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
    character(len=8), parameter :: FRICTION_NAME(0:2) = ['none    ', 'LOCAL   ', 'NONLOCAL']
@@ -64,8 +65,7 @@ module atrito_model
 
    type :: pair_t
       integer(ip) :: interaction = 0, slave = 0, master = 0   !< places in the model's lists
-      integer(ip) :: quadrature = QUADRATURE_NODAL
-      logical :: quadrature_given = .false.                   !< by the deck, not by default
+      integer(ip) :: quadrature = QUADRATURE_AUTO             !< as the deck asks for
       integer(ip) :: outline = 0    !< of *CONTACT: the same for slaves that continue each other, which S_rho does not cut; 0: none
    end type pair_t
 

@@ -3,7 +3,8 @@ module atrito_pairing
    use atrito_faces, only: face_list_t, chain_report_t, order_chain
    use atrito_kinds, only: ip, wp
    use atrito_master, only: master_t, master_of_faces, master_of_segments
-   use atrito_model, only: model_t, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR
+   use atrito_mortar_points, only: pair_by_mortar
    use atrito_nodal_points, only: pair_with_master
    use atrito_points, only: contact_points_t
    implicit none (type, external)
@@ -60,13 +61,29 @@ contains
          associate (slave => model%surfaces(model%pairs(i)%slave)%faces, surface => model%surfaces(model%pairs(i)%master), &
                     master => masters(model%pairs(i)%master))
             if (surface%kind == SURFACE_SEGMENTS) then
-               call pair_with_master(model%mesh, thickness, slave, no_faces, master, points(i))
+               call make_points(model, thickness, model%pairs(i)%quadrature, slave, no_faces, master, points(i))
             else
-               call pair_with_master(model%mesh, thickness, slave, surface%faces, master, points(i))
+               call make_points(model, thickness, model%pairs(i)%quadrature, slave, surface%faces, master, points(i))
             end if
          end associate
       end do
    end subroutine pair_all
+
+   !> By the quadrature that is asked for; else MORTAR where the sides do not match.
+   subroutine make_points(model, thickness, quadrature, slave, master_faces, master, points)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: thickness(:)
+      integer(ip), intent(in) :: quadrature
+      type(face_list_t), intent(in) :: slave, master_faces
+      type(master_t), intent(in) :: master
+      type(contact_points_t), intent(out) :: points
+
+      if (quadrature /= QUADRATURE_MORTAR) then
+         call pair_with_master(model%mesh, thickness, slave, master_faces, master, points)
+         if (quadrature == QUADRATURE_NODAL .or. points%matching .or. points%rigid) return
+      end if
+      call pair_by_mortar(model%mesh, thickness, slave, master_faces, master, points)
+   end subroutine make_points
 
    !> Thickness [L] of each element.
    pure function element_thickness(model) result(thickness)

@@ -1,0 +1,395 @@
+!> MORTAR quadrature of a contact pair: the gap is small in the mean, weighted by functions psi_j of the slave's nodes.
+!>
+!> Row of node j, W_j = int psi_j h ds with the thickness h:
+!>    (1/W_j) int psi_j (u_slave - u_master) h ds,   gap s_j = (1/W_j) int psi_j g h ds.
+!> On a face that is covered whole psi_j are dual to the shape functions, int psi_j phi_k = delta_jk int phi_k, so that the slave's
+!> part of the row is its own node alone (Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012). On a face that hangs over the end of
+!> the master they are hat functions of the nodes that are covered, constant beyond them. Either sum to one, so a uniform pressure
+!> is carried over exactly.
+module atrito_mortar_points
+   use atrito_dense, only: solve_lu
+   use atrito_element_table, only: MOST_SIDES
+   use atrito_face_geometry, only: face_direction
+   use atrito_faces, only: face_list_t
+   use atrito_growth, only: make_room
+   use atrito_id_map, only: id_map_t
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_master, only: master_t
+   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
+   use atrito_pieces, only: cross_piece, place_at
+   use atrito_points, only: contact_points_t, allocate_points, add_point, trim_points
+   use atrito_shape_functions, only: face_shape_values, gauss_rule
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, clear_small_component
+   implicit none (type, external)
+   private
+   public :: pair_by_mortar
+
+   integer(ip), parameter :: MOST = 3               !< nodes of a face
+   integer(ip), parameter :: N_GAUSS = 3
+   !> Of a coefficient: the rest is rounding of the integrals.
+   real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
+   real(wp), parameter :: ROUND_OFFS = 8.0_wp       !< that a distance may have
+   !> The part of a face that may be uncovered when it is taken as whole.
+   real(wp), parameter :: WHOLE = 2 - 1.0e-8_wp
+   !> A node this far outside of what is covered, on [-1,1], is covered.
+   real(wp), parameter :: AT_NODE = 1.0e-8_wp
+
+   !> Integrals over a face with the weighting functions of its nodes.
+   type :: face_integrals_t
+      logical :: is_whole = .true.
+      logical :: has_point(MOST) = .true.           !< nodes that get a weighting function
+      real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
+      real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
+      real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
+      integer(ip) :: n = 0                          !< nodes of the master
+      integer(ip), allocatable :: node(:)
+      real(wp), allocatable :: master(:, :)         !< (MOST, n) int psi_a phi_k h ds [L^2]
+   end type face_integrals_t
+
+   !> Terms of the rows as they come: point, node, value.
+   type :: terms_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: point(:), node(:)
+      real(wp), allocatable :: value(:)             !< [L^2]
+   end type terms_t
+
+contains
+
+   !> The points of a slave that faces a master, on a deformable master's faces or rigid.
+   subroutine pair_by_mortar(mesh, thickness, slave, master_faces, master, points)
+      type(mesh_t), intent(in) :: mesh
+      real(wp), intent(in) :: thickness(:)          !< of each element [L]
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
+      type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
+      type(master_t), intent(in) :: master          !< of these faces
+      type(contact_points_t), intent(out) :: points
+      type(segments_t) :: segments
+      type(terms_t) :: own, others
+      type(id_map_t) :: place
+      type(face_integrals_t) :: integrals
+      type(slave_face_t) :: face
+      real(wp) :: s
+      integer(ip) :: i
+
+      points%rigid = master%rigid
+      points%is_mortar = .true.
+      points%n_faces = slave%n
+      call cut_slave(mesh, slave, master, segments)
+      call allocate_points(MOST*slave%n, 0_ip, points)
+      allocate (points%faces(0))
+      s = 0.0_wp
+      do i = 1, slave%n
+         face = take_face(mesh, slave, i, segments)
+         if (segments%first(i + 1) == segments%first(i)) then
+            points%n_left_out = points%n_left_out + 1
+         else
+            call integrate_face(mesh, face, i, segments, master_faces, master, thickness(slave%element(i)), integrals)
+            call add_face(mesh, slave, i, thickness(slave%element(i)), s, face, integrals, place, points, own, others)
+         end if
+         s = s + face_length(mesh, slave, i)
+      end do
+      points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], &
+                          segments%first(2:) > segments%first(:slave%n))
+      call finish_points(own, others, points)
+   end subroutine pair_by_mortar
+
+   pure real(wp) function face_length(mesh, slave, i) result(length)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      type(nodal_rule_t) :: rule
+
+      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+      length = rule%s(rule%n)
+   end function face_length
+
+   !> The integrals over the segments of a face.
+   subroutine integrate_face(mesh, face, i, segments, faces, master, thickness, integrals)
+      type(mesh_t), intent(in) :: mesh
+      type(slave_face_t), intent(in) :: face
+      integer(ip), intent(in) :: i
+      type(segments_t), intent(in) :: segments
+      type(face_list_t), intent(in) :: faces        !< of the master
+      type(master_t), intent(in) :: master
+      real(wp), intent(in) :: thickness             !< [L]
+      type(face_integrals_t), intent(out) :: integrals
+      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, ds, psi(MOST), phi(MOST), on_master, gap
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: k, g, n
+
+      call judge_cover(face, segments%from(segments%first(i):segments%first(i + 1) - 1), &
+                       segments%to(segments%first(i):segments%first(i + 1) - 1), integrals)
+      call gauss_rule(N_GAUSS, gauss, weights)
+      allocate (integrals%node(0), integrals%master(MOST, 0), nodes(0))
+      n = face%n
+      phi = 0.0_wp
+      do k = segments%first(i), segments%first(i + 1) - 1
+         if (.not. master%rigid) nodes = face_nodes(mesh, faces%element(segments%piece(k)), faces%face(segments%piece(k)))
+         do g = 1, N_GAUSS
+            t = 0.5_wp*((1 - gauss(g))*segments%from(k) + (1 + gauss(g))*segments%to(k))
+            ds = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))*norm2(face_direction(face%x(:, :n), t))*thickness
+            phi(:n) = face_shape_values(n, t)
+            psi = weighting(n, t, integrals)
+            call look_at_piece(face, t, master, segments%piece(k), on_master, gap)
+            integrals%weight = integrals%weight + ds*psi
+            integrals%gap = integrals%gap + (ds*gap)*psi
+            integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
+            if (master%rigid) cycle
+            call add_master(nodes, face_shape_values(size(nodes, kind=ip), 2*on_master - 1), ds*psi, integrals)
+         end do
+      end do
+      if (integrals%is_whole) call make_dual(n, integrals)
+   end subroutine integrate_face
+
+   !> Whether a face is covered whole, and which nodes get a weighting function where it is not: those that are covered, or the
+   !> one that is nearest to what is.
+   pure subroutine judge_cover(face, from, to, integrals)
+      type(slave_face_t), intent(in) :: face
+      real(wp), intent(in) :: from(:), to(:)        !< of its segments
+      type(face_integrals_t), intent(inout) :: integrals
+      real(wp), parameter :: NODES(MOST) = [-1.0_wp, 1.0_wp, 0.0_wp]
+      real(wp) :: away(MOST)
+      integer(ip) :: a
+
+      integrals%is_whole = sum(to - from) >= WHOLE
+      integrals%has_point = [(a <= face%n, a=1, MOST)]
+      if (integrals%is_whole) return
+      away = huge(1.0_wp)
+      do a = 1, face%n
+         away(a) = minval(max(from - NODES(a), NODES(a) - to))
+      end do
+      integrals%has_point = away <= AT_NODE
+      if (.not. any(integrals%has_point)) integrals%has_point = [(a == minloc(away, dim=1), a=1, MOST)]
+   end subroutine judge_cover
+
+   !> The functions that are integrated with: shape functions on a whole face, which make_dual combines; else hats.
+   pure function weighting(n, t, integrals) result(psi)
+      integer(ip), intent(in) :: n                  !< nodes of the face
+      real(wp), intent(in) :: t
+      type(face_integrals_t), intent(in) :: integrals
+      real(wp) :: psi(MOST)
+
+      psi = 0.0_wp
+      if (integrals%is_whole) then
+         psi(:n) = face_shape_values(n, t)
+      else
+         psi = hats(integrals%has_point, t)
+      end if
+   end function weighting
+
+   !> Hat functions over the nodes at -1, 1 and 0 that are in use, constant beyond them.
+   pure function hats(in_use, t) result(psi)
+      logical, intent(in) :: in_use(MOST)
+      real(wp), intent(in) :: t
+      real(wp) :: psi(MOST)
+
+      psi = 0.0_wp
+      select case (count(in_use))
+      case (1)
+         where (in_use) psi = 1.0_wp
+      case (2)
+         if (in_use(1) .and. in_use(2)) then
+            psi(:2) = [0.5_wp*(1 - t), 0.5_wp*(1 + t)]
+         else if (in_use(1)) then
+            psi([1, 3]) = [max(-t, 0.0_wp), min(1 + t, 1.0_wp)]
+         else
+            psi([2, 3]) = [max(t, 0.0_wp), min(1 - t, 1.0_wp)]
+         end if
+      case default
+         psi = [max(-t, 0.0_wp), max(t, 0.0_wp), 1 - abs(t)]
+      end select
+   end function hats
+
+   !> The place t in [0,1] of a piece that a place of the slave faces, and how far off it is along the line of sight [L].
+   pure subroutine look_at_piece(face, t, master, piece, on_master, gap)
+      type(slave_face_t), intent(in) :: face
+      real(wp), intent(in) :: t
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: piece
+      real(wp), intent(out) :: on_master, gap
+      real(wp) :: x(2), d(2), roots(2), distance, nearest
+      integer(ip) :: k, n
+
+      x = place_on_face(face, t)
+      d = direction_at(face, t)
+      call cross_piece(master, piece, x, d, roots, n)
+      on_master = 0.5_wp
+      gap = dot_product(place_at(master, piece, on_master) - x, d)
+      nearest = huge(1.0_wp)
+      do k = 1, n
+         roots(k) = min(max(roots(k), 0.0_wp), 1.0_wp)
+         distance = dot_product(place_at(master, piece, roots(k)) - x, d)
+         if (abs(distance) >= nearest) cycle
+         nearest = abs(distance)
+         on_master = roots(k)
+         gap = distance
+      end do
+   end subroutine look_at_piece
+
+   !> Adds a place's part of the master's integrals.
+   pure subroutine add_master(nodes, values, psi, integrals)
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: values(:)             !< shape functions
+      real(wp), intent(in) :: psi(MOST)             !< times weight [L^2]
+      type(face_integrals_t), intent(inout) :: integrals
+      real(wp), allocatable :: wider(:, :)
+      integer(ip) :: k, at
+
+      do k = 1, size(nodes, kind=ip)
+         at = findloc(integrals%node, nodes(k), dim=1, kind=ip)
+         if (at == 0) then
+            integrals%node = [integrals%node, nodes(k)]
+            at = size(integrals%node, kind=ip)
+            allocate (wider(MOST, at), source=0.0_wp)
+            wider(:, :at - 1) = integrals%master
+            call move_alloc(wider, integrals%master)
+         end if
+         integrals%master(:, at) = integrals%master(:, at) + values(k)*psi
+      end do
+   end subroutine add_master
+
+   !> From shape functions to the functions that are dual to them: psi = A phi, A = D M^-1, M = int phi phi', D = diag(int phi).
+   subroutine make_dual(n, integrals)
+      integer(ip), intent(in) :: n
+      type(face_integrals_t), intent(inout) :: integrals
+      real(wp) :: m(n, n), a(n, n)
+      integer(ip) :: k
+      integer :: info
+
+      m = integrals%slave(:n, :n)
+      a = 0.0_wp
+      do k = 1, n
+         a(k, k) = integrals%weight(k)
+      end do
+      call solve_lu(m, a, info)                     ! M^-1 D, the transpose of A
+      a = transpose(a)
+      integrals%gap(:n) = matmul(a, integrals%gap(:n))
+      integrals%master(:n, :) = matmul(a, integrals%master(:n, :))
+      integrals%slave = 0.0_wp
+      do k = 1, n
+         integrals%slave(k, k) = integrals%weight(k)
+      end do
+   end subroutine make_dual
+
+   !> Adds the integrals of a face to its points.
+   pure subroutine add_face(mesh, slave, i, thickness, s, face, integrals, place, points, own, others)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: thickness, s          !< s: arc length at the beginning of the face [L]
+      type(slave_face_t), intent(in) :: face
+      type(face_integrals_t), intent(in) :: integrals
+      type(id_map_t), intent(inout) :: place
+      type(contact_points_t), intent(inout) :: points
+      type(terms_t), intent(inout) :: own, others   !< of the slave and of the master
+      type(nodal_rule_t) :: rule
+      integer(ip) :: order(MOST), k, a, b, j
+
+      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+      order = [1_ip, 2_ip, 3_ip]
+      if (face%n == 3) order = [1_ip, 3_ip, 2_ip]
+      do k = 1, face%n
+         a = order(k)
+         if (.not. integrals%has_point(a)) cycle
+         call add_point(mesh, face%node(a), s + rule%s(k), points, place, j)
+         points%length(j) = points%length(j) + integrals%weight(a)/thickness
+         points%weight(j) = points%weight(j) + integrals%weight(a)
+         points%gap(j) = points%gap(j) + integrals%gap(a)
+         points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
+         call add_term(j, face%node(a), integrals%slave(a, a), own)
+         do b = 1, face%n
+            if (b /= a) call add_term(j, face%node(b), integrals%slave(a, b), own)
+         end do
+         do b = 1, size(integrals%node, kind=ip)
+            call add_term(j, integrals%node(b), -integrals%master(a, b), others)
+         end do
+      end do
+   end subroutine add_face
+
+   pure subroutine add_term(point, node, value, terms)
+      integer(ip), intent(in) :: point, node
+      real(wp), intent(in) :: value
+      type(terms_t), intent(inout) :: terms
+
+      call make_room(terms%point, terms%n, terms%n + 1)
+      call make_room(terms%node, terms%n, terms%n + 1)
+      call make_room(terms%value, terms%n, terms%n + 1)
+      terms%n = terms%n + 1
+      terms%point(terms%n) = point
+      terms%node(terms%n) = node
+      terms%value(terms%n) = value
+   end subroutine add_term
+
+   !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's.
+   pure subroutine finish_points(own, others, points)
+      type(terms_t), intent(in) :: own, others
+      type(contact_points_t), intent(inout) :: points
+      integer(ip), allocatable :: next_own(:), next_other(:), of_own(:), of_other(:)
+      real(wp) :: round_off
+      integer(ip) :: j
+
+      deallocate (points%entry, points%coefficient)
+      allocate (points%entry(own%n + others%n), points%coefficient(own%n + others%n))
+      call sort_terms(own, points%n, next_own, of_own)
+      call sort_terms(others, points%n, next_other, of_other)
+      round_off = 0.0_wp
+      if (points%n > 0) round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
+      do j = 1, points%n
+         points%normal(:, j) = points%normal(:, j)/norm2(points%normal(:, j))
+         call clear_small_component(points%x(:, j), points%length(j), points%normal(:, j))
+         points%gap(j) = points%gap(j)/points%weight(j)
+         if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
+         points%first(j + 1) = points%first(j)
+         call gather(own, of_own(next_own(j):next_own(j + 1) - 1), j, points)
+         call gather(others, of_other(next_other(j):next_other(j + 1) - 1), j, points)
+      end do
+      call trim_points(points)
+   end subroutine finish_points
+
+   !> The terms of each point, in their order: those of point j are list(first(j) : first(j+1) - 1).
+   pure subroutine sort_terms(terms, n, first, list)
+      type(terms_t), intent(in) :: terms
+      integer(ip), intent(in) :: n
+      integer(ip), allocatable, intent(out) :: first(:), list(:)
+      integer(ip), allocatable :: next(:)
+      integer(ip) :: i
+
+      allocate (first(n + 1), source=0_ip)
+      allocate (list(terms%n))
+      do i = 1, terms%n
+         first(terms%point(i) + 1) = first(terms%point(i) + 1) + 1
+      end do
+      first(1) = 1
+      do i = 1, n
+         first(i + 1) = first(i + 1) + first(i)
+      end do
+      next = first
+      do i = 1, terms%n
+         list(next(terms%point(i))) = i
+         next(terms%point(i)) = next(terms%point(i)) + 1
+      end do
+   end subroutine sort_terms
+
+   !> Appends terms of a point to its row, those of one node together, over its weight.
+   pure subroutine gather(terms, list, j, points)
+      type(terms_t), intent(in) :: terms
+      integer(ip), intent(in) :: list(:)
+      integer(ip), intent(in) :: j
+      type(contact_points_t), intent(inout) :: points
+      real(wp) :: value
+      integer(ip) :: k
+
+      associate (next => points%first(j + 1))
+         do k = 1, size(list, kind=ip)
+            if (any(terms%node(list(:k - 1)) == terms%node(list(k)))) cycle
+            value = sum(terms%value(list(k:)), mask=terms%node(list(k:)) == terms%node(list(k)))/points%weight(j)
+            if (abs(value) <= ROUND_OFF) cycle
+            points%entry(next) = terms%node(list(k))
+            points%coefficient(next) = value
+            next = next + 1
+         end do
+      end associate
+   end subroutine gather
+
+end module atrito_mortar_points

@@ -1,0 +1,251 @@
+!> Segments of a pair whose sides do not match: the slave's faces, cut at their own ends and where they face the nodes of the
+!> master, so that on a segment the shape functions of both sides are smooth.
+!>
+!> A place of the slave faces what it sees along a direction that turns from the normal at one end of the face to that at the other,
+!> and is the same on both sides of a node: nothing of a smooth master is seen twice or left out.
+module atrito_mortar_segments
+   use atrito_face_geometry, only: face_direction
+   use atrito_faces, only: face_list_t
+   use atrito_growth, only: make_room
+   use atrito_kinds, only: ip, wp
+   use atrito_master, only: master_t, sight_t, look_along
+   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_piece_tree, only: search_t, begin_search, next_leaf
+   use atrito_pieces, only: place_at, cross
+   use atrito_shape_functions, only: face_shape_values, face_shape_slopes
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, sine, CORNER
+   implicit none (type, external)
+   private
+   public :: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
+
+   !> The segments of all faces of a slave; those of face i are first(i) .. first(i+1) - 1.
+   type :: segments_t
+      integer(ip), allocatable :: first(:)          !< (faces + 1)
+      integer(ip), allocatable :: piece(:)          !< of the master
+      real(wp), allocatable :: from(:), to(:)       !< on the face, in [-1,1]
+      real(wp), allocatable :: direction(:, :, :)   !< (2, 3, faces) of sight, at the nodes of each face in the order of face_nodes
+   end type segments_t
+
+   !> A face of the slave with what is needed of it.
+   type :: slave_face_t
+      integer(ip) :: n = 0
+      integer(ip) :: node(3) = 0                    !< in the order of face_nodes
+      real(wp) :: x(2, 3) = 0.0_wp                  !< [L]
+      real(wp) :: direction(2, 3) = 0.0_wp
+      real(wp) :: length = 0.0_wp                   !< of the chord [L]
+   end type slave_face_t
+
+   !> Cuts that are nearer to each other than this, on [-1,1], are one.
+   real(wp), parameter :: SAME_CUT = 1.0e-9_wp
+   !> A face that is covered to less than this is not covered.
+   real(wp), parameter :: LEAST_COVER = 2.0e-6_wp
+   !> Steps of Newton's method for a cut, and when it has come to an end.
+   integer, parameter :: MOST_STEPS = 30
+   real(wp), parameter :: DONE = 1.0e-14_wp
+
+contains
+
+   !> Cuts all faces.
+   pure subroutine cut_slave(mesh, slave, master, segments)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
+      type(master_t), intent(in) :: master
+      type(segments_t), intent(out) :: segments
+      type(slave_face_t) :: face
+      real(wp), allocatable :: cuts(:)
+      integer(ip) :: i
+
+      call find_directions(mesh, slave, segments%direction)
+      allocate (segments%first(slave%n + 1), source=1_ip)
+      do i = 1, slave%n
+         face = take_face(mesh, slave, i, segments)
+         segments%first(i + 1) = segments%first(i)
+         call find_cuts(face, master, cuts)
+         if (size(cuts) > 0) call add_segments(face, master, cuts, i, segments)
+      end do
+   end subroutine cut_slave
+
+   !> The directions of sight: normals, at an end the mean with that of the next face unless they meet at a corner.
+   pure subroutine find_directions(mesh, slave, direction)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      real(wp), allocatable, intent(out) :: direction(:, :, :)
+      type(nodal_rule_t) :: rule, first, last
+      integer(ip) :: i
+
+      allocate (direction(2, 3, slave%n), source=0.0_wp)
+      do i = 1, slave%n
+         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+         direction(:, 1, i) = rule%normal(:, 1)
+         direction(:, 2, i) = rule%normal(:, rule%n)
+         if (rule%n == 3) direction(:, 3, i) = rule%normal(:, 2)
+         if (i > 1) call join_directions(direction(:, 2, i - 1), direction(:, 1, i))
+      end do
+      if (slave%n < 3) return
+      first = nodal_rule(mesh, slave%element(1), slave%face(1))
+      last = nodal_rule(mesh, slave%element(slave%n), slave%face(slave%n))
+      if (last%node(last%n) == first%node(1)) call join_directions(direction(:, 2, slave%n), direction(:, 1, 1))
+   end subroutine find_directions
+
+   pure subroutine join_directions(a, b)
+      real(wp), intent(inout) :: a(2), b(2)
+      real(wp) :: mean(2)
+
+      if (sine(a, b) > CORNER) return
+      mean = (a + b)/norm2(a + b)
+      a = mean
+      b = mean
+   end subroutine join_directions
+
+   !> Face i of the slave.
+   pure function take_face(mesh, slave, i, segments) result(face)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      type(segments_t), intent(in) :: segments
+      type(slave_face_t) :: face
+
+      associate (nodes => face_nodes(mesh, slave%element(i), slave%face(i)))
+         face%n = size(nodes, kind=ip)
+         face%node(:face%n) = nodes
+      end associate
+      face%x(:, :face%n) = mesh%x(:, face%node(:face%n))
+      face%direction = segments%direction(:, :, i)
+      face%length = norm2(face%x(:, 2) - face%x(:, 1))
+   end function take_face
+
+   pure function place_on_face(face, t) result(x)
+      type(slave_face_t), intent(in) :: face
+      real(wp), intent(in) :: t                     !< in [-1,1]
+      real(wp) :: x(2)
+
+      x = matmul(face%x(:, :face%n), face_shape_values(face%n, t))
+   end function place_on_face
+
+   !> The unit vector along which a place of the face looks for the master.
+   pure function direction_at(face, t) result(d)
+      type(slave_face_t), intent(in) :: face
+      real(wp), intent(in) :: t                     !< in [-1,1]
+      real(wp) :: d(2)
+
+      d = matmul(face%direction(:, :face%n), face_shape_values(face%n, t))
+      d = d/norm2(d)
+   end function direction_at
+
+   !> Ends of the face and places that face an end of a piece of the master, in ascending order; none where the master lies aside.
+   pure subroutine find_cuts(face, master, cuts)
+      type(slave_face_t), intent(in) :: face
+      type(master_t), intent(in) :: master
+      real(wp), allocatable, intent(out) :: cuts(:)
+      type(search_t) :: search
+      real(wp) :: strip, t
+      integer(ip) :: first, last, i, k, n
+
+      allocate (cuts(8))
+      n = 0
+      strip = strip_of(face, master)
+      call begin_search(master%tree, place_on_face(face, 0.0_wp), direction_at(face, 0.0_wp), .false., search)
+      do
+         call next_leaf(master%tree, strip, search, first, last)
+         if (last < first) exit
+         if (n == 0) then
+            cuts(:2) = [-1.0_wp, 1.0_wp]
+            n = 2
+         end if
+         do i = first, last
+            do k = 0, 1
+               t = facing_place(face, place_at(master, master%tree%order(i), real(k, wp)))
+               call insert_cut(t, cuts, n)
+            end do
+         end do
+      end do
+      cuts = cuts(:n)
+   end subroutine find_cuts
+
+   !> Half of the width [L] of the strip that a face looks into: its own, and what the directions spread on the way to the master.
+   pure real(wp) function strip_of(face, master) result(strip)
+      type(slave_face_t), intent(in) :: face
+      type(master_t), intent(in) :: master
+      real(wp) :: spread, far
+
+      spread = max(sine(face%direction(:, 1), direction_at(face, 0.0_wp)), sine(face%direction(:, 2), direction_at(face, 0.0_wp)))
+      strip = face%length
+      if (.not. spread > 0.0_wp .or. master%tree%n == 0) return
+      associate (x => place_on_face(face, 0.0_wp), box => master%tree%branches(1))
+         far = norm2(max(abs(box%low - x), abs(box%high - x)))
+      end associate
+      strip = strip + spread*far
+   end function strip_of
+
+   !> Where on the face the line of sight goes through x: Newton's method for cross(x - x(t), d(t)) = 0; outside [-1,1] if nowhere.
+   pure real(wp) function facing_place(face, x) result(t)
+      type(slave_face_t), intent(in) :: face
+      real(wp), intent(in) :: x(2)                  !< [L]
+      real(wp), parameter :: NOWHERE = 9.0_wp
+      real(wp) :: away(2), d(2), slope(2), value, derivative, step
+      integer :: i
+
+      t = 2*dot_product(x - face%x(:, 1), face%x(:, 2) - face%x(:, 1))/face%length**2 - 1
+      do i = 1, MOST_STEPS
+         if (.not. abs(t) < 4.0_wp) exit
+         away = x - place_on_face(face, t)
+         d = matmul(face%direction(:, :face%n), face_shape_values(face%n, t))
+         slope = matmul(face%direction(:, :face%n), face_shape_slopes(face%n, t))
+         value = cross(away, d)
+         derivative = cross(away, slope) - cross(face_direction(face%x(:, :face%n), t), d)
+         if (.not. abs(derivative) > 0.0_wp) exit
+         step = value/derivative
+         t = t - step
+         if (abs(step) <= DONE) return
+      end do
+      if (i <= MOST_STEPS) t = NOWHERE
+   end function facing_place
+
+   !> Inserts a cut between those that are there, unless it is one of them or outside.
+   pure subroutine insert_cut(t, cuts, n)
+      real(wp), intent(in) :: t
+      real(wp), allocatable, intent(inout) :: cuts(:)
+      integer(ip), intent(inout) :: n
+      integer(ip) :: i
+
+      if (abs(t) >= 1 - SAME_CUT) return
+      if (any(abs(cuts(:n) - t) <= SAME_CUT)) return
+      call make_room(cuts, n, n + 1)
+      i = count(cuts(:n) < t, kind=ip)
+      cuts(i + 2:n + 1) = cuts(i + 1:n)
+      cuts(i + 1) = t
+      n = n + 1
+   end subroutine insert_cut
+
+   !> The parts of the face between cuts that face a piece of the master.
+   pure subroutine add_segments(face, master, cuts, i_face, segments)
+      type(slave_face_t), intent(in) :: face
+      type(master_t), intent(in) :: master
+      real(wp), intent(in) :: cuts(:)
+      integer(ip), intent(in) :: i_face
+      type(segments_t), intent(inout) :: segments
+      type(sight_t) :: sight
+      real(wp) :: t, covered
+      integer(ip) :: k, before
+
+      before = segments%first(i_face)
+      covered = 0.0_wp
+      associate (next => segments%first(i_face + 1))
+         do k = 1, size(cuts, kind=ip) - 1
+            t = 0.5_wp*(cuts(k) + cuts(k + 1))
+            sight = look_along(place_on_face(face, t), direction_at(face, t), face%length, master)
+            if (sight%piece == 0) cycle
+            covered = covered + (cuts(k + 1) - cuts(k))
+            call make_room(segments%piece, next - 1, next)
+            call make_room(segments%from, next - 1, next)
+            call make_room(segments%to, next - 1, next)
+            segments%piece(next) = sight%piece
+            segments%from(next) = cuts(k)
+            segments%to(next) = cuts(k + 1)
+            next = next + 1
+         end do
+         if (covered < LEAST_COVER) next = before
+      end associate
+   end subroutine add_segments
+
+end module atrito_mortar_segments

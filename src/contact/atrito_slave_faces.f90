@@ -1,0 +1,91 @@
+!> The faces of a slave surface: the nodal rule on each, and how the normal turns along them.
+module atrito_slave_faces
+   use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
+   use atrito_faces, only: face_list_t
+   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_mesh, only: mesh_t, face_nodes
+   implicit none (type, external)
+   private
+   public :: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component
+
+   !> The nodal rule on a face, in the order of travel.
+   type :: nodal_rule_t
+      integer(ip) :: n = 0
+      integer(ip) :: node(3) = 0
+      real(wp) :: s(3) = 0.0_wp                     !< arc length from the face's first node [L]
+      real(wp) :: weight(3) = 0.0_wp                !< [L]
+      real(wp) :: normal(2, 3) = 0.0_wp             !< outward unit normals of the face
+   end type nodal_rule_t
+
+   !> From this sine on two faces meet at a corner, and do not stand for a curve.
+   real(wp), parameter, public :: CORNER = 0.8_wp
+
+contains
+
+   !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner.
+   pure real(wp) function turn_at(mesh, slave, i, rule) result(turn)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      type(nodal_rule_t), intent(in) :: rule        !< of face i
+      type(nodal_rule_t) :: other
+      integer(ip) :: k
+
+      turn = sine(rule%normal(:, 1), rule%normal(:, rule%n))
+      do k = max(i - 1, 1_ip), min(i + 1, slave%n)
+         if (k == i) cycle
+         other = nodal_rule(mesh, slave%element(k), slave%face(k))
+         if (k < i) turn = max(turn, sine(other%normal(:, other%n), rule%normal(:, 1)))
+         if (k > i) turn = max(turn, sine(rule%normal(:, rule%n), other%normal(:, 1)))
+      end do
+      if (turn > CORNER) turn = 0.0_wp
+   end function turn_at
+
+   pure real(wp) function sine(a, b)
+      real(wp), intent(in) :: a(2), b(2)            !< unit vectors
+
+      sine = abs(a(1)*b(2) - a(2)*b(1))
+      if (dot_product(a, b) < 0.0_wp) sine = 1.0_wp
+   end function sine
+
+   !> A component of the normal that is round-off of the coordinates is none: along a symmetry line or a supported base the rows of
+   !> the points are zero only then.
+   pure subroutine clear_small_component(x, length, normal)
+      real(wp), intent(in) :: x(2), length
+      real(wp), intent(inout) :: normal(2)
+
+      where (abs(normal) < max(1.0e-13_wp, 8*EPS_MACH*maxval(abs(x))/length)) normal = 0.0_wp
+      normal = normal/norm2(normal)
+   end subroutine clear_small_component
+
+   !> Trapezoidal or Simpson's rule on a face. On a curved face the Jacobian differs from node to node. Simpson's weights times the
+   !> normals are the nodal forces of a uniform pressure, to the last bit: the shape functions times dx/dt are cubics.
+   pure function nodal_rule(mesh, element, face) result(rule)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, face
+      type(nodal_rule_t) :: rule
+      integer(ip) :: nodes(3), k, n
+      real(wp) :: x(2, 3), t(3), w(3)
+
+      nodes = 0
+      n = size(face_nodes(mesh, element, face), kind=ip)
+      nodes(:n) = face_nodes(mesh, element, face)
+      x(:, :n) = mesh%x(:, nodes(:n))
+      rule%n = n
+      if (n == 2) then
+         t(:n) = [-1.0_wp, 1.0_wp]
+         w(:n) = 1.0_wp
+      else
+         nodes = nodes([1, 3, 2])
+         t = [-1.0_wp, 0.0_wp, 1.0_wp]
+         w = [1.0_wp, 4.0_wp, 1.0_wp]/3.0_wp
+      end if
+      rule%node = nodes
+      do k = 1, n
+         rule%s(k) = face_arc_length(x(:, :n), t(k))
+         rule%weight(k) = w(k)*norm2(face_direction(x(:, :n), t(k)))
+         rule%normal(:, k) = outward_normal(x(:, :n), t(k))
+      end do
+   end function nodal_rule
+
+end module atrito_slave_faces
