@@ -11,7 +11,6 @@ module atrito_build_block
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_draft, only: draft_t, block_t, BLOCK_SIDES, add_draft_block, note_places, spoil_block
-   use atrito_element_table, only: SHAPES
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh
@@ -115,11 +114,11 @@ contains
             block%nodes(i, j) = draft%model%mesh%n_nodes + n_new
          end do
       end do
-      ok = draft%greatest_node <= huge(1_ip) - n_new
+      ok = draft%nodes%greatest <= huge(1_ip) - n_new
       if (ok .and. n_new > 0) then
-         call add_nodes(draft%model%mesh, draft%greatest_node + 1, x(:, :n_new))
-         call note_places(draft%node_place, draft%model%mesh%n_nodes - n_new + 1, draft%model%mesh%n_nodes, -i_card)
-         draft%greatest_node = draft%greatest_node + n_new
+         call add_nodes(draft%model%mesh, draft%nodes%greatest + 1, x(:, :n_new))
+         call note_places(draft%nodes%place, draft%model%mesh%n_nodes - n_new + 1, draft%model%mesh%n_nodes, -i_card)
+         draft%nodes%greatest = draft%nodes%greatest + n_new
       else if (.not. ok) then
          call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
                            'the node numbers of the block, which follow the greatest '//'so far, are too large', keyword='BLOCK')
@@ -306,12 +305,12 @@ contains
       associate (block => draft%blocks(b), i_card => draft%blocks(b)%card)
          n = count_elements(block)
          block%first_element = draft%model%mesh%n_elements + 1
-         ok = draft%greatest_element <= huge(1_ip) - n
+         ok = draft%elements%greatest <= huge(1_ip) - n
          if (ok) then
             call reserve_mesh(draft%model%mesh, 0_ip, draft%elements_to_come)   ! with those of the blocks that follow
-            call add_block(draft%model%mesh, draft%greatest_element + 1, block%state, block%order, block%nodes)
-            call note_places(draft%element_place, block%first_element, draft%model%mesh%n_elements, -i_card)
-            draft%greatest_element = draft%greatest_element + n
+            call add_block(draft%model%mesh, draft%elements%greatest + 1, block%state, block%order, block%nodes)
+            call note_places(draft%elements%place, block%first_element, draft%model%mesh%n_elements, -i_card)
+            draft%elements%greatest = draft%elements%greatest + n
          else
             call report_error(draft%deck, draft%deck%cards(i_card)%place, 'E-ID', &
                               'the element numbers of the block, which follow the '//'greatest so far, are too large', &

@@ -2,7 +2,7 @@
 module atrito_build_elements
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_draft, only: draft_t, spoil_element, place_token, place_text, note_place, has_errors, is_unsure
+   use atrito_draft, only: draft_t, spoil_number, note_number, has_errors, is_unsure
    use atrito_element_table, only: KINDS, kind_named
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
@@ -55,7 +55,7 @@ contains
             if (ok .and. draft%deck%lines(i)%ok) then
                call read_element_line(draft%deck%lines(i), n_nodes, state, draft)
             else
-               call spoil_element(draft%deck%lines(i), draft)
+               call spoil_number(draft%deck, draft%deck%lines(i), draft%elements)
             end if
          end do
          call put_named_set(draft%deck, card, draft%model, [(i, i=first, draft%model%mesh%n_elements)])
@@ -76,7 +76,7 @@ contains
          if (ok) good = is_new_corner(draft%deck, line, nodes(:i)) .and. good
       end do
       if (good) call place_element(draft, id, state, nodes, line%first_token, good, 'ELEMENT')
-      if (.not. good) call spoil_element(line, draft)
+      if (.not. good) call spoil_number(draft%deck, line, draft%elements)
    end subroutine read_element_line
 
    !> The last of an element's nodes so far is none of the earlier ones.
@@ -101,20 +101,14 @@ contains
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
-      type(token_t) :: token, earlier
+      integer(ip) :: i
       logical :: known
 
       call add_element(draft%model%mesh, id, state, nodes, known)
       ok = .not. known
-      if (known) then
-         token = place_token(draft%deck, place)
-         earlier = place_token(draft%deck, draft%element_place(find_element(draft%model%mesh, id)))
-         call report_error(draft%deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice, first in '// &
-                           place_text(draft%deck, earlier, token), expected='an element number that is free', keyword=keyword)
-         return
-      end if
-      call note_place(draft%element_place, draft%model%mesh%n_elements, place)
-      draft%greatest_element = max(draft%greatest_element, id)
+      i = draft%model%mesh%n_elements
+      if (known) i = find_element(draft%model%mesh, id)
+      call note_number(draft%deck, draft%elements, 'element', id, i, place, known, keyword)
    end subroutine place_element
 
    !> The set that ELSET= of a card names.
@@ -252,7 +246,7 @@ contains
       integer(lp), intent(in) :: id
 
       is_spoiled_node = has_errors() .and. id > 0_lp .and. id <= int(huge(1_ip), lp)
-      if (is_spoiled_node) is_spoiled_node = find_id(draft%spoiled_nodes, int(id, ip)) > 0
+      if (is_spoiled_node) is_spoiled_node = find_id(draft%nodes%spoiled, int(id, ip)) > 0
    end function is_spoiled_node
 
 end module atrito_build_elements

@@ -116,10 +116,10 @@ contains
             if (.not. has_option(draft%deck, card, 'GENERATE')) then
                call read_items(draft%deck%lines(i), i_card, draft, members)
             else if (keyword == 'NSET') then
-               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%node_map, draft%spoiled_nodes, 'node', keyword, &
+               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%node_map, draft%nodes%spoiled, 'node', keyword, &
                                members)
             else
-               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%element_map, draft%spoiled_elements, 'element', &
+               call read_range(draft%deck, draft%deck%lines(i), draft%model%mesh%element_map, draft%elements%spoiled, 'element', &
                                keyword, members)
             end if
          end do

@@ -32,7 +32,7 @@ contains
       do e = first, model%mesh%n_elements
          if (misfit(e)) call add_number(ids, model%mesh%element_id(e))
       end do
-      call report_error(draft%deck, place_token(draft%deck, draft%element_place(first)), 'E-EDGE', 'element '// &
+      call report_error(draft%deck, place_token(draft%deck, draft%elements%place(first)), 'E-EDGE', 'element '// &
                         ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
                         expected='elements of one order and size on both sides of an edge (CPE4 or CPE9, CPS4 or CPS9), '// &
                         'or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')

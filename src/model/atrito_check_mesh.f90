@@ -55,7 +55,7 @@ contains
          call add_number(without, model%mesh%element_id(e))
       end do
       if (first == 0) return
-      place = place_token(draft%deck, draft%element_place(first))
+      place = place_token(draft%deck, draft%elements%place(first))
       call report_error(draft%deck, place, 'E-SECTION', 'no *SOLID SECTION for element '//ids_text(numbers_of(without)), &
                         expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
    end subroutine check_sections
@@ -153,7 +153,7 @@ contains
          call add_number(loose, model%mesh%node_id(i))
       end do
       if (first == 0 .or. has_errors()) return
-      call report_note(draft%deck, place_token(draft%deck, draft%node_place(first)), 'N-NODE', 'node '// &
+      call report_note(draft%deck, place_token(draft%deck, draft%nodes%place(first)), 'N-NODE', 'node '// &
                        ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
    end subroutine note_loose_nodes
 

@@ -45,7 +45,7 @@ contains
             if (shape == SHAPE_GOOD) cycle
             n = n + 1
             if (n <= MOST_ERRORS) call report_shape(draft%deck, mesh, e, shape, node, place_token(draft%deck, &
-                                                                                                  draft%element_place(e)))
+                                                                                                  draft%elements%place(e)))
          end do
       end do
       if (n > MOST_ERRORS) call report_deck_error(draft%deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &

@@ -19,9 +19,9 @@ module atrito_draft
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: draft_t, block_t, BLOCK_SIDES
-   public :: prepare_draft, add_draft_block, spoil_block, spoil_name, spoil_node, spoil_element, is_spoiled, is_unsure, has_errors
-   public :: place_token, place_text, note_place, note_places, keep_token, define_name, count_cards, ids_text
+   public :: draft_t, numbered_t, block_t, BLOCK_SIDES
+   public :: prepare_draft, add_draft_block, spoil_block, spoil_name, spoil_number, is_spoiled, is_unsure, has_errors
+   public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
    character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
@@ -38,6 +38,13 @@ module atrito_draft
       logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
    end type block_t
 
+   !> What is known of the nodes or the elements by their numbers.
+   type :: numbered_t
+      type(id_map_t) :: spoiled                        !< numbers whose definition is faulty
+      integer(ip) :: greatest = 0                      !< number
+      integer(ip), allocatable :: place(:)             !< of each, by its place in the mesh; > 0: token; < 0: card
+   end type numbered_t
+
    type :: draft_t
       type(deck_t), pointer :: deck => null()
       type(model_t), pointer :: model => null()        !< so far
@@ -45,9 +52,7 @@ module atrito_draft
       type(name_list_t) :: spoiled                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
       type(name_list_t) :: unsure                      !< nouns: one of these should have been defined, its name is not known
-      type(id_map_t) :: spoiled_nodes, spoiled_elements
-      integer(ip) :: greatest_node = 0, greatest_element = 0        !< ids
-      integer(ip), allocatable :: node_place(:), element_place(:)   !< > 0: token; < 0: card
+      type(numbered_t) :: nodes, elements
       integer(ip) :: n_blocks = 0
       type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
@@ -78,7 +83,7 @@ contains
 
       draft%deck => deck
       allocate (draft%blocks(64), draft%set_card(0))
-      allocate (draft%node_place(64), draft%element_place(64))
+      allocate (draft%nodes%place(64), draft%elements%place(64))
       allocate (draft%surfaces(0), draft%materials(0), draft%poisson(0), draft%sections(0), draft%interactions(0))
       allocate (draft%slaves(0), draft%masters(0))
       allocate (draft%card_done(deck%n_cards), source=.false.)
@@ -188,8 +193,8 @@ contains
 
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (draft%deck%lines(i)%n_tokens == 0) cycle
-         call spoil_node(draft%deck%lines(i), draft)
-         call spoil_element(draft%deck%lines(i), draft)
+         call spoil_number(draft%deck, draft%deck%lines(i), draft%nodes)
+         call spoil_number(draft%deck, draft%deck%lines(i), draft%elements)
       end do
    end subroutine spoil_numbers
 
@@ -200,7 +205,6 @@ contains
       if (.not. has_name(draft%unsure, noun)) call add_name(draft%unsure, noun)
    end subroutine note_unsure
 
-   !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
    !> A block that could not be made: its sets, and the numbers of nodes and elements from there on.
    subroutine spoil_block(draft, name)
       type(draft_t), intent(inout) :: draft
@@ -211,6 +215,7 @@ contains
       call note_unsure(draft, 'element')
    end subroutine spoil_block
 
+   !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
    subroutine spoil_name(draft, name)
       type(draft_t), intent(inout) :: draft
       character(len=*), intent(in) :: name
@@ -218,26 +223,11 @@ contains
       call add_name(draft%spoiled, name)
    end subroutine spoil_name
 
-   !> Passes over, in silence, all that refers to the node with which a data line begins.
-   subroutine spoil_node(line, draft)
-      type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
-
-      call spoil_id(draft%deck, line, draft%spoiled_nodes)
-   end subroutine spoil_node
-
-   !> As spoil_node for an element.
-   subroutine spoil_element(line, draft)
-      type(data_line_t), intent(in) :: line
-      type(draft_t), intent(inout) :: draft
-
-      call spoil_id(draft%deck, line, draft%spoiled_elements)
-   end subroutine spoil_element
-
-   subroutine spoil_id(deck, line, map)
+   !> Passes over, in silence, all that refers to the number with which a data line begins.
+   subroutine spoil_number(deck, line, numbered)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
-      type(id_map_t), intent(inout) :: map
+      type(numbered_t), intent(inout) :: numbered
       integer(ip) :: id
       character(len=:), allocatable :: text
       integer :: outcome
@@ -247,8 +237,8 @@ contains
       text = token_text(deck, deck%tokens(line%first_token))
       text = text(verify(text//' ', '-'):)             ! -6 and 6.0 are meant to be 6
       call read_integer(text(:scan(text//'.', '.') - 1), id, outcome)
-      if (outcome == NUMBER_OK .and. id > 0) call add_id(map, id, 1_ip, known)
-   end subroutine spoil_id
+      if (outcome == NUMBER_OK .and. id > 0) call add_id(numbered%spoiled, id, 1_ip, known)
+   end subroutine spoil_number
 
    !> True when a name, or that of the block whose side or copy it is, is to be passed over in silence.
    logical function is_spoiled(draft, name)
@@ -318,6 +308,28 @@ contains
       text = 'line '//to_text(token%line)
       if (token%source /= from%source) text = text//' of '//deck%sources(token%source)%name
    end function place_text
+
+   !> Keeps where the i-th node or element comes from; a number given twice is an error, i being the place of the earlier one.
+   subroutine note_number(deck, numbered, noun, id, i, place, known, keyword)
+      type(deck_t), intent(in) :: deck
+      type(numbered_t), intent(inout) :: numbered
+      character(len=*), intent(in) :: noun             !< 'node' or 'element'
+      integer(ip), intent(in) :: id, i
+      integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
+      logical, intent(in) :: known                     !< the number is given twice
+      character(len=*), intent(in) :: keyword
+      type(token_t) :: token
+
+      if (known) then
+         token = place_token(deck, place)
+         call report_error(deck, token, 'E-TWICE', noun//' '//to_text(id)//' is given twice, first in '// &
+                           place_text(deck, place_token(deck, numbered%place(i)), token), &
+                           expected=trim(merge('an', 'a ', noun == 'element'))//' '//noun//' number that is free', keyword=keyword)
+      else
+         call note_place(numbered%place, i, place)
+         numbered%greatest = max(numbered%greatest, id)
+      end if
+   end subroutine note_number
 
    !> Keeps where the i-th node or element comes from, i counting up.
    pure subroutine note_place(places, i, place)

@@ -85,15 +85,15 @@ contains
       type(draft_t), intent(inout) :: draft
       integer(ip) :: places(coarse%n_elements), e, k, node, children
 
-      places = draft%element_place(:coarse%n_elements)
+      places = draft%elements%place(:coarse%n_elements)
       children = draft%refinement%pieces**2
-      call note_place(draft%node_place, fine%n_nodes, 0_ip)
-      draft%node_place(coarse%n_nodes + 1:) = 0
+      call note_place(draft%nodes%place, fine%n_nodes, 0_ip)
+      draft%nodes%place(coarse%n_nodes + 1:) = 0
       do e = fine%n_elements, 1, -1
-         call note_place(draft%element_place, e, places((e - 1)/children + 1))
+         call note_place(draft%elements%place, e, places((e - 1)/children + 1))
          do k = 1, fine%shape(e)
             node = fine%nodes(k, e)
-            if (node > coarse%n_nodes) draft%node_place(node) = draft%element_place(e)
+            if (node > coarse%n_nodes) draft%nodes%place(node) = draft%elements%place(e)
          end do
       end do
    end subroutine keep_places
