@@ -11,6 +11,7 @@ module atrito_points
    use atrito_faces, only: face_list_t
    use atrito_master, only: master_t, sight_t, is_out_of_sight, look_along, look_at_end, &
                             nearest_end
+   use atrito_plane_state, only: depth_at
    use atrito_shape_functions, only: face_shape_values
    implicit none (type, external)
    private
@@ -155,7 +156,8 @@ contains
          do k = 1, merge(rule%n, 0_ip, used(i))
             call add_point(mesh, rule%node(k), s + rule%s(k), points, place, j)
             points%length(j) = points%length(j) + rule%weight(k)
-            points%weight(j) = points%weight(j) + rule%weight(k)*thickness(slave%element(i))
+            points%weight(j) = points%weight(j) + rule%weight(k)* &
+                               depth_at(mesh%state(slave%element(i)), thickness(slave%element(i)), mesh%x(1, rule%node(k)))
             points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
          end do
          s = s + rule%s(rule%n)

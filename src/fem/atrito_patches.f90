@@ -4,11 +4,11 @@
 !> a place of its own in every zone that it belongs to; different bodies share no node, so no zone reaches over a contact.
 module atrito_patches
    use atrito_assembly, only: fem_t
-   use atrito_elasticity, only: elastic_t
-   use atrito_element_table, only: STATES, MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: MOST_NODES, MOST_CORNERS
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
+   use atrito_plane_state, only: elastic_t, STATES
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private

@@ -5,10 +5,11 @@ module atrito_check_mesh
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_draft, only: draft_t, place_token, ids_text, has_errors
-   use atrito_element_table, only: SHAPES, STATES, can_average
+   use atrito_element_table, only: SHAPES, can_average
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_plane_state, only: STATES
    use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text
    implicit none (type, external)

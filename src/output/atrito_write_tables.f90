@@ -1,6 +1,7 @@
 !> The tables of a run, docs/user/tables.md: what is in them and when each is written.
 module atrito_write_tables
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
@@ -16,14 +17,13 @@ module atrito_write_tables
                            add_integer_field, add_words, write_table, clear_small, abs_is_below, one_word, ZERO_SHARE
    implicit none (type, external)
    private
-   public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES, STRESS_NAMES
+   public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES
 
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(9) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
                                                                                          'bodies', 'joints', 'iterations', 'timing']
 
    !> The rows of results%stress.
-   character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
 
 contains
 

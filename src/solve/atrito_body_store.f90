@@ -6,9 +6,9 @@ module atrito_body_store
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
-   use atrito_elasticity, only: elastic_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
+   use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: body_result_t

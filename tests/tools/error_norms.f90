@@ -7,10 +7,11 @@
 !> Prints: elements, dofs, L2, energy, largest deviation of the Jacobian within an element from its mean.
 program error_norms
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_plane_state, only: elastic_t, elasticity_matrix
    use atrito_reader, only: read_deck
    use atrito_build_model, only: build_model
    use atrito_deck, only: deck_t
-   use atrito_elasticity, only: elastic_t, elasticity_matrix, has_mean_dilatation
+   use atrito_element_table, only: has_mean_dilatation
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: element_coordinates
    use atrito_messages, only: count_messages, SEVERITY_ERROR

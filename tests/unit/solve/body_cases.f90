@@ -6,13 +6,12 @@ module body_cases
    use atrito_box_problem, only: box_problem_t
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_contact_rows, only: contact_rows_t, build_rows
-   use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
-   use atrito_element_table, only: PLANE_STRAIN
    use atrito_faces, only: face_list_t, add_face
    use atrito_friction_law, only: friction_law_t, FRICTION_NONLOCAL, KERNEL_POINTS
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, add_element, add_node, element_coordinates, trim_mesh
+   use atrito_plane_state, only: elastic_t, PLANE_STRAIN
    use atrito_points, only: contact_points_t
    use dense_measures, only: norm_one
    use surface_pairs, only: pair_surfaces

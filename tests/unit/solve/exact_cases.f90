@@ -3,11 +3,10 @@
 !> Kolosov and Muskhelishvili with phi = exp(z), psi = 0: 2 G (u + iv) = kappa phi - z conj(phi'), s11 + s22 = 4 Re phi',
 !> s22 - s11 + 2 i s12 = 2 conj(z) phi''. No body force.
 module exact_cases
-   use atrito_elasticity, only: compliance_matrix, elastic_t, elasticity_matrix
-   use atrito_element_table, only: PLANE_STRAIN
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: add_element, add_node, element_coordinates, nodes_of_square, trim_mesh
    use atrito_model, only: model_t, FORMULATION_BBAR
+   use atrito_plane_state, only: compliance_matrix, elastic_t, elasticity_matrix, PLANE_STRAIN
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t
    use atrito_shape_functions, only: gauss_point, shape_gradients, shape_values
