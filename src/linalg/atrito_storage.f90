@@ -42,7 +42,6 @@ module atrito_storage
       procedure(reduce_load), deferred :: reduce
       procedure(expand_solution), deferred :: expand
       procedure(count_bytes), deferred :: memory_bytes
-      procedure(get_name), nopass, deferred :: name
    end type storage_t
 
    abstract interface
@@ -97,11 +96,6 @@ module atrito_storage
          import :: storage_t, lp
          class(storage_t), intent(in) :: self
       end function count_bytes
-
-      !> 'skyline', 'banded', ...
-      pure function get_name() result(name)
-         character(len=:), allocatable :: name
-      end function get_name
 
    end interface
 

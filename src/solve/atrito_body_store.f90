@@ -78,7 +78,7 @@ contains
             call set_load(fem, b, load, bodies(b))
             call stop_phase('factor')
          end if
-         call report_body(store%reporter, fem, b, bodies(b), results(b))
+         call report_body(store%reporter, fem, b, results(b))
       end do
       call move_alloc(bodies, store%bodies)
       if (store%keeps) call remember(store, fem, held, points, load, asked, results, same_bodies)
@@ -218,15 +218,14 @@ contains
       result = store%results(b)
    end subroutine take_back
 
-   subroutine report_body(reporter, fem, b, body, result)
+   subroutine report_body(reporter, fem, b, result)
       type(reporter_t), intent(in) :: reporter
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b
-      type(condensed_body_t), intent(in) :: body
       type(body_result_t), intent(in) :: result
 
       call report_progress(reporter, 'body '//result%name//'  dofs '//to_text(fem%bodies%list(b)%n)//'  contact dofs ' &
-                           //to_text(fem%bodies%list(b)%n_kept)//'  '//body%storage%name())
+                           //to_text(fem%bodies%list(b)%n_kept)//'  '//result%storage)
    end subroutine report_body
 
 end module atrito_body_store

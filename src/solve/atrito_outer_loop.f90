@@ -106,7 +106,7 @@ contains
       call solve_coarse(coarse_problem, coarse_line, coarse, status)
       if (.not. coarse%converged) return
       call report_progress(task%reporter, 'start from '//to_text(coarse_line%n)//' of '//to_text(task%line%n)//' contact points')
-      call begin_history(task%problem, task%line, solution)
+      solution%history%tangential_of = task%line%tangential(task%line%point(:task%problem%n_normal))
       call start_from_coarse(task%problem, task%line, interpolation, coarse_line, coarse%state, solution%bounds, &
                              solution%state, tau)
       if (task%line%has_friction) then
@@ -153,7 +153,8 @@ contains
       call start(task%problem, task%line, solution, tau, status)
       if (.not. is_ok(status)) return
       if (.not. task%line%has_friction) then
-         call finish_frictionless(solution)
+         solution%converged = solution%inner%solved
+         if (.not. solution%converged) solution%verdict = 'the active set did not settle'
          return
       end if
       select case (task%controls%method)
@@ -170,14 +171,6 @@ contains
       end select
    end subroutine solve_from_plain_start
 
-   subroutine begin_history(problem, line, solution)
-      type(box_problem_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(inout) :: solution
-
-      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
-   end subroutine begin_history
-
    subroutine start(problem, line, solution, tau, status)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -187,7 +180,7 @@ contains
       real(wp) :: none(line%n)
 
       allocate (tau(line%n))
-      call begin_history(problem, line, solution)
+      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
       call normal_bounds(line, problem, solution%bounds, solution%state)
       none = 0.0_wp
       call solve_with_bound(problem, line, none, solution, tau, status)
@@ -200,13 +193,6 @@ contains
       end if
       if (solution%inner%moves) call set_status(status, STATUS_SINGULAR, FREE_MOTION)
    end subroutine start
-
-   subroutine finish_frictionless(solution)
-      type(contact_solution_t), intent(inout) :: solution
-
-      solution%converged = solution%inner%solved
-      if (.not. solution%converged) solution%verdict = 'the active set did not settle'
-   end subroutine finish_frictionless
 
    subroutine iterate_picard(task, tau, solution, status)
       type(line_task_t), intent(in) :: task

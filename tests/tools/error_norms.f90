@@ -7,6 +7,7 @@
 !> Prints: elements, dofs, L2, energy, largest deviation of the Jacobian within an element from its mean.
 program error_norms
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_body_store, only: body_store_t
    use atrito_plane_state, only: elastic_t, elasticity_matrix
    use atrito_reader, only: read_deck
    use atrito_build_model, only: build_model
@@ -76,6 +77,7 @@ contains
       type(model_t), intent(out) :: model
       type(results_t), intent(out) :: results
       type(deck_t) :: deck
+      type(body_store_t) :: store
       type(status_t) :: status
       type(reporter_t) :: reporter
 
@@ -83,7 +85,7 @@ contains
       call read_deck(name, [string_t ::], deck, status)
       if (is_ok(status)) call build_model(deck, model, levels)
       if (.not. is_ok(status) .or. count_messages(SEVERITY_ERROR) > 0) error stop 'error_norms: the deck is wrong'
-      call solve_static(model, solve_options_t(), reporter, results, status)
+      call solve_static(model, solve_options_t(), reporter, results, status, store)
       if (.not. (is_ok(status) .and. results%converged .and. results%law_holds)) error stop 'error_norms: not solved'
    end subroutine solve_deck
 

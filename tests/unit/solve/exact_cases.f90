@@ -3,6 +3,7 @@
 !> Kolosov and Muskhelishvili with phi = exp(z), psi = 0: 2 G (u + iv) = kappa phi - z conj(phi'), s11 + s22 = 4 Re phi',
 !> s22 - s11 + 2 i s12 = 2 conj(z) phi''. No body force.
 module exact_cases
+   use atrito_body_store, only: body_store_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: add_element, add_node, element_coordinates, nodes_of_square, trim_mesh
    use atrito_model, only: model_t, FORMULATION_BBAR
@@ -74,6 +75,7 @@ contains
       integer(ip), intent(in), optional :: formulation !< STANDARD when left out
       type(model_t) :: model
       type(results_t) :: results
+      type(body_store_t) :: store
       type(status_t) :: status
       type(reporter_t) :: reporter
       type(solve_options_t) :: options
@@ -81,7 +83,7 @@ contains
       reporter%quiet = .true.
       call make_model(domain, n_nodes, n, model)
       if (present(formulation)) model%sections(1)%formulation = formulation
-      call solve_static(model, options, reporter, results, status)
+      call solve_static(model, options, reporter, results, status, store)
       ok = results%converged .and. results%law_holds
       if (ok) call measure(model, results, errors)
    end subroutine solve_exact_case
