@@ -6,7 +6,7 @@ module atrito_check_mesh
    use atrito_draft, only: draft_t, place_token, ids_text, has_errors
    use atrito_element_table, only: SHAPES, DEGREE_OF, can_average
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, side_count, face_end, middle_node
+   use atrito_mesh, only: mesh_t, side_count, face_end, has_side, middle_node
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_plane_state, only: STATES
@@ -199,32 +199,16 @@ contains
             middle = middle_node(mesh, element, face)
             do k = first(middle), first(middle + 1) - 1
                other = draft%around%list(k)
-               if (other == element .or. has_edge(mesh, other, b, a, middle)) cycle
+               if (other == element .or. has_side(mesh, other, b, a, middle)) cycle
                misfit(max(element, other)) = .true.
             end do
             do k = first(a), first(a + 1) - 1
                other = draft%around%list(k)
-               if (.not. has_edge(mesh, other, b, a) .or. has_edge(mesh, other, b, a, middle)) cycle
+               if (.not. has_side(mesh, other, b, a) .or. has_side(mesh, other, b, a, middle)) cycle
                misfit(max(element, other)) = .true.
             end do
          end associate
       end do
    end subroutine compare_neighbours
-
-   !> An element has an edge between two corners, with this node in its middle.
-   pure logical function has_edge(mesh, element, a, b, middle)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: element, a, b
-      integer(ip), intent(in), optional :: middle
-      integer(ip) :: face
-
-      has_edge = .false.
-      do face = 1, side_count(mesh, element)
-         if (mesh%nodes(face, element) /= a .or. mesh%nodes(face_end(mesh, element, face), element) /= b) cycle
-         has_edge = .true.
-         if (present(middle)) has_edge = middle_node(mesh, element, face) == middle
-         if (has_edge) return
-      end do
-   end function has_edge
 
 end module atrito_check_mesh

@@ -78,7 +78,8 @@ contains
             call set_load(fem, b, load, bodies(b))
             call stop_phase('factor')
          end if
-         call report_body(store%reporter, fem, b, results(b))
+         call report_progress(store%reporter, 'body '//results(b)%name//'  dofs '//to_text(fem%bodies%list(b)%n) &
+                              //'  contact dofs '//to_text(fem%bodies%list(b)%n_kept)//'  '//results(b)%storage)
       end do
       call move_alloc(bodies, store%bodies)
       if (store%keeps) call remember(store, fem, held, points, load, asked, results, same_bodies)
@@ -217,15 +218,5 @@ contains
       body%is_near = store%bodies(b)%is_near
       result = store%results(b)
    end subroutine take_back
-
-   subroutine report_body(reporter, fem, b, result)
-      type(reporter_t), intent(in) :: reporter
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      type(body_result_t), intent(in) :: result
-
-      call report_progress(reporter, 'body '//result%name//'  dofs '//to_text(fem%bodies%list(b)%n)//'  contact dofs ' &
-                           //to_text(fem%bodies%list(b)%n_kept)//'  '//result%storage)
-   end subroutine report_body
 
 end module atrito_body_store

@@ -39,7 +39,7 @@ contains
          call begin_outer(solution%history)
          solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
          call update_compliances(problem, line, solution)
-         active = pack([(i, i=1, problem%m)], is_active(problem, solution%state%state))
+         active = pack([(i, i=1, problem%m)], is_row(solution%state%state, [(i > problem%n_normal, i=1, problem%m)]))
          call build_system(problem, line, solution, dtau, active, jacobian, rhs)
          call solve_lu(jacobian, rhs, info)
          if (info /= 0) then
@@ -48,7 +48,7 @@ contains
          end if
          change = maxval(abs([rhs(:size(active)), 0.0_wp]))
          call apply_step(problem, active, rhs, solution)
-         largest_force = maxval(abs([scaled_forces(problem, active, solution), 0.0_wp]))
+         largest_force = maxval(abs([solution%state%q(active)/force_scale(problem, solution, active), 0.0_wp]))
          solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
          call update_compliances(problem, line, solution)
          call set_residual(problem, solution%bounds%d, solution%state)
@@ -75,15 +75,6 @@ contains
 
       is_row = state == FREE .or. (tangential .and. (state == AT_LOWER .or. state == AT_UPPER))
    end function is_row
-
-   pure function is_active(problem, state) result(active)
-      type(box_problem_t), intent(in) :: problem
-      integer(ip), intent(in) :: state(:)
-      logical :: active(size(state))
-      integer(ip) :: i
-
-      active = [(is_row(state(i), i > problem%n_normal), i=1, size(state, kind=ip))]
-   end function is_active
 
    !> d tau_j / d q_k = nu W_jk / w_k for the normal unknowns, (n points, n_normal).
    pure function bound_derivative(problem, line) result(dtau)
@@ -236,15 +227,6 @@ contains
       solution%state%q(active) = solution%state%q(active) + step(:size(active))*scale
       solution%state%a = solution%state%a + step(size(active) + 1:)*scale_of_motions(problem, active, scale)
    end subroutine apply_step
-
-   pure function scaled_forces(problem, active, solution) result(forces)
-      type(box_problem_t), intent(in) :: problem
-      integer(ip), intent(in) :: active(:)
-      type(contact_solution_t), intent(in) :: solution
-      real(wp) :: forces(size(active))
-
-      forces = solution%state%q(active)/force_scale(problem, solution, active)
-   end function scaled_forces
 
    !> A slipping force is its bound to the last digit.
    pure subroutine put_slipping_at_bounds(problem, line, solution)

@@ -108,7 +108,7 @@ contains
       type(reporter_t), intent(in) :: reporter
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
-      type(body_store_t), intent(inout) :: store           !< bodies of an earlier run, if there are any; on return those of this one
+      type(body_store_t), intent(inout) :: store           !< bodies of an earlier run, or none; on return those of this one
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
       type(controls_t) :: controls

@@ -30,9 +30,12 @@ contains
       type(status_t), intent(out) :: status
       type(constraint_rows_t) :: rows
       real(wp), allocatable :: x(:)
+      integer(ip) :: b
 
       call start_phase('assemble')
-      call check_bodies(data%fem, status)
+      do b = 1, data%fem%bodies%n                  ! a floating body that no contact point touches is held by nothing
+         if (is_ok(status)) call check_held(data%fem, b, status)
+      end do
       if (is_ok(status)) call assemble(data, status)
       call stop_phase('assemble')
       if (.not. is_ok(status)) return
@@ -57,17 +60,6 @@ contains
       data%assembled = nothing
       data%is_assembled = .false.
    end subroutine release
-
-   !> A floating body that no contact point touches is held by nothing.
-   subroutine check_bodies(fem, status)
-      type(fem_t), intent(in) :: fem
-      type(status_t), intent(inout) :: status
-      integer(ip) :: b
-
-      do b = 1, fem%bodies%n
-         if (is_ok(status)) call check_held(fem, b, status)
-      end do
-   end subroutine check_bodies
 
    !> A pivot that is not positive, by its body, node and dof.
    subroutine name_failure(data, status)
