@@ -51,7 +51,7 @@ contains
 
       call add_id(mesh%node_map, id, mesh%n_nodes + 1, known)
       if (known) return
-      if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(64), mesh%x(2, 64))
+      if (.not. allocated(mesh%node_id)) call reserve_mesh(mesh, 0_ip, 0_ip)
       if (mesh%n_nodes == size(mesh%node_id)) call resize_nodes(mesh, 2*mesh%n_nodes + 64)
       mesh%n_nodes = mesh%n_nodes + 1
       mesh%node_id(mesh%n_nodes) = id
@@ -69,9 +69,7 @@ contains
 
       call add_id(mesh%element_map, id, mesh%n_elements + 1, known)
       if (known) return
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(64), mesh%shape(64), mesh%state(64), mesh%nodes(MOST_NODES, 64))
-      end if
+      if (.not. allocated(mesh%element_id)) call reserve_mesh(mesh, 0_ip, 0_ip)
       if (mesh%n_elements == size(mesh%element_id)) call resize_elements(mesh, 2*mesh%n_elements + 64)
       e = mesh%n_elements + 1
       mesh%n_elements = e
@@ -137,10 +135,7 @@ contains
    pure subroutine trim_mesh(mesh)
       type(mesh_t), intent(inout) :: mesh
 
-      if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
-      end if
+      call reserve_mesh(mesh, 0_ip, 0_ip)
       if (size(mesh%node_id) > mesh%n_nodes) call resize_nodes(mesh, mesh%n_nodes)
       if (size(mesh%element_id) > mesh%n_elements) call resize_elements(mesh, mesh%n_elements)
    end subroutine trim_mesh

@@ -147,6 +147,7 @@ contains
       type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
       type(status_t), intent(out) :: status
       type(constraint_rows_t), intent(in), optional :: rows
+      type(picard_t) :: picard
       real(wp), allocatable :: tau(:)
 
       if (present(rows)) solution%rows = rows
@@ -159,7 +160,8 @@ contains
       end if
       select case (task%controls%method)
       case (METHOD_PICARD)
-         call iterate_picard(task, tau, solution, status)
+         picard%relaxation = task%controls%relaxation
+         call iterate(task, picard, tau, solution, status)
       case (METHOD_NEWTON)
          if (present(rows)) then                             ! whose matrix cannot be factored
             call iterate_with_fallbacks(task, tau, solution, status)
@@ -193,17 +195,6 @@ contains
       end if
       if (solution%inner%moves) call set_status(status, STATUS_SINGULAR, FREE_MOTION)
    end subroutine start
-
-   subroutine iterate_picard(task, tau, solution, status)
-      type(line_task_t), intent(in) :: task
-      real(wp), intent(inout) :: tau(:)
-      type(contact_solution_t), intent(inout) :: solution
-      type(status_t), intent(out) :: status
-      type(picard_t) :: picard
-
-      picard%relaxation = task%controls%relaxation
-      call iterate(task, picard, tau, solution, status)
-   end subroutine iterate_picard
 
    subroutine newton_from(task, tau, solution, status)
       type(line_task_t), intent(in) :: task

@@ -29,6 +29,7 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
       type(constraint_rows_t) :: rows
+      type(assembled_scene_t) :: nothing
       real(wp), allocatable :: x(:)
       integer(ip) :: b
 
@@ -49,17 +50,9 @@ contains
       if (.not. allocated(x)) return
       u = data%value
       call displacements_of(data%fem, data%assembled, x, u)
-      call release(data)
-   end subroutine solve_sparse_form
-
-   !> Gives the memory of the factors back before the stresses want theirs.
-   subroutine release(data)
-      type(scene_data_t), intent(inout) :: data
-      type(assembled_scene_t) :: nothing
-
-      data%assembled = nothing
+      data%assembled = nothing                     ! the stresses want the memory of the factors
       data%is_assembled = .false.
-   end subroutine release
+   end subroutine solve_sparse_form
 
    !> A pivot that is not positive, by its body, node and dof.
    subroutine name_failure(data, status)
