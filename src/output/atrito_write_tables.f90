@@ -7,7 +7,7 @@ module atrito_write_tables
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, iteration_t
+   use atrito_results, only: results_t, contact_result_t, iteration_t
    use atrito_number_text, only: trimmed_real
    use atrito_resultant_tables, only: build_bodies, build_joints
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, &
@@ -21,6 +21,13 @@ module atrito_write_tables
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(9) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
                                                                                          'bodies', 'joints', 'iterations', 'timing']
+
+   !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
+   integer, parameter :: BEFORE_STATUS = 8
+   character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', &
+                                                       'weighted_pressure', 'shear', 'slip', 'weight']
+   character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', &
+                                                           'L', 'L^2']
 
    !> The rows of results%stress.
    character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
@@ -106,12 +113,9 @@ contains
       integer(ip), allocatable :: pair(:), point(:), point_status(:)
       real(wp), allocatable :: field(:, :)
       integer(ip) :: first, last, n, i, j
-      character(len=17), parameter :: NAMES(8) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', 'weighted_pressure', &
-                                                                                                                   'shear', 'slip']
-      character(len=5), parameter :: DIMENSIONS(8) = ['L    ', 'L    ', 'L    ', 'L    ', 'F/L^2', 'F/L^2', 'F/L^2', 'L    ']
 
       n = sum(results%contact%n)
-      allocate (pair(n), point(n), point_status(n), field(n, 9))
+      allocate (pair(n), point(n), point_status(n), field(n, size(CONTACT_NAMES)))
       last = 0
       do i = 1, pair_count(results)
          first = last + 1
@@ -119,47 +123,46 @@ contains
          pair(first:last) = i
          point(first:last) = [(j, j=1, results%contact(i)%n)]
          point_status(first:last) = results%contact(i)%status(:results%contact(i)%n)
-         call copy_fields(field(first:last, :), results, i)
-         call clear_rounding(field(first:last, :), scales_of_pair(scales, results%contact(i)))
+         call copy_fields(results%contact(i), scales_of_pair(scales, results%contact(i)), field(first:last, :))
       end do
       call begin_table(table, 'contact', 'a row a quadrature point of the slave surface', n)
       call add_integers(table, 'step', spread(results%step, 1, n))
       call add_integers(table, 'pair', pair)
       call add_integers(table, 'point', point)
-      call add_real_columns(table, NAMES, DIMENSIONS, field(:, :8))
+      call add_real_columns(table, CONTACT_NAMES(:BEFORE_STATUS), CONTACT_DIMENSIONS(:BEFORE_STATUS), field)
       call add_integers(table, 'status', point_status)
-      call add_reals(table, 'weight', 'L^2', field(:, 9), 0.0_wp)
+      call add_real_columns(table, CONTACT_NAMES(BEFORE_STATUS + 1:), CONTACT_DIMENSIONS(BEFORE_STATUS + 1:), &
+                            field(:, BEFORE_STATUS + 1:))
    end subroutine build_contact
 
-   !> What is rounding in the fields of a pair becomes 0.
-   pure subroutine clear_rounding(field, own)
-      real(wp), intent(inout) :: field(:, :)
+   !> What a pair has in the columns CONTACT_NAMES; what is rounding in it becomes 0.
+   subroutine copy_fields(contact, own, field)
+      type(contact_result_t), intent(in) :: contact
       type(scales_t), intent(in) :: own              !< scales of the pair
-      real(wp) :: scale(8)
+      real(wp), intent(out) :: field(:, :)
       integer :: k
 
-      scale = [spread(own%length, 1, 3), own%displacement, spread(own%pressure, 1, 3), own%slip]
-      do k = 1, size(scale)
-         call clear_small(scale(k), field(:, k))
-      end do
-   end subroutine clear_rounding
+      k = 0
+      call copy(contact%s, own%length)
+      call copy(contact%x(1, :), own%length)
+      call copy(contact%x(2, :), own%length)
+      call copy(contact%gap, own%displacement)
+      call copy(contact%pressure, own%pressure)
+      call copy(contact%weighted_pressure, own%pressure)
+      call copy(contact%shear, own%pressure)
+      call copy(contact%slip, own%slip)
+      call copy(contact%weight, 0.0_wp)
 
-   pure subroutine copy_fields(field, results, i)
-      real(wp), intent(out) :: field(:, :)
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: i
+   contains
 
-      associate (contact => results%contact(i), n => results%contact(i)%n)
-         field(:, 1) = contact%s(:n)
-         field(:, 2) = contact%x(1, :n)
-         field(:, 3) = contact%x(2, :n)
-         field(:, 4) = contact%gap(:n)
-         field(:, 5) = contact%pressure(:n)
-         field(:, 6) = contact%weighted_pressure(:n)
-         field(:, 7) = contact%shear(:n)
-         field(:, 8) = contact%slip(:n)
-         field(:, 9) = contact%weight(:n)
-      end associate
+      subroutine copy(values, scale)
+         real(wp), intent(in) :: values(:), scale
+
+         k = k + 1
+         field(:, k) = values(:contact%n)
+         call clear_small(scale, field(:, k))
+      end subroutine copy
+
    end subroutine copy_fields
 
    !> A row a quantity: the pairs, then the step as pair 0.

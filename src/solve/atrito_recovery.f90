@@ -4,7 +4,7 @@ module atrito_recovery
    use atrito_bodies, only: body_t, mode_at
    use atrito_box_problem, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
-   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_line, only: contact_line_t, slip_of_unknown
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
@@ -178,8 +178,7 @@ contains
          ! the force has lost its digits at the end of the range of numbers
          slip = row_value(rows, j, rows%tangent(:, j), u)
       else
-         slip = solution%bounds%d(i)*solution%state%q(i)
-         if (solution%state%state(i) /= FREE) slip = slip + solution%state%r(i)
+         slip = slip_of_unknown(solution%bounds, solution%state, i)
       end if
    end subroutine place_of_point
 
