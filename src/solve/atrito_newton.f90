@@ -84,12 +84,12 @@ contains
       active = [(is_row(state(i), i > problem%n_normal), i=1, size(state, kind=ip))]
    end function is_active
 
-   !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.
+   !> The derivatives of the bound tau_j by the active forces and by the motions: nu W_jk / w_k of the pressures.
    pure function bound_slope(problem, line, active, j) result(slope)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: active(:), j
-      real(wp) :: slope(size(active))
+      real(wp) :: slope(size(active) + problem%k)
       real(wp) :: of_all(problem%m)
       integer(ip) :: k, i
 
@@ -98,7 +98,8 @@ contains
          i = line%normal(line%average%column(k))
          if (i > 0) of_all(i) = line%law(j)%nu*line%average%entry(k)/problem%weight(i)
       end do
-      slope = of_all(active)
+      slope = 0.0_wp
+      slope(:size(active)) = of_all(active)
    end function bound_slope
 
    !> D of the tangential unknowns for the present bound; points without any take no part, points that get one begin stuck.
@@ -141,13 +142,14 @@ contains
       do row = 1, n
          i = active(row)
          if (solution%state%state(i) == FREE) then
-            call stick_row(problem, line, solution, active, row, jacobian(row, :n))
+            call stick_row(problem, line, solution, active, row, jacobian(row, :))
             jacobian(row, :n) = jacobian(row, :n)*scale*scale(row)
-            jacobian(row, n + 1:) = -problem%g(i, :)*scale(row)*motion_scale
+            jacobian(row, n + 1:) = jacobian(row, n + 1:)*scale(row)*motion_scale
             rhs(row) = r(i)*scale(row)
          else
-            call slip_row(problem, line, solution, active, row, jacobian(row, :n), rhs(row))
+            call slip_row(problem, line, solution, active, row, jacobian(row, :), rhs(row))
             jacobian(row, :n) = jacobian(row, :n)*scale/scale(row)
+            jacobian(row, n + 1:) = jacobian(row, n + 1:)/scale(row)*motion_scale
             rhs(row) = rhs(row)/scale(row)
          end if
       end do
@@ -180,18 +182,18 @@ contains
       end do
    end function scale_of_motions
 
-   !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
+   !> -dr/d(q, a) of a closed or sticking point: C + D and -G, and for the law of Oden and Pires -q D'(tau) dtau/dq.
    pure subroutine stick_row(problem, line, solution, active, row, jacobian)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: active(:), row
-      real(wp), intent(inout) :: jacobian(:)
+      real(wp), intent(out) :: jacobian(:)
       integer(ip) :: i, j
 
       i = active(row)
       j = line%point(i)
-      jacobian = problem%c(i, active)
+      jacobian = [problem%c(i, active), -problem%g(i, :)]
       jacobian(row) = jacobian(row) + solution%bounds%d(i)
       if (i <= problem%n_normal .or. line%law(j)%kind /= FRICTION_NONLOCAL) return
       jacobian = jacobian - solution%state%q(i)*solution%bounds%d(i)/solution%tau(j)*bound_slope(problem, line, active, j)
@@ -203,7 +205,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: active(:), row
-      real(wp), intent(inout) :: jacobian(:)
+      real(wp), intent(out) :: jacobian(:)
       real(wp), intent(out) :: rhs
       real(wp) :: direction
       integer(ip) :: i, j
