@@ -6,10 +6,10 @@
 module atrito_newton
    use atrito_active_set, only: change_states
    use atrito_box_problem, only: box_problem_t, set_residual, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, set_friction_bounds
    use atrito_contact_solution, only: contact_solution_t, bound_of_state, judge_condition, has_settled
    use atrito_dense, only: solve_lu
-   use atrito_friction_law, only: stick_compliance, FRICTION_NONLOCAL
+   use atrito_friction_law, only: FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t
    use atrito_solve_history, only: record_solve, begin_outer, end_outer
@@ -84,12 +84,12 @@ contains
       active = [(is_row(state(i), i > problem%n_normal), i=1, size(state, kind=ip))]
    end function is_active
 
-   !> The derivatives of the bound tau_j by the active forces and by the motions: nu W_jk / w_k of the pressures.
+   !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.
    pure function bound_slope(problem, line, active, j) result(slope)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: active(:), j
-      real(wp) :: slope(size(active) + problem%k)
+      real(wp) :: slope(size(active))
       real(wp) :: of_all(problem%m)
       integer(ip) :: k, i
 
@@ -98,29 +98,17 @@ contains
          i = line%normal(line%average%column(k))
          if (i > 0) of_all(i) = line%law(j)%nu*line%average%entry(k)/problem%weight(i)
       end do
-      slope = 0.0_wp
-      slope(:size(active)) = of_all(active)
+      slope = of_all(active)
    end function bound_slope
 
-   !> D of the tangential unknowns for the present bound; points without any take no part, points that get one begin stuck.
+   !> Points without a bound have no force either.
    pure subroutine update_compliances(problem, line, solution)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
-      integer(ip) :: i, j
 
-      do i = problem%n_normal + 1, problem%m
-         j = line%point(i)
-         solution%bounds%upper(i) = solution%tau(j)*line%weight(j)
-         solution%bounds%lower(i) = -solution%bounds%upper(i)
-         if (solution%tau(j) <= 0.0_wp) then
-            solution%state%state(i) = FROZEN
-            solution%state%q(i) = 0.0_wp
-         else
-            if (solution%state%state(i) == FROZEN) solution%state%state(i) = FREE
-            solution%bounds%d(i) = stick_compliance(line%law(j), solution%tau(j))/line%weight(j)
-         end if
-      end do
+      call set_friction_bounds(line, problem, solution%tau, solution%bounds, solution%state)
+      where (solution%state%state == FROZEN) solution%state%q = 0.0_wp
    end subroutine update_compliances
 
    !> The linear system for the changes, scaled: forces by 1/sqrt(C_ii + D_ii), motions to unit columns.
@@ -142,14 +130,13 @@ contains
       do row = 1, n
          i = active(row)
          if (solution%state%state(i) == FREE) then
-            call stick_row(problem, line, solution, active, row, jacobian(row, :))
+            call stick_row(problem, line, solution, active, row, jacobian(row, :n))
             jacobian(row, :n) = jacobian(row, :n)*scale*scale(row)
-            jacobian(row, n + 1:) = jacobian(row, n + 1:)*scale(row)*motion_scale
+            jacobian(row, n + 1:) = -problem%g(i, :)*scale(row)*motion_scale
             rhs(row) = r(i)*scale(row)
          else
-            call slip_row(problem, line, solution, active, row, jacobian(row, :), rhs(row))
+            call slip_row(problem, line, solution, active, row, jacobian(row, :n), rhs(row))
             jacobian(row, :n) = jacobian(row, :n)*scale/scale(row)
-            jacobian(row, n + 1:) = jacobian(row, n + 1:)/scale(row)*motion_scale
             rhs(row) = rhs(row)/scale(row)
          end if
       end do
@@ -182,18 +169,18 @@ contains
       end do
    end function scale_of_motions
 
-   !> -dr/d(q, a) of a closed or sticking point: C + D and -G, and for the law of Oden and Pires -q D'(tau) dtau/dq.
+   !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
    pure subroutine stick_row(problem, line, solution, active, row, jacobian)
       type(box_problem_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: active(:), row
-      real(wp), intent(out) :: jacobian(:)
+      real(wp), intent(inout) :: jacobian(:)
       integer(ip) :: i, j
 
       i = active(row)
       j = line%point(i)
-      jacobian = [problem%c(i, active), -problem%g(i, :)]
+      jacobian = problem%c(i, active)
       jacobian(row) = jacobian(row) + solution%bounds%d(i)
       if (i <= problem%n_normal .or. line%law(j)%kind /= FRICTION_NONLOCAL) return
       jacobian = jacobian - solution%state%q(i)*solution%bounds%d(i)/solution%tau(j)*bound_slope(problem, line, active, j)
@@ -205,7 +192,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: active(:), row
-      real(wp), intent(out) :: jacobian(:)
+      real(wp), intent(inout) :: jacobian(:)
       real(wp), intent(out) :: rhs
       real(wp) :: direction
       integer(ip) :: i, j
