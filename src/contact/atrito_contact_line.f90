@@ -35,10 +35,11 @@ contains
       logical :: has_tangential(line%n)
       integer(ip) :: j, m
 
-      allocate (line%normal(line%n), line%tangential(line%n), source=0_ip)
+      line%normal = [(0_ip, j=1, line%n)]
+      line%tangential = line%normal
       line%has_friction = any(line%law%kind /= FRICTION_NONE)
       has_tangential = tangential_row .and. line%law%kind /= FRICTION_NONE
-      allocate (line%point(count(normal_row) + count(has_tangential)))
+      line%point = [(0_ip, j=1, count(normal_row) + count(has_tangential))]
       m = 0
       do j = 1, line%n
          if (.not. normal_row(j)) cycle
