@@ -25,9 +25,9 @@ module atrito_write_tables
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
    character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', &
-                                                       'weighted_pressure', 'shear', 'slip', 'weight']
+                                                                                     'weighted_pressure', 'shear', 'slip', 'weight']
    character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', &
-                                                           'L', 'L^2']
+                                                                                                                         'L', 'L^2']
 
    !> The rows of results%stress.
    character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
