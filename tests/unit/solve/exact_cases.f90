@@ -15,7 +15,7 @@ module exact_cases
    use atrito_status, only: status_t
    implicit none (type, external)
    private
-   public :: errors_t, solve_exact_case, DOMAIN_SQUARE, DOMAIN_RING
+   public :: errors_t, solve_exact_case, make_exact_model, DOMAIN_SQUARE, DOMAIN_RING
 
    integer(ip), parameter :: DOMAIN_SQUARE = 1      !< unit square, its elements distorted smoothly
    integer(ip), parameter :: DOMAIN_RING = 2        !< a quarter of the ring 1/2 < r < 1
@@ -80,14 +80,14 @@ contains
       type(solve_options_t) :: options
 
       reporter%quiet = .true.
-      call make_model(domain, n_nodes, n, model)
+      call make_exact_model(domain, n_nodes, n, model)
       if (present(formulation)) model%sections(1)%formulation = formulation
       call solve_static(model, options, reporter, results, status)
       ok = results%converged .and. results%law_holds
       if (ok) call measure(model, results, errors)
    end subroutine solve_exact_case
 
-   subroutine make_model(domain, n_nodes, n, model)
+   subroutine make_exact_model(domain, n_nodes, n, model)
       integer(ip), intent(in) :: domain, n_nodes, n
       type(model_t), intent(out) :: model
       integer(ip) :: square(3, 3), p, i, j, k, l, m
@@ -116,7 +116,7 @@ contains
       model%sections(1)%material = 1
       allocate (model%section_of(n*n), source=1_ip)
       call prescribe_outline(m, model)
-   end subroutine make_model
+   end subroutine make_exact_model
 
    subroutine prescribe_outline(m, model)
       integer(ip), intent(in) :: m                  !< nodes along a side
