@@ -1,6 +1,6 @@
 !> Pairs of a model: their slaves in order, and their points.
 module atrito_pairing
-   use atrito_faces, only: face_list_t, chain_report_t, order_chain
+   use atrito_faces, only: chain_report_t, order_chain
    use atrito_kinds, only: ip, wp
    use atrito_master, only: master_t, master_of_faces, master_of_segments
    use atrito_model, only: model_t, SURFACE_SEGMENTS
@@ -36,7 +36,6 @@ contains
       type(contact_points_t), allocatable, intent(out) :: points(:)
       type(master_t), allocatable :: masters(:)        ! of the surfaces
       logical :: is_master(size(model%surfaces))
-      type(face_list_t) :: no_faces
       real(wp), allocatable :: thickness(:)
       integer(ip) :: i
 
@@ -58,11 +57,7 @@ contains
       do i = 1, size(points, kind=ip)
          associate (slave => model%surfaces(model%pairs(i)%slave)%faces, surface => model%surfaces(model%pairs(i)%master), &
                     master => masters(model%pairs(i)%master))
-            if (surface%kind == SURFACE_SEGMENTS) then
-               call pair_with_master(model%mesh, thickness, slave, no_faces, master, points(i))
-            else
-               call pair_with_master(model%mesh, thickness, slave, surface%faces, master, points(i))
-            end if
+            call pair_with_master(model%mesh, thickness, slave, surface%faces, master, points(i))
          end associate
       end do
    end subroutine pair_all
