@@ -1,14 +1,15 @@
 !> The command line, docs/user/running.md: what is to be done, with which options.
 module atrito_command_line
+   use atrito_element_table, only: kind_named
    use atrito_kinds, only: ip, wp
    use atrito_mumps_library, only: has_mumps, mumps_trouble
-   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case
+   use atrito_strings, only: string_t, append_string, nearest_names, to_text, deck_name, lower_case, upper_case
    use atrito_numbers, only: read_integer, read_real, NUMBER_OK
    use atrito_files, only: file_exists
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
    use atrito_option_table, only: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, &
-                                  TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, OPTIONS, SOLVERS, CONTACT_FORMS, ELEMENT_NAMES, &
+                                  TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, OPTIONS, SOLVERS, CONTACT_FORMS, &
                                   MOST_THREADS, MOST_LEVELS, find_option, option_names, string_list, value_text, task_text
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
@@ -336,7 +337,7 @@ contains
       do while (first <= len(value) + 1 .and. ok)
          last = first + index(value(first:)//',', ',') - 2
          name = lower_case(trim(adjustl(value(first:last))))
-         ok = any(ELEMENT_NAMES == name) .and. len(name) == len(ELEMENT_NAMES)
+         ok = kind_named(upper_case(name)) > 0
          do i = 1, size(elements)
             ok = ok .and. elements(i)%s /= name
          end do

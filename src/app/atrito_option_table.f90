@@ -5,7 +5,7 @@ module atrito_option_table
    private
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
              TASK_VERSION
-   public :: OPTIONS, SOLVERS, CONTACT_FORMS, ELEMENT_NAMES, MOST_THREADS, MOST_LEVELS
+   public :: OPTIONS, SOLVERS, CONTACT_FORMS, MOST_THREADS, MOST_LEVELS
    public :: find_option, option_names, string_list, value_text, task_text
 
    integer, parameter :: TASK_USAGE = 0             !< nothing was asked: tell how, exit 1
@@ -18,7 +18,6 @@ module atrito_option_table
    character(len=6), parameter :: CONTACT_FORMS(3) = ['auto  ', 'dense ', 'sparse']
    integer, parameter :: MOST_THREADS = 1024
    integer, parameter :: MOST_LEVELS = 12           !< of --refine: 16 million elements of one
-   character(len=4), parameter :: ELEMENT_NAMES(4) = ['cpe4', 'cps4', 'cpe9', 'cps9']
 
    !> An option, and which tasks know it.
    type :: option_t

@@ -95,19 +95,13 @@ contains
             facts%has_stick_slope = facts%has_stick_slope .or. (law%nu > 0.0_wp .and. law%stick_slope > 0.0_wp)
          end associate
       end do
-      call find_peak(results%contact(1), facts)
+      associate (contact => results%contact(1))
+         if (contact%n == 0) return
+         i = maxloc(contact%pressure(:contact%n), dim=1)
+         facts%peak = contact%x(:, i)
+         facts%peak_is_end = i == 1 .or. i == contact%n
+      end associate
    end function facts_of
-
-   pure subroutine find_peak(contact, facts)
-      type(contact_result_t), intent(in) :: contact
-      type(run_facts_t), intent(inout) :: facts
-      integer :: j
-
-      if (contact%n == 0) return
-      j = maxloc(contact%pressure(:contact%n), dim=1)
-      facts%peak = contact%x(:, j)
-      facts%peak_is_end = j == 1 .or. j == contact%n
-   end subroutine find_peak
 
    !> The status and the results say the same of a run: solved, or not converged and why.
    subroutine agree_on_outcome(status, results)

@@ -1,13 +1,15 @@
-!> The table of elements, which all rooms ask: their shapes, and their names in decks and field files.
+!> The table of elements, which all rooms ask: their shapes, and their names in decks and field files. Their plane states are in
+!> atrito_plane_state.
 !>
 !> A shape is named by its number of nodes. A new element is a row of SHAPES or KINDS, and its shape functions and Gauss rule in
 !> atrito_shape_functions.
 module atrito_element_table
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, FORMULATION_BBAR
    implicit none (type, external)
    private
-   public :: element_shape_t, element_kind_t, plane_state_t, SHAPES, KINDS, STATES, PLANE_STRAIN, PLANE_STRESS
-   public :: DEGREE_OF, BEST_OF, MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average
+   public :: element_shape_t, element_kind_t, SHAPES, KINDS
+   public :: DEGREE_OF, BEST_OF, MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation
 
    integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
 
@@ -21,12 +23,6 @@ module atrito_element_table
       character(len=15) :: topology = ''         !< in XDMF; its order of nodes is ours
       real(wp) :: place(2, MOST_NODES) = 0.0_wp  !< of the nodes, in [-1,1]^2
    end type element_shape_t
-
-   type :: plane_state_t
-      character(len=3) :: prefix = ''            !< of the names of its elements
-      character(len=12) :: name = ''
-      logical :: is_thin = .false.               !< no stress across the plane; else no strain
-   end type plane_state_t
 
    type :: element_kind_t
       character(len=4) :: name = ''              !< in decks
@@ -46,10 +42,6 @@ module atrito_element_table
 
    !> Columns by themselves: of all elements of a mesh, SHAPES(shape)%degree would copy the rows.
    integer(ip), parameter :: DEGREE_OF(MOST_NODES) = SHAPES%degree, BEST_OF(MOST_NODES) = SHAPES%n_best
-
-   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2
-   type(plane_state_t), parameter :: STATES(2) = [plane_state_t('CPE', 'plane strain', .false.), &
-                                                  plane_state_t('CPS', 'plane stress', .true.)]
 
    type(element_kind_t), parameter :: KINDS(4) = &
                                       [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
@@ -78,5 +70,14 @@ contains
 
       can_average = SHAPES(shape)%degree == 1 .and. .not. STATES(state)%is_thin
    end function can_average
+
+   !> Whether the strains of an element have one dilatation, the mean of the element (B-bar).
+   pure logical function has_mean_dilatation(section, state, n_nodes)
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state     !< place in STATES
+      integer(ip), intent(in) :: n_nodes   !< of the element
+
+      has_mean_dilatation = section%formulation == FORMULATION_BBAR .and. can_average(n_nodes, state)
+   end function has_mean_dilatation
 
 end module atrito_element_table

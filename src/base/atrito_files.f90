@@ -4,7 +4,7 @@
 !> are complete they are renamed together (commit_files), otherwise none is (discard_files).
 module atrito_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_null_char, c_null_ptr, c_ptr, c_size_t
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: lp
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
    use atrito_renaming, only: find_obstacle, replace_files, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE

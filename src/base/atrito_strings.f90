@@ -79,10 +79,8 @@ contains
    pure function integer_to_text(i) result(text)
       integer(ip), intent(in) :: i
       character(len=:), allocatable :: text
-      character(len=12) :: buffer
 
-      write (buffer, '(i0)') i
-      text = trim(buffer)
+      text = long_to_text(int(i, lp))
    end function integer_to_text
 
    pure function long_to_text(i) result(text)

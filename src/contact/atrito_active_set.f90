@@ -5,7 +5,7 @@
 module atrito_active_set
    use atrito_kinds, only: ip, lp, wp
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
-                              row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
+                              put_at_bounds, row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER
    use atrito_goldfarb_idnani, only: take_goldfarb_idnani_steps
    use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
@@ -69,16 +69,6 @@ contains
       if (solution%moves) outcome%motion = solution%motion
       if (outcome%solved .and. allocated(solution%undetermined)) outcome%undetermined = solution%undetermined
    end subroutine solve_box
-
-   !> Fixed unknowns take the values of their bounds.
-   pure subroutine put_at_bounds(bounds, state)
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-
-      where (state%state == AT_LOWER) state%q = bounds%lower
-      where (state%state == AT_UPPER) state%q = bounds%upper
-      where (state%state == FROZEN) state%q = 0.0_wp
-   end subroutine put_at_bounds
 
    !> The full step: every unknown that breaks its condition changes.
    subroutine change_states(problem, bounds, state, changes)

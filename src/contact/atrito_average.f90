@@ -5,7 +5,7 @@ module atrito_average
    use atrito_neighbours, only: grid_t, build_grid, count_near, list_near
    implicit none (type, external)
    private
-   public :: average_t, identity_average, build_average, count_entries, join_averages, apply_average, least_spacing
+   public :: average_t, identity_average, build_average, count_entries, apply_average, least_spacing
 
    !> 1 / integral of exp(1/(r^2-1)) over (-1,1): the constant c of the kernel, times rho.
    real(wp), parameter :: KERNEL_CONSTANT = 2.252283621043581_wp
@@ -146,32 +146,6 @@ contains
          if (.not. begins(j)) least_spacing = min(least_spacing, norm2(x(:, j) - x(:, j - 1)))
       end do
    end function least_spacing
-
-   !> The averages of several pairs as one: the points of each are averaged among themselves.
-   pure function join_averages(list) result(w)
-      type(average_t), intent(in) :: list(:)
-      type(average_t) :: w
-      integer(ip) :: i, entries, n
-
-      n = sum(list%n)
-      entries = 0
-      do i = 1, size(list, kind=ip)
-         entries = entries + size(list(i)%entry, kind=ip)
-      end do
-      allocate (w%first(n + 1), w%column(entries), w%entry(entries))
-      w%first(1) = 1
-      entries = 0
-      do i = 1, size(list, kind=ip)
-         associate (more => list(i), last => entries + size(list(i)%entry))
-            w%first(w%n + 2:w%n + 1 + more%n) = more%first(2:) + entries
-            w%column(entries + 1:last) = more%column + w%n
-            w%entry(entries + 1:last) = more%entry
-            w%is_identity = w%is_identity .and. more%is_identity
-            w%n = w%n + more%n
-            entries = last
-         end associate
-      end do
-   end function join_averages
 
    !> P = W p.
    pure function apply_average(w, p) result(average)

@@ -10,8 +10,8 @@
 !> pressure, two for the friction, and a row for the bound. Columns are scaled to a largest entry of one.
 module atrito_balance_program
    use atrito_contact_line, only: contact_line_t, pressure_of
-   use atrito_growth, only: grow
-   use atrito_kinds, only: ip, lp, wp, HUGE_REAL
+   use atrito_growth, only: resize
+   use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_linear_program, only: linear_program_t
    use atrito_motion_rows, only: motion_rows_t
    implicit none (type, external)
@@ -316,20 +316,15 @@ contains
 
    pure subroutine lengthen(columns)
       type(columns_t), intent(inout) :: columns
-      integer(ip), allocatable :: force(:, :)
-      real(wp), allocatable :: share(:, :)
-      integer(lp) :: length
 
-      length = 2_lp*columns%n
-      call grow(columns%first, length + 1)
-      call grow(columns%lower, length)
-      call grow(columns%upper, length)
-      call grow(columns%cost, length)
-      allocate (force(2, length), share(2, length))
-      force(:, :columns%n) = columns%force
-      share(:, :columns%n) = columns%share
-      call move_alloc(force, columns%force)
-      call move_alloc(share, columns%share)
+      associate (n => columns%n)
+         call resize(columns%first, n + 1, 2*n + 1)
+         call resize(columns%lower, n, 2*n)
+         call resize(columns%upper, n, 2*n)
+         call resize(columns%cost, n, 2*n)
+         call resize(columns%force, n, 2*n)
+         call resize(columns%share, n, 2*n)
+      end associate
    end subroutine lengthen
 
    !> Adds a multiple of a row of G, over the sizes of the motions, to the last column.
@@ -362,8 +357,8 @@ contains
          return
       end do
       if (columns%n_entries == size(columns%row)) then
-         call grow(columns%row, 2_lp*columns%n_entries)
-         call grow(columns%entry, 2_lp*columns%n_entries)
+         call resize(columns%row, columns%n_entries, 2*columns%n_entries)
+         call resize(columns%entry, columns%n_entries, 2*columns%n_entries)
       end if
       columns%n_entries = columns%n_entries + 1
       columns%row(columns%n_entries) = row

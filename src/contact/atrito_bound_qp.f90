@@ -18,8 +18,8 @@ module atrito_bound_qp
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, set_residual, clear_vanishing, &
-             is_vanishing, row_round_off, force_round_off
+   public :: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, put_at_bounds, set_residual, &
+             clear_vanishing, is_vanishing, row_round_off, force_round_off
    public :: FREE, AT_LOWER, AT_UPPER, FROZEN, DEPENDENT_POINTS
 
    !> State of an unknown. FROZEN: q = 0 whatever r is (a point without friction).
@@ -358,5 +358,15 @@ contains
       largest = 0.0_wp
       if (size(x) > 0) largest = maxval(abs(x))
    end function largest
+
+   !> Fixed unknowns take the values of their bounds.
+   pure subroutine put_at_bounds(bounds, state)
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(inout) :: state
+
+      where (state%state == AT_LOWER) state%q = bounds%lower
+      where (state%state == AT_UPPER) state%q = bounds%upper
+      where (state%state == FROZEN) state%q = 0.0_wp
+   end subroutine put_at_bounds
 
 end module atrito_bound_qp

@@ -6,8 +6,8 @@ module atrito_contact_line
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: contact_line_t, number_unknowns, last_of_pair, pressure_of, shear_force_of, friction_bound, normal_bounds, &
-             set_friction_bounds
+   public :: contact_line_t, number_unknowns, last_of_pair, pressure_of, shear_force_of, slip_of_unknown, friction_bound, &
+             normal_bounds, set_friction_bounds
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
    !> displacement less the distance, and its slip, are known numbers.
@@ -35,10 +35,11 @@ contains
       logical :: has_tangential(line%n)
       integer(ip) :: j, m
 
-      allocate (line%normal(line%n), line%tangential(line%n), source=0_ip)
+      line%normal = [(0_ip, j=1, line%n)]
+      line%tangential = line%normal
       line%has_friction = any(line%law%kind /= FRICTION_NONE)
       has_tangential = tangential_row .and. line%law%kind /= FRICTION_NONE
-      allocate (line%point(count(normal_row) + count(has_tangential)))
+      line%point = [(0_ip, j=1, count(normal_row) + count(has_tangential))]
       m = 0
       do j = 1, line%n
          if (.not. normal_row(j)) cycle
@@ -103,6 +104,16 @@ contains
          end if
       end do
    end function shear_force_of
+
+   !> u_T [L] of a tangential unknown: that of its law where it sticks, which has more digits than a difference of displacements.
+   pure real(wp) function slip_of_unknown(bounds, state, i) result(slip)
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(in) :: state
+      integer(ip), intent(in) :: i
+
+      slip = bounds%d(i)*state%q(i)
+      if (state%state(i) /= FREE) slip = slip + state%r(i)
+   end function slip_of_unknown
 
    !> The friction bound tau = nu S_rho(p) [F/L^2] at the points; tensions within an iteration count as none.
    pure function friction_bound(line, p) result(tau)

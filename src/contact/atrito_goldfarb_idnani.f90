@@ -10,7 +10,7 @@
 module atrito_goldfarb_idnani
    use atrito_kinds, only: ip, wp
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
-                              row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER, FROZEN
+                              put_at_bounds, row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER
    use atrito_free_set_factor, only: free_set_factor_t
    use atrito_solve_history, only: solve_history_t, record_solve
    use atrito_status, only: status_t, is_ok
@@ -69,11 +69,11 @@ contains
       integer(ip) :: i, released, first
 
       do while (left > 0)
-         where (state%state == AT_LOWER) state%q = bounds%lower
-         where (state%state == AT_UPPER) state%q = bounds%upper
-         where (state%state == FROZEN) state%q = 0.0_wp
-         call solve_and_record(problem, bounds, state, history, solution, left, status, kept)
+         call put_at_bounds(bounds, state)
+         call solve_free_set(problem, bounds%d, state, solution, status, kept)
+         left = left - 1
          if (.not. is_ok(status)) return
+         call record_solve(history, problem, bounds, state)
          released = 0
          do i = 1, problem%m
             if (.not. is_wrong(problem, state, i)) cycle
@@ -111,8 +111,10 @@ contains
       do while (left > 0)
          target = state
          target%q(i) = merge(bounds%lower(i), bounds%upper(i), bound == AT_LOWER)
-         call solve_and_record(problem, bounds, target, history, solution, left, status, kept)
+         call solve_free_set(problem, bounds%d, target, solution, status, kept)
+         left = left - 1
          if (.not. is_ok(status)) exit
+         call record_solve(history, problem, bounds, target)
          if (solution%moves) then
             motion = opening_motion(problem, i, bound, solution%motion)
             call find_first_reached(problem, state, motion, first, t)
@@ -159,21 +161,6 @@ contains
       is_wrong = wrong > 0.0_wp
       if (is_wrong) is_wrong = wrong > row_round_off(problem, state, i)
    end function is_wrong
-
-   subroutine solve_and_record(problem, bounds, state, history, solution, left, status, kept)
-      type(bound_qp_t), intent(in) :: problem
-      type(box_bounds_t), intent(in) :: bounds
-      type(box_state_t), intent(inout) :: state
-      type(solve_history_t), intent(inout) :: history
-      type(equality_solution_t), intent(out) :: solution
-      integer(ip), intent(inout) :: left
-      type(status_t), intent(out) :: status
-      type(free_set_factor_t), intent(inout), optional :: kept
-
-      call solve_free_set(problem, bounds%d, state, solution, status, kept)
-      left = left - 1
-      if (is_ok(status)) call record_solve(history, problem, bounds, state)
-   end subroutine solve_and_record
 
    !> The free unknown that breaks a bound most, as a force; 0 when none does.
    pure subroutine find_worst(problem, bounds, state, worst)

@@ -17,6 +17,7 @@ module atrito_mortar_points
    use atrito_master, only: master_t
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
+   use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
    use atrito_points, only: contact_points_t, allocate_points, add_point, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
@@ -39,6 +40,7 @@ module atrito_mortar_points
    type :: face_integrals_t
       logical :: is_whole = .true.
       logical :: has_point(MOST) = .true.           !< nodes that get a weighting function
+      real(wp) :: length(MOST) = 0.0_wp             !< int phi ds [L]
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
       real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
       real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
@@ -84,8 +86,10 @@ contains
          if (segments%first(i + 1) == segments%first(i)) then
             points%n_left_out = points%n_left_out + 1
          else
-            call integrate_face(mesh, face, i, segments, master_faces, master, thickness(slave%element(i)), integrals)
-            call add_face(mesh, slave, i, thickness(slave%element(i)), s, face, integrals, place, points, own, others)
+            face%state = mesh%state(slave%element(i))
+            face%thickness = thickness(slave%element(i))
+            call integrate_face(mesh, face, i, segments, master_faces, master, integrals)
+            call add_face(mesh, slave, i, s, face, integrals, place, points, own, others)
          end if
          s = s + face_length(mesh, slave, i)
       end do
@@ -105,14 +109,13 @@ contains
    end function face_length
 
    !> The integrals over the segments of a face.
-   subroutine integrate_face(mesh, face, i, segments, faces, master, thickness, integrals)
+   subroutine integrate_face(mesh, face, i, segments, faces, master, integrals)
       type(mesh_t), intent(in) :: mesh
       type(slave_face_t), intent(in) :: face
       integer(ip), intent(in) :: i
       type(segments_t), intent(in) :: segments
       type(face_list_t), intent(in) :: faces        !< of the master
       type(master_t), intent(in) :: master
-      real(wp), intent(in) :: thickness             !< [L]
       type(face_integrals_t), intent(out) :: integrals
       real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, ds, psi(MOST), phi(MOST), on_master, gap
       integer(ip), allocatable :: nodes(:)
@@ -128,9 +131,11 @@ contains
          if (.not. master%rigid) nodes = face_nodes(mesh, faces%element(segments%piece(k)), faces%face(segments%piece(k)))
          do g = 1, N_GAUSS
             t = 0.5_wp*((1 - gauss(g))*segments%from(k) + (1 + gauss(g))*segments%to(k))
-            ds = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))*norm2(face_direction(face%x(:, :n), t))*thickness
+            ds = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))*norm2(face_direction(face%x(:, :n), t))
             phi(:n) = face_shape_values(n, t)
             psi = weighting(n, t, integrals)
+            integrals%length = integrals%length + ds*psi
+            ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%x(1, :n)))
             call look_at_piece(face, t, master, segments%piece(k), on_master, gap)
             integrals%weight = integrals%weight + ds*psi
             integrals%gap = integrals%gap + (ds*gap)*psi
@@ -273,11 +278,11 @@ contains
    end subroutine make_dual
 
    !> Adds the integrals of a face to its points.
-   pure subroutine add_face(mesh, slave, i, thickness, s, face, integrals, place, points, own, others)
+   pure subroutine add_face(mesh, slave, i, s, face, integrals, place, points, own, others)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
       integer(ip), intent(in) :: i
-      real(wp), intent(in) :: thickness, s          !< s: arc length at the beginning of the face [L]
+      real(wp), intent(in) :: s                     !< arc length at the beginning of the face [L]
       type(slave_face_t), intent(in) :: face
       type(face_integrals_t), intent(in) :: integrals
       type(id_map_t), intent(inout) :: place
@@ -293,7 +298,7 @@ contains
          a = order(k)
          if (.not. integrals%has_point(a)) cycle
          call add_point(mesh, face%node(a), s + rule%s(k), points, place, j)
-         points%length(j) = points%length(j) + integrals%weight(a)/thickness
+         points%length(j) = points%length(j) + integrals%length(a)
          points%weight(j) = points%weight(j) + integrals%weight(a)
          points%gap(j) = points%gap(j) + integrals%gap(a)
          points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)

@@ -33,6 +33,8 @@ module atrito_mortar_segments
       real(wp) :: x(2, 3) = 0.0_wp                  !< [L]
       real(wp) :: direction(2, 3) = 0.0_wp
       real(wp) :: length = 0.0_wp                   !< of the chord [L]
+      integer(ip) :: state = 0                      !< of its element
+      real(wp) :: thickness = 0.0_wp                !< of its element [L]
    end type slave_face_t
 
    !> Cuts that are nearer to each other than this, on [-1,1], are one.

@@ -8,14 +8,15 @@ module atrito_nodal_points
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, look_at_end, &
+   use atrito_master, only: master_t, sight_t, is_out_of_sight, look_along, look_at_end, &
                             nearest_end
+   use atrito_plane_state, only: depth_at
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, clear_small_component, CORNER
    implicit none (type, external)
    private
-   public :: pair_surfaces, pair_with_master, finds_master
+   public :: pair_with_master, finds_master
 
    !> Most entries of a point: the slave's node and a face of the master.
    integer(ip), parameter :: NODAL_ENTRIES = 4
@@ -27,26 +28,6 @@ module atrito_nodal_points
 contains
 
    !> Points of the slave that face the master. n = 0 when none does.
-   pure subroutine pair_surfaces(mesh, thickness, slave, master_faces, master_points, points, is_arc, centre)
-      type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: thickness(:)          !< of each element [L]
-      type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
-      type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
-      real(wp), intent(in) :: master_points(:, :)   !< ends of the rigid segments [L], (2, pieces+1) or (2, 0)
-      type(contact_points_t), intent(out) :: points
-      logical, intent(in), optional :: is_arc(:)    !< (pieces) of the rigid segments; default: straight
-      real(wp), intent(in), optional :: centre(:, :) !< (2, pieces) of the arcs [L]
-      type(master_t) :: master
-
-      if (master_faces%n > 0) then
-         call master_of_faces(mesh, master_faces, master)
-      else
-         call master_of_segments(master_points, master, is_arc, centre)
-      end if
-      call pair_with_master(mesh, thickness, slave, master_faces, master, points)
-   end subroutine pair_surfaces
-
-   !> The same with a master that several pairs share.
    pure subroutine pair_with_master(mesh, thickness, slave, master_faces, master, points)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
@@ -112,7 +93,8 @@ contains
          do k = 1, merge(rule%n, 0_ip, used(i))
             call add_point(mesh, rule%node(k), s + rule%s(k), points, place, j)
             points%length(j) = points%length(j) + rule%weight(k)
-            points%weight(j) = points%weight(j) + rule%weight(k)*thickness(slave%element(i))
+            points%weight(j) = points%weight(j) + rule%weight(k)* &
+                               depth_at(mesh%state(slave%element(i)), thickness(slave%element(i)), mesh%x(1, rule%node(k)))
             points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
          end do
          s = s + rule%s(rule%n)

@@ -103,7 +103,11 @@ contains
       record%open = count(now == IS_OPEN, kind=ip)
       record%stick = count(now == IS_STUCK, kind=ip)
       record%slip = problem%n_normal - record%open - record%stick
-      call keep_states(history, record%inner == 1, now)
+      ! the last solve of an outer iteration counts
+      if (.not. allocated(history%states)) allocate (history%states(size(now), OUTER_KEPT), source=0_ip)
+      if (record%inner == 1 .and. history%kept == OUTER_KEPT) history%states(:, :OUTER_KEPT - 1) = history%states(:, 2:)
+      if (record%inner == 1 .and. history%kept < OUTER_KEPT) history%kept = history%kept + 1
+      history%states(:, max(history%kept, 1_ip)) = now
    end subroutine count_states
 
    pure integer(ip) function point_state(history, state, i) result(now)
@@ -131,18 +135,6 @@ contains
          end select
       end if
    end function point_state
-
-   !> The last solve of an outer iteration counts.
-   pure subroutine keep_states(history, is_first, now)
-      type(solve_history_t), intent(inout) :: history
-      logical, intent(in) :: is_first                !< solve of its outer iteration
-      integer(ip), intent(in) :: now(:)
-
-      if (.not. allocated(history%states)) allocate (history%states(size(now), OUTER_KEPT), source=0_ip)
-      if (is_first .and. history%kept == OUTER_KEPT) history%states(:, :OUTER_KEPT - 1) = history%states(:, 2:)
-      if (is_first .and. history%kept < OUTER_KEPT) history%kept = history%kept + 1
-      history%states(:, max(history%kept, 1_ip)) = now
-   end subroutine keep_states
 
    !> A letter a state: o open, c closed without friction, = sticking, + slipping along T, - against it.
    pure function state_letters(states) result(text)

@@ -30,7 +30,8 @@ contains
       case ('STEP')
          call begin_step(deck, order, card)
       case ('END STEP')
-         call end_step(deck, order, card)
+         if (.not. order%in_step) call refuse(deck, card, 'E-STEP', '*END STEP without a *STEP', '*STEP before it')
+         order%in_step = .false.
       case default
          call check_level(deck, order, card)
       end select
@@ -52,15 +53,6 @@ contains
       order%step = card%place
       card%level = LEVEL_STEP
    end subroutine begin_step
-
-   subroutine end_step(deck, order, card)
-      type(deck_t), intent(in) :: deck
-      type(order_t), intent(inout) :: order
-      type(card_t), intent(inout) :: card
-
-      if (.not. order%in_step) call refuse(deck, card, 'E-STEP', '*END STEP without a *STEP', '*STEP before it')
-      order%in_step = .false.
-   end subroutine end_step
 
    subroutine check_level(deck, order, card)
       type(deck_t), intent(in) :: deck

@@ -150,7 +150,11 @@ contains
          call get_integer(deck, option%value, meaning(spec), i, ok, keyword=trim(card%name))
       case (KIND_NAME)
          call get_name(deck, option%value, meaning(spec), name, ok, keyword=trim(card%name))
-         if (ok) call check_not_a_number(deck, card, option, spec, name, ok)
+         if (ok .and. verify(name, '0123456789') == 0 .and. .not. is_quoted(deck, option%value)) then
+            ok = .false.                              ! a set named 12 could never be told from node 12
+            call report_error(deck, option%value, 'E-NAME', 'all digits means a number, not a name', &
+                              expected=meaning(spec), keyword=trim(card%name))
+         end if
       end select
       card%ok = card%ok .and. ok
    end subroutine check_value
@@ -184,20 +188,6 @@ contains
                                       trim(card%name)//' is not built yet', expected=meaning(spec), &
                                       keyword=trim(card%name))
    end subroutine check_word
-
-   !> A set named 12 could never be told from node 12.
-   subroutine check_not_a_number(deck, card, option, spec, name, ok)
-      type(deck_t), intent(in) :: deck
-      type(card_t), intent(in) :: card
-      type(option_t), intent(in) :: option
-      type(option_spec_t), intent(in) :: spec
-      character(len=*), intent(in) :: name
-      logical, intent(out) :: ok
-
-      ok = verify(name, '0123456789') > 0 .or. is_quoted(deck, option%value)
-      if (.not. ok) call report_error(deck, option%value, 'E-NAME', 'all digits means a number, not a name', &
-                                      expected=meaning(spec), keyword=trim(card%name))
-   end subroutine check_not_a_number
 
    !> Options that must be there: the required ones, and those that others need.
    subroutine check_company(deck, card)

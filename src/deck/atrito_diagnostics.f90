@@ -85,7 +85,10 @@ contains
       end if
       if (present(expected)) message%expected = expected
       if (present(keyword)) message%keyword = keyword
-      if (present(known)) call tell_names(message, token_text(deck, token), known)
+      if (present(known)) then                              ! the nearest names; all of a short list, since it is soon read
+         message%nearest = nearest_names(token_text(deck, token), known, MOST_NEAREST)
+         if (size(message%nearest) == 0 .and. size(known) <= SHORT_LIST) message%known = known
+      end if
       if (token%source > 0) then
          message%file = deck%sources(token%source)%name
          message%line = token%line
@@ -107,15 +110,5 @@ contains
       short = text
       if (len(text) > LONGEST_TEXT) short = text(:LONGEST_TEXT/2)//'...'//text(len(text) - LONGEST_TEXT/2 + 1:)
    end function shortened
-
-   !> The nearest names; all of a short list, since it is soon read.
-   subroutine tell_names(message, name, known)
-      type(message_t), intent(inout) :: message
-      character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: known(:)
-
-      message%nearest = nearest_names(name, known, MOST_NEAREST)
-      if (size(message%nearest) == 0 .and. size(known) <= SHORT_LIST) message%known = known
-   end subroutine tell_names
 
 end module atrito_diagnostics

@@ -26,41 +26,9 @@ contains
       real(wp), intent(in), optional :: default
       character(len=*), intent(in), optional :: keyword  !< for `atrito help KEYWORD`
 
-      value = 0.0_wp
-      ok = .true.
-      if (is_empty_token(token)) then
-         ok = present(default)
-         if (present(default)) value = default
-         if (.not. ok) call report_error(deck, token, 'E-MISSING', 'a value is missing', expected=what, keyword=keyword)
-         return
-      end if
-      associate (first => token%first, last => token%last)
-         if (is_parameter(deck%sources(token%source)%text(first:last))) then
-            call value_of_parameter(deck, token, what, value, ok, keyword)
-         else
-            call real_of_text(deck, token, deck%sources(token%source)%text(first:last), what, value, ok, keyword)
-         end if
-      end associate
+      call get_number(deck, token, what, .false., value, ok, present(default), keyword)
+      if (ok .and. present(default) .and. is_empty_token(token)) value = default
    end subroutine get_real
-
-   subroutine real_of_text(deck, token, text, what, value, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: text, what
-      real(wp), intent(out) :: value
-      logical, intent(out) :: ok
-      character(len=*), intent(in), optional :: keyword
-      integer :: outcome
-
-      call read_real(text, value, outcome)
-      ok = outcome == NUMBER_OK
-      if (ok) return
-      if (outcome == NUMBER_TOO_LARGE) then
-         call report_error(deck, token, 'E-NUMBER', text//' is too large for a real', expected=what, keyword=keyword)
-      else
-         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not a number", expected=what, keyword=keyword)
-      end if
-   end subroutine real_of_text
 
    !> The integer value of an item, as get_real. It may not be written as a real; a parameter must be whole.
    subroutine get_integer(deck, token, what, value, ok, default, keyword)
@@ -71,67 +39,76 @@ contains
       logical, intent(out) :: ok
       integer(ip), intent(in), optional :: default
       character(len=*), intent(in), optional :: keyword
+      real(wp) :: x
 
+      call get_number(deck, token, what, .true., x, ok, present(default), keyword)
       value = 0
-      ok = .true.
-      if (is_empty_token(token)) then
-         ok = present(default)
-         if (present(default)) value = default
-         if (.not. ok) call report_error(deck, token, 'E-MISSING', 'a value is missing', expected=what, keyword=keyword)
-         return
-      end if
-      associate (first => token%first, last => token%last)
-         if (is_parameter(deck%sources(token%source)%text(first:last))) then
-            call integer_of_parameter(deck, token, what, value, ok, keyword)
-         else
-            call integer_of_text(deck, token, deck%sources(token%source)%text(first:last), what, value, ok, keyword)
-         end if
-      end associate
+      if (ok) value = nint(x, ip)
+      if (ok .and. present(default) .and. is_empty_token(token)) value = default
    end subroutine get_integer
 
-   subroutine integer_of_text(deck, token, text, what, value, ok, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: text, what
-      integer(ip), intent(out) :: value
-      logical, intent(out) :: ok
-      character(len=*), intent(in), optional :: keyword
-      integer :: outcome
-
-      call read_integer(text, value, outcome)
-      ok = outcome == NUMBER_OK
-      if (ok) return
-      select case (outcome)
-      case (NUMBER_TOO_LARGE)
-         call report_error(deck, token, 'E-NUMBER', text//' is too large for an integer', expected=what, keyword=keyword)
-      case (NUMBER_NOT_INTEGER)
-         call report_error(deck, token, 'E-INTEGER', text//' is a real', expected=what, keyword=keyword)
-      case default
-         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not an integer", expected=what, keyword=keyword)
-      end select
-   end subroutine integer_of_text
-
-   subroutine integer_of_parameter(deck, token, what, value, ok, keyword)
+   !> A real, or an integer, which a double holds exactly.
+   subroutine get_number(deck, token, what, is_whole, value, ok, may_be_empty, keyword)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: what
-      integer(ip), intent(out) :: value
+      logical, intent(in) :: is_whole
+      real(wp), intent(out) :: value
+      logical, intent(out) :: ok
+      logical, intent(in) :: may_be_empty
+      character(len=*), intent(in), optional :: keyword
+
+      value = 0.0_wp
+      if (is_empty_token(token)) then
+         ok = may_be_empty
+         if (.not. ok) call report_error(deck, token, 'E-MISSING', 'a value is missing', expected=what, keyword=keyword)
+         return
+      end if
+      associate (text => deck%sources(token%source)%text(token%first:token%last))
+         if (.not. is_parameter(text)) then
+            call number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
+            return
+         end if
+      end associate
+      call value_of_parameter(deck, token, what, value, ok, keyword)
+      if (.not. (ok .and. is_whole)) return
+      ok = abs(value) <= real(huge(1_ip), wp) .and. abs(value - anint(value)) <= 0.0_wp
+      if (ok) return
+      call report_error(deck, token, 'E-INTEGER', token_text(deck, token)//' is '//to_text(value)//', not an integer', &
+                        expected=what, keyword=keyword)
+   end subroutine get_number
+
+   subroutine number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: text, what
+      logical, intent(in) :: is_whole
+      real(wp), intent(out) :: value
       logical, intent(out) :: ok
       character(len=*), intent(in), optional :: keyword
-      real(wp) :: x
+      character(len=:), allocatable :: noun
+      integer(ip) :: i
+      integer :: outcome
 
-      value = 0
-      call value_of_parameter(deck, token, what, x, ok, keyword)
-      if (.not. ok) return
-      ok = abs(x) <= real(huge(value), wp)
-      if (ok) ok = abs(x - anint(x)) <= 0.0_wp
-      if (ok) then
-         value = nint(x, ip)
+      if (is_whole) then
+         call read_integer(text, i, outcome)
+         value = real(i, wp)
       else
-         call report_error(deck, token, 'E-INTEGER', token_text(deck, token)//' is '//to_text(x)//', not an integer', &
-                           expected=what, keyword=keyword)
+         call read_real(text, value, outcome)
       end if
-   end subroutine integer_of_parameter
+      ok = outcome == NUMBER_OK
+      if (ok) return
+      noun = trim(merge('an integer', 'a real    ', is_whole))
+      select case (outcome)
+      case (NUMBER_TOO_LARGE)
+         call report_error(deck, token, 'E-NUMBER', text//' is too large for '//noun, expected=what, keyword=keyword)
+      case (NUMBER_NOT_INTEGER)
+         call report_error(deck, token, 'E-INTEGER', text//' is a real', expected=what, keyword=keyword)
+      case default
+         if (.not. is_whole) noun = 'a number'
+         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is not "//noun, expected=what, keyword=keyword)
+      end select
+   end subroutine number_of_text
 
    !> Begins like a parameter; value_of_parameter checks the rest.
    pure logical function is_parameter(text)
@@ -300,8 +277,8 @@ contains
       if (present(place)) place = option%value
    end subroutine option_text
 
-   !> The word chosen by an option, as the table has it; its default in the table when it is not given. An option that may stand alone
-   !> (NLGEOM) is then its first word.
+   !> The word chosen by an option, as the table has it; its default when it is not given. An option that may stand alone (NLGEOM)
+   !> is then its first word.
    pure function option_word(deck, card, name) result(word)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card

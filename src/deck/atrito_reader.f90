@@ -6,13 +6,13 @@ module atrito_reader
    use atrito_cards, only: make_card, check_options
    use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, append_source, append_token, append_line, &
                           append_card, reading_order
-   use atrito_deck_memory, only: fits_memory
    use atrito_diagnostics, only: report_error, report_note, report_deck_error
    use atrito_files, only: read_file, true_path
    use atrito_items, only: option_text
    use atrito_keyword, only: keyword_t, KIND_TEXT
    use atrito_keyword_table, only: keyword_table
    use atrito_lexer, only: line_t, items_t, take_line, split_items, LINE_KEYWORD, LINE_DATA
+   use atrito_memory, only: available_memory, memory_text
    use atrito_parameters, only: settings_t, read_settings, define_parameter, check_settings
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text, count_symbol
@@ -28,6 +28,10 @@ module atrito_reader
    integer, parameter :: MODE_PARAMETER = 4        !< `name = expression`
 
    integer, parameter :: DEEPEST_INCLUDE = 20
+   !> What an item or a line takes at the most, the lists of them being copied as they double.
+   integer(lp), parameter :: ITEM_BYTES = 100_lp
+   !> A smaller file is not worth the question.
+   integer(ip), parameter :: SMALL_FILE = 1000000
    !> Includes that each include two others would fill any memory at a depth of 20.
    integer(ip), parameter :: MOST_SOURCES = 10000
    integer(lp), parameter :: MOST_CHARACTERS = 2000000000_lp   !< of all files
@@ -441,5 +445,22 @@ contains
       end do
       if (path(1:1) /= '/') path = from(:index(from, '/', back=.true.))//path
    end function relative_path
+
+   !> False, and an error, when the items of a file need more memory than there is.
+   logical function fits_memory(deck, source) result(fits)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: source
+      integer(lp) :: items, memory
+
+      fits = len(deck%sources(source)%text) <= SMALL_FILE
+      if (fits) return
+      items = count_symbol(deck%sources(source)%text, ',') + count_symbol(deck%sources(source)%text, achar(10))
+      memory = available_memory()
+      fits = ITEM_BYTES*items <= memory
+      if (.not. fits) call report_deck_error(deck, 'E-MEMORY', 'a file of '//to_text(items)//' items and lines needs about '// &
+                                             memory_text(ITEM_BYTES*items)//' of memory, there are '//memory_text(memory), &
+                                             expected='a smaller deck, or a larger machine; *BLOCK, *NGEN and *ELGEN save lines', &
+                                             source=source)
+   end function fits_memory
 
 end module atrito_reader

@@ -10,9 +10,9 @@ module atrito_assembly
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t
    use atrito_bodies, only: bodies_t, element_equations
-   use atrito_elasticity, only: elastic_t
    use atrito_element, only: element_stiffness
    use atrito_multifrontal, only: element_store_t, pack_matrix
+   use atrito_plane_state, only: elastic_t
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_linear_solver, only: linear_solver_t
    use atrito_threads, only: is_shared, chunk_count, find_chunk, CHUNK_LENGTH

@@ -3,9 +3,9 @@
 !> Coordinates are taken relative to the element's first node: the derivatives of the shape functions add up to zero only but for
 !> round-off, which far from the origin would cost digits.
 module atrito_element
-   use atrito_element_table, only: SHAPES, MOST_NODES
+   use atrito_element_table, only: SHAPES, MOST_NODES, has_mean_dilatation
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_elasticity, only: elastic_t, elasticity_matrix, has_mean_dilatation
+   use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
                                      gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
    implicit none (type, external)
@@ -32,7 +32,7 @@ contains
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: k(:, :)             !< (2n, 2n)
-      real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, MOST_NODES), d(3, 3), bulk, shear
+      real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, MOST_NODES), d(COMPONENTS, COMPONENTS), bulk, shear
       integer(ip) :: n, i, j
 
       n = size(x, 2, kind=ip)
@@ -252,12 +252,13 @@ contains
    end function mean_gradients
 
    !> Nodal forces [F] of a pressure on a face; a positive pressure pushes on the element.
-   pure subroutine pressure_load(x, pressure, thickness, f)
+   pure subroutine pressure_load(x, pressure, thickness, state, f)
       real(wp), intent(in) :: x(:, :)              !< the face's nodes in the order of face_nodes [L], (2, 2 or 3)
       real(wp), intent(in) :: pressure             !< [F/L^2]
       real(wp), intent(in) :: thickness            !< [L]
+      integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< shape of x
-      real(wp) :: points(3), weights(3), n(size(x, 2)), tangent(2), relative(2, size(x, 2))
+      real(wp) :: points(3), weights(3), n(size(x, 2)), tangent(2), relative(2, size(x, 2)), depth
       integer(ip) :: i, order, n_face
 
       n_face = size(x, 2, kind=ip)
@@ -267,18 +268,20 @@ contains
       f = 0.0_wp
       do i = 1, order
          n = face_shape_values(n_face, points(i))
+         depth = depth_at(state, thickness, dot_product(n, x(1, :)))
          tangent = matmul(relative, face_shape_slopes(n_face, points(i)))
          ! travelling counter-clockwise the inward normal is the tangent turned by +90 degrees
-         f(1, :) = f(1, :) - n*tangent(2)*(weights(i)*pressure*thickness)
-         f(2, :) = f(2, :) + n*tangent(1)*(weights(i)*pressure*thickness)
+         f(1, :) = f(1, :) - n*tangent(2)*(weights(i)*pressure*depth)
+         f(2, :) = f(2, :) + n*tangent(1)*(weights(i)*pressure*depth)
       end do
    end subroutine pressure_load
 
    !> Nodal forces [F] of a constant force per volume.
-   pure subroutine body_load(x, density, thickness, f)
+   pure subroutine body_load(x, density, thickness, state, f)
       real(wp), intent(in) :: x(:, :)              !< (2, n) [L]
       real(wp), intent(in) :: density(2)           !< [F/L^3]
       real(wp), intent(in) :: thickness            !< [L]
+      integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< (2, n)
       real(wp) :: xi(2), weight, j(2, 2), jacobian, n(size(x, 2))
       integer(ip) :: point, n_nodes
@@ -289,7 +292,8 @@ contains
          call gauss_point(n_nodes, point, xi, weight)
          j = matmul(from_first(x), shape_gradients(n_nodes, xi))
          jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-         n = shape_values(n_nodes, xi)*(weight*jacobian*thickness)
+         n = shape_values(n_nodes, xi)
+         n = n*(weight*jacobian*depth_at(state, thickness, dot_product(n, x(1, :))))
          f(1, :) = f(1, :) + n*density(1)
          f(2, :) = f(2, :) + n*density(2)
       end do

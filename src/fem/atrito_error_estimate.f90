@@ -2,9 +2,9 @@
 !> J. Z. Zhu, Int. J. Numer. Methods Eng. 24, 1987).
 module atrito_error_estimate
    use atrito_assembly, only: fem_t
-   use atrito_elasticity, only: compliance_matrix
    use atrito_element_table, only: MOST_NODES
    use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_plane_state, only: compliance_matrix, COMPONENTS, depth_at
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_stress_recovery, only: stress_field_t
    use atrito_threads, only: is_shared, chunk_count, find_chunk
@@ -80,8 +80,9 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
       type(energies_t), intent(inout) :: energies
-      real(wp) :: s(MOST_POINTS, 3), d(MOST_POINTS, 3), c(3, 3), weight(MOST_POINTS), largest
-      integer(ip) :: k, n
+      real(wp), dimension(MOST_POINTS, COMPONENTS) :: s, d
+      real(wp) :: c(COMPONENTS, COMPONENTS), weight(MOST_POINTS), largest
+      integer(ip) :: i, k, n
 
       n = rule%n
       c = compliance_matrix(fem%sections(geometry%section), geometry%state)
@@ -97,7 +98,11 @@ contains
             d(:n, 3) = d(:n, 3) + value*(at_node(3)*per_unit)
          end associate
       end do
-      weight(:n) = rule%weight(:n)*geometry%jacobian(:n)*fem%sections(geometry%section)%thickness
+      weight(:n) = rule%weight(:n)*geometry%jacobian(:n)
+      do i = 1, n
+         weight(i) = weight(i)*depth_at(geometry%state, fem%sections(geometry%section)%thickness, &
+                                        fem%mesh%x(1, fem%mesh%nodes(1, e)) + geometry%place(i, 1))
+      end do
       energies%solution = energies%solution + integral(n, c, s, weight)
       energies%error = energies%error + integral(n, c, d, weight)
       energies%round_off = energies%round_off + (geometry%d(1, 1)*(EPS_MACH*(largest*per_unit))**2) &
@@ -107,7 +112,7 @@ contains
    !> Sum over the points of weight s C s [F L].
    pure real(wp) function integral(n, c, s, weight)
       integer(ip), intent(in) :: n
-      real(wp), intent(in) :: c(3, 3), s(MOST_POINTS, 3), weight(MOST_POINTS)
+      real(wp), intent(in) :: c(COMPONENTS, COMPONENTS), s(MOST_POINTS, COMPONENTS), weight(MOST_POINTS)
       real(wp) :: density
       integer(ip) :: i
 

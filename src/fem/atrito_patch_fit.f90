@@ -7,12 +7,12 @@
 module atrito_patch_fit
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: COMPONENTS
    implicit none (type, external)
    private
-   public :: patch_fit_t, polynomial_t, COMPONENTS, clear_samples, add_sample, is_laid, lay_patch, determined_degree, fit_node, &
+   public :: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, determined_degree, fit_node, &
              fit_polynomial, fitted_value
 
-   integer(ip), parameter :: COMPONENTS = 3          !< s11, s22, s12
    integer(ip), parameter :: MOST_TERMS = 6
    !> A term whose part that is independent of the terms before it is below this share of its square sum is not determined. It is
    !> 0.06 and more for equal elements round a node, however stretched; the samples of one row of elements give round-off.

@@ -4,11 +4,12 @@
 !> a place of its own in every zone that it belongs to; different bodies share no node, so no zone reaches over a contact.
 module atrito_patches
    use atrito_assembly, only: fem_t
-   use atrito_elasticity, only: elastic_t
-   use atrito_element_table, only: STATES, MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: MOST_NODES, MOST_CORNERS
+   use atrito_growth, only: resize
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
    use atrito_mesh, only: mesh_t
+   use atrito_plane_state, only: elastic_t, STATES
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
@@ -101,7 +102,7 @@ contains
       integer(ip), intent(in) :: zone(:)
       type(patches_t), intent(inout) :: patches
       integer(ip), allocatable :: zone_at(:), next(:)
-      integer(ip) :: e, k, at
+      integer(ip) :: e, k, at, room
 
       allocate (zone_at(patches%n), next(patches%n), source=0_ip)
       do e = 1, mesh%n_elements
@@ -111,12 +112,14 @@ contains
             do while (zone_at(at) /= zone(e))
                if (next(at) == 0) then
                   if (patches%n == size(zone_at)) then
-                     call grow(zone_at)
-                     call grow(next)
-                     call grow(patches%node)
+                     room = patches%n + patches%n/2 + 64
+                     call resize(zone_at, patches%n, room)
+                     call resize(next, patches%n, room)
+                     call resize(patches%node, patches%n, room)
                   end if
                   patches%n = patches%n + 1
                   zone_at(patches%n) = zone(e)
+                  next(patches%n) = 0
                   patches%node(patches%n) = mesh%nodes(k, e)
                   next(at) = patches%n
                end if
@@ -127,16 +130,6 @@ contains
       end do
       patches%node = patches%node(:patches%n)
    end subroutine add_places
-
-   !> Longer by half, the new ones 0.
-   pure subroutine grow(list)
-      integer(ip), allocatable, intent(inout) :: list(:)
-      integer(ip), allocatable :: longer(:)
-
-      allocate (longer(size(list) + size(list)/2 + 64), source=0_ip)
-      longer(:size(list)) = list
-      call move_alloc(longer, list)
-   end subroutine grow
 
    !> The elements round each corner, rising: counted and filled by parts of the elements, part by part at each place.
    subroutine list_elements_at_corners(mesh, patches)

@@ -2,10 +2,10 @@
 !> once for neighbours that are equal, and the innermost loops run over the points of an element.
 module atrito_point_stress
    use atrito_assembly, only: fem_t, is_like_before
-   use atrito_elasticity, only: elasticity_matrix, has_mean_dilatation
    use atrito_element, only: mean_gradients
-   use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: elasticity_matrix, COMPONENTS
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
@@ -27,7 +27,7 @@ module atrito_point_stress
       integer(ip) :: section = 0, state = 0
       integer(ip) :: shape = 0                   !< nodes; 0: nothing yet
       real(wp) :: x(2, MOST_NODES) = 0.0_wp        !< [L]
-      real(wp) :: d(3, 3) = 0.0_wp               !< elasticity matrix [F/L^2]
+      real(wp) :: d(COMPONENTS, COMPONENTS) = 0.0_wp               !< elasticity matrix [F/L^2]
       logical :: averages = .false.              !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
       real(wp) :: mean(2, MOST_CORNERS) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]
       real(wp) :: place(MOST_POINTS, 2) = 0.0_wp !< less the element's first node [L]
@@ -130,7 +130,7 @@ contains
       real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
-      real(wp), intent(inout) :: s(MOST_POINTS, 3)       !< the first rule%n are set
+      real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS) !< the first rule%n are set
       real(wp) :: way(2, MOST_NODES), dilatation
       integer(ip) :: k, first
 
@@ -158,7 +158,7 @@ contains
    pure subroutine strain_points(n, shape, gradient, way, e)
       integer(ip), intent(in) :: n, shape
       real(wp), intent(in) :: gradient(MOST_POINTS, 2, MOST_NODES), way(2, MOST_NODES)
-      real(wp), intent(inout) :: e(MOST_POINTS, 3)  !< e11, e22, 2 e12
+      real(wp), intent(inout) :: e(MOST_POINTS, COMPONENTS) !< e11, e22, 2 e12
       integer(ip) :: k
 
       e(:n, :) = 0.0_wp
@@ -171,8 +171,8 @@ contains
 
    pure subroutine strains_to_stresses(n, d, s)
       integer(ip), intent(in) :: n
-      real(wp), intent(in) :: d(3, 3)
-      real(wp), intent(inout) :: s(MOST_POINTS, 3)
+      real(wp), intent(in) :: d(COMPONENTS, COMPONENTS)
+      real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS)
       real(wp) :: e11
       integer(ip) :: i
 

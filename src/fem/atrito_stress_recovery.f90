@@ -6,13 +6,13 @@
 !> its best points and degree p - 1.
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t
-   use atrito_elasticity, only: stress_33, von_mises
    use atrito_element_table, only: SHAPES, BEST_OF, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, side_count
-   use atrito_patch_fit, only: patch_fit_t, polynomial_t, COMPONENTS, clear_samples, add_sample, is_laid, lay_patch, &
+   use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
+   use atrito_plane_state, only: stress_33, von_mises, COMPONENTS, STRESS_NAMES
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
@@ -340,7 +340,7 @@ contains
       integer(ip), allocatable :: zones(:)
       integer(ip) :: i, node
 
-      allocate (stress(5, fem%mesh%n_nodes), zones(fem%mesh%n_nodes))
+      allocate (stress(size(STRESS_NAMES), fem%mesh%n_nodes), zones(fem%mesh%n_nodes))
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
       do node = 1, fem%mesh%n_nodes                ! also the number of the place in its first zone
          stress(:, node) = 0.0_wp
@@ -364,7 +364,7 @@ contains
       type(fem_t), intent(in) :: fem
       type(stress_field_t), intent(in) :: field
       integer(ip), intent(in) :: i
-      real(wp), intent(inout) :: stress(5)
+      real(wp), intent(inout) :: stress(size(STRESS_NAMES))
       integer(ip), intent(inout) :: zones
       integer(ip) :: e
 

@@ -28,7 +28,6 @@ module atrito_banded
       procedure :: reduce => reduce_banded
       procedure :: expand => expand_banded
       procedure :: memory_bytes => banded_memory
-      procedure, nopass :: name => banded_name
    end type banded_t
 
 contains
@@ -235,11 +234,5 @@ contains
       banded_memory = (size(self%band, kind=lp) + size(self%coupling, kind=lp) + size(self%retained, kind=lp)) &
                       *int(storage_size(1.0_wp)/8, lp)
    end function banded_memory
-
-   pure function banded_name() result(name)
-      character(len=:), allocatable :: name
-
-      name = 'banded'
-   end function banded_name
 
 end module atrito_banded

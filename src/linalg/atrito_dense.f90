@@ -8,15 +8,15 @@ module atrito_dense
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_lapack, only: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpocon, dpotrf, dpotrs, dsyev
+   use atrito_lapack, only: dgemm, dgemv, dgesv, dgesvd, dgelsd, dpocon, dpotrs, dsyev
    implicit none (type, external)
    private
-   public :: factor_cholesky, solve_cholesky, estimate_condition, norm_one, solve_lu, eigen_symmetric
-   public :: orthonormalise, multiply, multiply_vector, singular_values, null_space, least_squares
+   public :: solve_cholesky, estimate_condition, solve_lu, eigen_symmetric
+   public :: orthonormalise, multiply, multiply_vector, null_space, least_squares
 
    integer(ip), parameter :: NOT_FINITE = -99             !< info: none of LAPACK's
 
-   !> b <- A^-1 b with the factor of factor_cholesky; b of rank 1 or 2.
+   !> b <- A^-1 b with the lower triangle of A = L L' (dpotrf); b of rank 1 or 2.
    interface solve_cholesky
       module procedure solve_cholesky_one, solve_cholesky_many
    end interface solve_cholesky
@@ -27,17 +27,6 @@ module atrito_dense
    end interface solve_lu
 
 contains
-
-   !> A = L L' in place (dpotrf): reads and writes the lower triangle alone. The caller scales.
-   subroutine factor_cholesky(a, pivot_failed)
-      real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n)
-      integer(ip), intent(out) :: pivot_failed           !< 0, or the first row whose pivot is not positive
-      type(halting_t) :: halting
-
-      call suspend_halting(halting)
-      call dpotrf('L', order(a), a, leading(a), pivot_failed)
-      call restore_halting(halting)
-   end subroutine factor_cholesky
 
    subroutine solve_cholesky_many(a, b)
       real(wp), intent(in), contiguous :: a(:, :)        !< (n, n) factor, lower triangle
@@ -63,8 +52,8 @@ contains
 
    !> Estimate of the condition number in the 1-norm, >= 1 (dpocon); 1 at order 0.
    real(wp) function estimate_condition(a_factor, norm1) result(condition)
-      real(wp), intent(in), contiguous :: a_factor(:, :) !< (n, n) factor of factor_cholesky
-      real(wp), intent(in) :: norm1                      !< norm_one of the matrix before
+      real(wp), intent(in), contiguous :: a_factor(:, :) !< (n, n) factor, lower triangle
+      real(wp), intent(in) :: norm1                      !< largest column sum of the matrix before
       type(halting_t) :: halting
       real(wp) :: reciprocal, work(3*size(a_factor, 2))
       integer(ip) :: ignored, iwork(size(a_factor, 2))
@@ -75,17 +64,6 @@ contains
       condition = HUGE_REAL
       if (reciprocal > 1.0_wp/HUGE_REAL) condition = max(1.0_wp/reciprocal, 1.0_wp)
    end function estimate_condition
-
-   !> Largest column sum of absolute values; 0 at order 0.
-   pure real(wp) function norm_one(a)
-      real(wp), intent(in) :: a(:, :)                    !< any shape
-      integer(ip) :: j
-
-      norm_one = 0.0_wp
-      do j = 1, size(a, 2, kind=ip)
-         norm_one = max(norm_one, sum(abs(a(:, j))))
-      end do
-   end function norm_one
 
    subroutine solve_lu_many(a, b, info)
       real(wp), intent(inout), contiguous :: a(:, :)     !< (n, n); destroyed
@@ -126,17 +104,6 @@ contains
       call dsyev('V', 'L', order(a), a, leading(a), values, work, size(work, kind=ip), info)
       call restore_halting(halting)
    end subroutine eigen_symmetric
-
-   !> Singular values in descending order; a is kept.
-   subroutine singular_values(a, values, info)
-      real(wp), intent(in) :: a(:, :)                    !< (m, n)
-      real(wp), intent(out), contiguous :: values(:)     !< (min(m, n))
-      integer(ip), intent(out) :: info
-      real(wp) :: copy(size(a, 1), size(a, 2)), vectors(1, 1)
-
-      copy = a
-      call decompose('N', 'N', copy, values, vectors, info)
-   end subroutine singular_values
 
    !> An orthonormal basis of the space of the columns (dgesvd).
    subroutine orthonormalise(a, rank, tol, info)

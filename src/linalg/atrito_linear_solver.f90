@@ -42,7 +42,6 @@ module atrito_linear_solver
       procedure(reduce_load), deferred :: reduce
       procedure(expand_solution), deferred :: expand
       procedure(count_bytes), deferred :: memory_bytes
-      procedure(get_name), nopass, deferred :: name
    end type linear_solver_t
 
    abstract interface
@@ -97,11 +96,6 @@ module atrito_linear_solver
          import :: linear_solver_t, lp
          class(linear_solver_t), intent(in) :: self
       end function count_bytes
-
-      !> 'skyline', 'banded', ...
-      pure function get_name() result(name)
-         character(len=:), allocatable :: name
-      end function get_name
 
    end interface
 

@@ -42,7 +42,6 @@ module atrito_mumps
       procedure :: reduce => reduce_by_mumps
       procedure :: expand => expand_by_mumps
       procedure :: memory_bytes => mumps_memory
-      procedure, nopass :: name => mumps_solver_name
       final :: finish_mumps
    end type mumps_t
 
@@ -359,12 +358,6 @@ contains
                                                       + REAL_BYTES*merge(int(factor, lp), -1000000_lp*int(factor, lp), factor >= 0)
       end associate
    end function mumps_memory
-
-   pure function mumps_solver_name() result(name)
-      character(len=:), allocatable :: name
-
-      name = 'mumps'
-   end function mumps_solver_name
 
    subroutine finish_mumps(self)
       type(mumps_t), intent(inout) :: self

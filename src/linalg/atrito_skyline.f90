@@ -31,7 +31,6 @@ module atrito_skyline
       procedure :: reduce => reduce_skyline
       procedure :: expand => expand_skyline
       procedure :: memory_bytes => skyline_memory
-      procedure, nopass :: name => skyline_name
    end type skyline_t
 
    !> Neighbouring columns in the making: row i of column j is g(i - top + 1, j - first + 1), zero above the profile.
@@ -315,11 +314,5 @@ contains
       skyline_memory = (size(self%values, kind=lp) + size(self%pivots, kind=lp))*int(storage_size(1.0_wp)/8, lp) &
                        + size(self%place, kind=lp)*int((storage_size(1_lp) + storage_size(1_ip))/8, lp)
    end function skyline_memory
-
-   pure function skyline_name() result(name)
-      character(len=:), allocatable :: name
-
-      name = 'skyline'
-   end function skyline_name
 
 end module atrito_skyline

@@ -33,7 +33,6 @@ module atrito_sparse_solver
       procedure :: reduce => reduce_by_fronts
       procedure :: expand => expand_by_fronts
       procedure :: memory_bytes => fronts_memory
-      procedure, nopass :: name => fronts_name
    end type sparse_t
 
 contains
@@ -213,11 +212,5 @@ contains
       if (.not. allocated(self%fronts%factors)) return
       bytes = INDEX_BYTES*(self%fronts%start(self%fronts%n_classes + 1) + self%n) + sum(held_bytes(self%fronts%factors, 0_lp))
    end function fronts_memory
-
-   pure function fronts_name() result(name)
-      character(len=:), allocatable :: name
-
-      name = 'sparse'
-   end function fronts_name
 
 end module atrito_sparse_solver

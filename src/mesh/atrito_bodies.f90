@@ -6,6 +6,7 @@ module atrito_bodies
    use atrito_dense, only: null_space
    use atrito_multifrontal, only: dissection_t, order_elements, elimination_t
    use atrito_ordering, only: graph_t, build_graph, mesh_components, order_contact_last
+   use atrito_plane_state, only: STATES
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
@@ -299,13 +300,20 @@ contains
       real(wp), allocatable :: rows(:, :)
       real(wp) :: unit_mode(3)
       integer(ip) :: i, j, dof, k, n_held, info
+      logical :: moves(3)
 
-      n_held = 0
+      moves = STATES(mesh%state(body%elements(1)))%moves
+      n_held = count(.not. moves, kind=ip)
       do i = 1, size(body%nodes, kind=ip)
          n_held = n_held + count(held(:, body%nodes(i)), kind=ip)
       end do
-      allocate (rows(n_held, 3))
+      allocate (rows(n_held, 3), source=0.0_wp)
       k = 0
+      do j = 1, 3                                   ! a motion that strains is one that supports hold
+         if (moves(j)) cycle
+         k = k + 1
+         rows(k, j) = 1.0_wp
+      end do
       do i = 1, size(body%nodes, kind=ip)
          do dof = 1, 2
             if (.not. held(dof, body%nodes(i))) cycle

@@ -9,7 +9,7 @@ module atrito_mesh
    private
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
-   public :: opposite_face_count, nodes_of_square
+   public :: opposite_face_count, has_side, nodes_of_square
    public :: side_count, middle_node, element_coordinates, signed_area
 
    type :: mesh_t
@@ -51,7 +51,7 @@ contains
 
       call add_id(mesh%node_map, id, mesh%n_nodes + 1, known)
       if (known) return
-      if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(64), mesh%x(2, 64))
+      if (.not. allocated(mesh%node_id)) call reserve_mesh(mesh, 0_ip, 0_ip)
       if (mesh%n_nodes == size(mesh%node_id)) call resize_nodes(mesh, 2*mesh%n_nodes + 64)
       mesh%n_nodes = mesh%n_nodes + 1
       mesh%node_id(mesh%n_nodes) = id
@@ -69,9 +69,7 @@ contains
 
       call add_id(mesh%element_map, id, mesh%n_elements + 1, known)
       if (known) return
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(64), mesh%shape(64), mesh%state(64), mesh%nodes(MOST_NODES, 64))
-      end if
+      if (.not. allocated(mesh%element_id)) call reserve_mesh(mesh, 0_ip, 0_ip)
       if (mesh%n_elements == size(mesh%element_id)) call resize_elements(mesh, 2*mesh%n_elements + 64)
       e = mesh%n_elements + 1
       mesh%n_elements = e
@@ -137,10 +135,7 @@ contains
    pure subroutine trim_mesh(mesh)
       type(mesh_t), intent(inout) :: mesh
 
-      if (.not. allocated(mesh%node_id)) allocate (mesh%node_id(0), mesh%x(2, 0))
-      if (.not. allocated(mesh%element_id)) then
-         allocate (mesh%element_id(0), mesh%shape(0), mesh%state(0), mesh%nodes(MOST_NODES, 0))
-      end if
+      call reserve_mesh(mesh, 0_ip, 0_ip)
       if (size(mesh%node_id) > mesh%n_nodes) call resize_nodes(mesh, mesh%n_nodes)
       if (size(mesh%element_id) > mesh%n_elements) call resize_elements(mesh, mesh%n_elements)
    end subroutine trim_mesh
@@ -222,21 +217,31 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element, face
       integer(ip), intent(in) :: elements_of_node(:) !< the elements at the face's first node
-      integer(ip) :: i, other, a, b, middle
+      integer(ip) :: i, a, b
 
       a = mesh%nodes(face, element)
       b = mesh%nodes(face_end(mesh, element, face), element)
-      middle = middle_node(mesh, element, face)
       n = 0
       do i = 1, size(elements_of_node, kind=ip)
-         associate (e => elements_of_node(i))
-            do other = 1, side_count(mesh, e)
-               if (mesh%nodes(other, e) == b .and. mesh%nodes(face_end(mesh, e, other), e) == a &
-                   .and. middle_node(mesh, e, other) == middle) n = n + 1
-            end do
-         end associate
+         if (has_side(mesh, elements_of_node(i), b, a, middle_node(mesh, element, face))) n = n + 1
       end do
    end function opposite_face_count
+
+   !> Whether an element has a side from one corner to another, with this node in its middle (0: none).
+   pure logical function has_side(mesh, element, from, to, middle)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, from, to
+      integer(ip), intent(in), optional :: middle   !< default: any or none
+      integer(ip) :: side
+
+      has_side = .false.
+      do side = 1, side_count(mesh, element)
+         if (mesh%nodes(side, element) /= from .or. mesh%nodes(face_end(mesh, element, side), element) /= to) cycle
+         has_side = .true.
+         if (present(middle)) has_side = middle_node(mesh, element, side) == middle
+         if (has_side) return
+      end do
+   end function has_side
 
    !> The nodes of an element from their square of 2 x 2 (Q1) or 3 x 3 (Q2): corners counter-clockwise, mid-sides, centre.
    pure function nodes_of_square(square) result(nodes)

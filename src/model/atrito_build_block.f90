@@ -11,7 +11,6 @@ module atrito_build_block
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
-   use atrito_element_table, only: SHAPES
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh
@@ -115,11 +114,11 @@ contains
             block%nodes(i, j) = context%model%mesh%n_nodes + n_new
          end do
       end do
-      ok = context%greatest_node <= huge(1_ip) - n_new
+      ok = context%nodes%greatest <= huge(1_ip) - n_new
       if (ok .and. n_new > 0) then
-         call add_nodes(context%model%mesh, context%greatest_node + 1, x(:, :n_new))
-         call note_places(context%node_place, context%model%mesh%n_nodes - n_new + 1, context%model%mesh%n_nodes, -i_card)
-         context%greatest_node = context%greatest_node + n_new
+         call add_nodes(context%model%mesh, context%nodes%greatest + 1, x(:, :n_new))
+         call note_places(context%nodes%place, context%model%mesh%n_nodes - n_new + 1, context%model%mesh%n_nodes, -i_card)
+         context%nodes%greatest = context%nodes%greatest + n_new
       else if (.not. ok) then
          call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', &
                            'the node numbers of the block, which follow the greatest '//'so far, are too large', keyword='BLOCK')
@@ -306,12 +305,12 @@ contains
       associate (block => context%blocks(b), i_card => context%blocks(b)%card)
          n = count_elements(block)
          block%first_element = context%model%mesh%n_elements + 1
-         ok = context%greatest_element <= huge(1_ip) - n
+         ok = context%elements%greatest <= huge(1_ip) - n
          if (ok) then
             call reserve_mesh(context%model%mesh, 0_ip, context%elements_to_come)   ! with those of the blocks that follow
-            call add_block(context%model%mesh, context%greatest_element + 1, block%state, block%order, block%nodes)
-            call note_places(context%element_place, block%first_element, context%model%mesh%n_elements, -i_card)
-            context%greatest_element = context%greatest_element + n
+            call add_block(context%model%mesh, context%elements%greatest + 1, block%state, block%order, block%nodes)
+            call note_places(context%elements%place, block%first_element, context%model%mesh%n_elements, -i_card)
+            context%elements%greatest = context%elements%greatest + n
          else
             call report_error(context%deck, context%deck%cards(i_card)%place, 'E-ID', &
                               'the element numbers of the block, which follow the '//'greatest so far, are too large', &

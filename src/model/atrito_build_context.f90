@@ -19,10 +19,10 @@ module atrito_build_context
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: build_context_t, block_t, BLOCK_SIDES
-   public :: prepare_context, add_context_block, invalidate_block, invalidate_name, invalidate_node, invalidate_element, &
-             is_invalid, is_undetermined, has_errors
-   public :: place_token, place_text, note_place, note_places, keep_token, define_name, count_cards, ids_text
+   public :: build_context_t, numbered_t, block_t, BLOCK_SIDES
+   public :: prepare_context, add_context_block, invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, &
+             has_errors
+   public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
    character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
@@ -39,6 +39,13 @@ module atrito_build_context
       logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
    end type block_t
 
+   !> What is known of the nodes or the elements by their numbers.
+   type :: numbered_t
+      type(id_map_t) :: invalid                        !< numbers whose definition is faulty
+      integer(ip) :: greatest = 0                      !< number
+      integer(ip), allocatable :: place(:)             !< of each, by its place in the mesh; > 0: token; < 0: card
+   end type numbered_t
+
    type :: build_context_t
       type(deck_t), pointer :: deck => null()
       type(model_t), pointer :: model => null()        !< so far
@@ -46,9 +53,7 @@ module atrito_build_context
       type(name_list_t) :: invalid                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
       type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
-      type(id_map_t) :: invalid_nodes, invalid_elements
-      integer(ip) :: greatest_node = 0, greatest_element = 0        !< ids
-      integer(ip), allocatable :: node_place(:), element_place(:)   !< > 0: token; < 0: card
+      type(numbered_t) :: nodes, elements
       integer(ip) :: n_blocks = 0
       type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
@@ -79,7 +84,7 @@ contains
 
       context%deck => deck
       allocate (context%blocks(64), context%set_card(0))
-      allocate (context%node_place(64), context%element_place(64))
+      allocate (context%nodes%place(64), context%elements%place(64))
       allocate (context%surfaces(0), context%materials(0), context%poisson(0), context%sections(0), context%interactions(0))
       allocate (context%slaves(0), context%masters(0))
       allocate (context%card_done(deck%n_cards), source=.false.)
@@ -190,8 +195,8 @@ contains
 
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (context%deck%lines(i)%n_tokens == 0) cycle
-         call invalidate_node(context%deck%lines(i), context)
-         call invalidate_element(context%deck%lines(i), context)
+         call spoil_number(context%deck, context%deck%lines(i), context%nodes)
+         call spoil_number(context%deck, context%deck%lines(i), context%elements)
       end do
    end subroutine invalidate_numbers
 
@@ -202,7 +207,6 @@ contains
       if (.not. has_name(context%undetermined, noun)) call add_name(context%undetermined, noun)
    end subroutine note_undetermined
 
-   !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
    !> A block that could not be made: its sets, and the numbers of nodes and elements from there on.
    subroutine invalidate_block(context, name)
       type(build_context_t), intent(inout) :: context
@@ -213,6 +217,7 @@ contains
       call note_undetermined(context, 'element')
    end subroutine invalidate_block
 
+   !> Passes over, in silence, all that refers to this name or to the sides of a block of this name.
    subroutine invalidate_name(context, name)
       type(build_context_t), intent(inout) :: context
       character(len=*), intent(in) :: name
@@ -220,26 +225,11 @@ contains
       call add_name(context%invalid, name)
    end subroutine invalidate_name
 
-   !> Passes over, in silence, all that refers to the node with which a data line begins.
-   subroutine invalidate_node(line, context)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-
-      call invalidate_id(context%deck, line, context%invalid_nodes)
-   end subroutine invalidate_node
-
-   !> As invalidate_node for an element.
-   subroutine invalidate_element(line, context)
-      type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(inout) :: context
-
-      call invalidate_id(context%deck, line, context%invalid_elements)
-   end subroutine invalidate_element
-
-   subroutine invalidate_id(deck, line, map)
+   !> Passes over, in silence, all that refers to the number with which a data line begins.
+   subroutine spoil_number(deck, line, numbered)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
-      type(id_map_t), intent(inout) :: map
+      type(numbered_t), intent(inout) :: numbered
       integer(ip) :: id
       character(len=:), allocatable :: text
       integer :: outcome
@@ -249,8 +239,8 @@ contains
       text = token_text(deck, deck%tokens(line%first_token))
       text = text(verify(text//' ', '-'):)             ! -6 and 6.0 are meant to be 6
       call read_integer(text(:scan(text//'.', '.') - 1), id, outcome)
-      if (outcome == NUMBER_OK .and. id > 0) call add_id(map, id, 1_ip, known)
-   end subroutine invalidate_id
+      if (outcome == NUMBER_OK .and. id > 0) call add_id(numbered%invalid, id, 1_ip, known)
+   end subroutine spoil_number
 
    !> True when a name, or that of the block whose side or copy it is, is to be passed over in silence.
    logical function is_invalid(context, name)
@@ -320,6 +310,28 @@ contains
       text = 'line '//to_text(token%line)
       if (token%source /= from%source) text = text//' of '//deck%sources(token%source)%name
    end function place_text
+
+   !> Keeps where the i-th node or element comes from; a number given twice is an error, i being the place of the earlier one.
+   subroutine note_number(deck, numbered, noun, id, i, place, known, keyword)
+      type(deck_t), intent(in) :: deck
+      type(numbered_t), intent(inout) :: numbered
+      character(len=*), intent(in) :: noun             !< 'node' or 'element'
+      integer(ip), intent(in) :: id, i
+      integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
+      logical, intent(in) :: known                     !< the number is given twice
+      character(len=*), intent(in) :: keyword
+      type(token_t) :: token
+
+      if (known) then
+         token = place_token(deck, place)
+         call report_error(deck, token, 'E-TWICE', noun//' '//to_text(id)//' is given twice, first in '// &
+                           place_text(deck, place_token(deck, numbered%place(i)), token), &
+                           expected=trim(merge('an', 'a ', noun == 'element'))//' '//noun//' number that is free', keyword=keyword)
+      else
+         call note_place(numbered%place, i, place)
+         numbered%greatest = max(numbered%greatest, id)
+      end if
+   end subroutine note_number
 
    !> Keeps where the i-th node or element comes from, i counting up.
    pure subroutine note_place(places, i, place)

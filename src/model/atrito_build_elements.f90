@@ -2,8 +2,7 @@
 module atrito_build_elements
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, invalidate_element, place_token, place_text, note_place, has_errors, &
-                                   is_undetermined
+   use atrito_build_context, only: build_context_t, spoil_number, note_number, has_errors, is_undetermined
    use atrito_element_table, only: KINDS, kind_named
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
@@ -56,7 +55,7 @@ contains
             if (ok .and. context%deck%lines(i)%ok) then
                call read_element_line(context%deck%lines(i), n_nodes, state, context)
             else
-               call invalidate_element(context%deck%lines(i), context)
+               call spoil_number(context%deck, context%deck%lines(i), context%elements)
             end if
          end do
          call put_named_set(context%deck, card, context%model, [(i, i=first, context%model%mesh%n_elements)])
@@ -77,7 +76,7 @@ contains
          if (ok) good = is_new_corner(context%deck, line, nodes(:i)) .and. good
       end do
       if (good) call place_element(context, id, state, nodes, line%first_token, good, 'ELEMENT')
-      if (.not. good) call invalidate_element(line, context)
+      if (.not. good) call spoil_number(context%deck, line, context%elements)
    end subroutine read_element_line
 
    !> The last of an element's nodes so far is none of the earlier ones.
@@ -102,20 +101,14 @@ contains
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
-      type(token_t) :: token, earlier
+      integer(ip) :: i
       logical :: known
 
       call add_element(context%model%mesh, id, state, nodes, known)
       ok = .not. known
-      if (known) then
-         token = place_token(context%deck, place)
-         earlier = place_token(context%deck, context%element_place(find_element(context%model%mesh, id)))
-         call report_error(context%deck, token, 'E-TWICE', 'element '//to_text(id)//' is given twice, first in '// &
-                           place_text(context%deck, earlier, token), expected='an element number that is free', keyword=keyword)
-         return
-      end if
-      call note_place(context%element_place, context%model%mesh%n_elements, place)
-      context%greatest_element = max(context%greatest_element, id)
+      i = context%model%mesh%n_elements
+      if (known) i = find_element(context%model%mesh, id)
+      call note_number(context%deck, context%elements, 'element', id, i, place, known, keyword)
    end subroutine place_element
 
    !> The set that ELSET= of a card names.
@@ -253,7 +246,7 @@ contains
       integer(lp), intent(in) :: id
 
       is_invalid_node = has_errors() .and. id > 0_lp .and. id <= int(huge(1_ip), lp)
-      if (is_invalid_node) is_invalid_node = find_id(context%invalid_nodes, int(id, ip)) > 0
+      if (is_invalid_node) is_invalid_node = find_id(context%nodes%invalid, int(id, ip)) > 0
    end function is_invalid_node
 
 end module atrito_build_elements

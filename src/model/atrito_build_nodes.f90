@@ -3,7 +3,7 @@ module atrito_build_nodes
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, invalidate_node, place_token, place_text, note_place
+   use atrito_build_context, only: build_context_t, spoil_number, note_number, note_place
    use atrito_items, only: get_integer, get_real, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
@@ -60,7 +60,7 @@ contains
       if (all(ok)) then
          call place_node(context, id, x, line%first_token, ok(1), 'NODE')
       else
-         call invalidate_node(line, context)
+         call spoil_number(context%deck, line, context%nodes)
       end if
    end subroutine read_node_line
 
@@ -72,20 +72,14 @@ contains
       integer(ip), intent(in) :: place                 !< token (> 0) or card (< 0) of the deck
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
-      type(token_t) :: token, earlier
+      integer(ip) :: i
       logical :: known
 
       call add_node(context%model%mesh, id, x, known)
       ok = .not. known
-      if (known) then
-         token = place_token(context%deck, place)
-         earlier = place_token(context%deck, context%node_place(find_node(context%model%mesh, id)))
-         call report_error(context%deck, token, 'E-TWICE', 'node '//to_text(id)//' is given twice, first in '// &
-                           place_text(context%deck, earlier, token), expected='a node number that is free', keyword=keyword)
-         return
-      end if
-      call note_place(context%node_place, context%model%mesh%n_nodes, place)
-      context%greatest_node = max(context%greatest_node, id)
+      i = context%model%mesh%n_nodes
+      if (known) i = find_node(context%model%mesh, id)
+      call note_number(context%deck, context%nodes, 'node', id, i, place, known, keyword)
    end subroutine place_node
 
    !> Puts nodes into a node set and keeps which card made it.

@@ -116,11 +116,11 @@ contains
             if (.not. has_option(context%deck, card, 'GENERATE')) then
                call read_items(context%deck%lines(i), i_card, context, members)
             else if (keyword == 'NSET') then
-               call read_range(context%deck, context%deck%lines(i), context%model%mesh%node_map, context%invalid_nodes, 'node', &
+               call read_range(context%deck, context%deck%lines(i), context%model%mesh%node_map, context%nodes%invalid, 'node', &
                                keyword, &
                                members)
             else
-               call read_range(context%deck, context%deck%lines(i), context%model%mesh%element_map, context%invalid_elements, &
+               call read_range(context%deck, context%deck%lines(i), context%model%mesh%element_map, context%elements%invalid, &
                                'element', &
                                keyword, members)
             end if

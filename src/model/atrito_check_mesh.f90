@@ -1,14 +1,15 @@
 !> Checks of the finished mesh: shapes, sections, loose nodes, materials in use.
 module atrito_check_mesh
-   use atrito_check_edges, only: check_edges
    use atrito_check_shapes, only: check_shapes
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note, report_deck_error
    use atrito_build_context, only: build_context_t, place_token, ids_text, has_errors
-   use atrito_element_table, only: SHAPES, STATES, can_average
+   use atrito_element_table, only: SHAPES, DEGREE_OF, can_average
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t, side_count, face_end, has_side, middle_node
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_plane_state, only: STATES
    use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -55,7 +56,7 @@ contains
          call add_number(without, model%mesh%element_id(e))
       end do
       if (first == 0) return
-      place = place_token(context%deck, context%element_place(first))
+      place = place_token(context%deck, context%elements%place(first))
       call report_error(context%deck, place, 'E-SECTION', 'no *SOLID SECTION for element '//ids_text(numbers_of(without)), &
                         expected='one *SOLID SECTION for each element', keyword='SOLID SECTION')
    end subroutine check_sections
@@ -154,8 +155,61 @@ contains
          call add_number(loose, model%mesh%node_id(i))
       end do
       if (first == 0 .or. has_errors()) return
-      call report_note(context%deck, place_token(context%deck, context%node_place(first)), 'N-NODE', 'node '// &
+      call report_note(context%deck, place_token(context%deck, context%nodes%place(first)), 'N-NODE', 'node '// &
                        ids_text(numbers_of(loose))//' belongs to no element and has no unknowns', keyword='NODE')
    end subroutine note_loose_nodes
+
+   !> Elements that have an edge in common have all nodes of it in common: four-node beside nine-node elements, or large ones of
+   !> nine nodes beside small ones, would leave a crack between common corners that nobody sees in a list of nodes. Those that do
+   !> not fit their neighbours are told, all in one message.
+   subroutine check_edges(model, context)
+      type(model_t), intent(in) :: model
+      type(build_context_t), intent(in) :: context
+      logical, allocatable :: misfit(:)
+      type(number_list_t) :: ids
+      integer(ip) :: e, first
+
+      if (all(DEGREE_OF(model%mesh%shape(:model%mesh%n_elements)) == 1)) return
+      allocate (misfit(model%mesh%n_elements), source=.false.)
+      do e = 1, model%mesh%n_elements
+         if (SHAPES(model%mesh%shape(e))%degree > 1) call compare_neighbours(model%mesh, context, e, misfit)
+      end do
+      first = findloc(misfit, .true., dim=1, kind=ip)
+      if (first == 0) return
+      do e = first, model%mesh%n_elements
+         if (misfit(e)) call add_number(ids, model%mesh%element_id(e))
+      end do
+      call report_error(context%deck, place_token(context%deck, context%elements%place(first)), 'E-EDGE', 'element '// &
+                        ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
+                        expected='elements of one order and size on both sides of an edge (CPE4 or CPE9, CPS4 or CPS9), '// &
+                        'or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
+   end subroutine check_edges
+
+   !> Marks the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its middle
+   !> as something else than the middle of the same edge; of two such elements the one that comes later.
+   pure subroutine compare_neighbours(mesh, context, element, misfit)
+      type(mesh_t), intent(in) :: mesh
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: element
+      logical, intent(inout) :: misfit(:)
+      integer(ip) :: face, k, other, middle
+
+      do face = 1, side_count(mesh, element)
+         associate (a => mesh%nodes(face, element), b => mesh%nodes(face_end(mesh, element, face), element), &
+                    first => context%around%first)
+            middle = middle_node(mesh, element, face)
+            do k = first(middle), first(middle + 1) - 1
+               other = context%around%list(k)
+               if (other == element .or. has_side(mesh, other, b, a, middle)) cycle
+               misfit(max(element, other)) = .true.
+            end do
+            do k = first(a), first(a + 1) - 1
+               other = context%around%list(k)
+               if (.not. has_side(mesh, other, b, a) .or. has_side(mesh, other, b, a, middle)) cycle
+               misfit(max(element, other)) = .true.
+            end do
+         end associate
+      end do
+   end subroutine compare_neighbours
 
 end module atrito_check_mesh

@@ -45,7 +45,7 @@ contains
             if (shape == SHAPE_GOOD) cycle
             n = n + 1
             if (n <= MOST_ERRORS) call report_shape(context%deck, mesh, e, shape, node, place_token(context%deck, &
-                                                                                                    context%element_place(e)))
+                                                                                                    context%elements%place(e)))
          end do
       end do
       if (n > MOST_ERRORS) call report_deck_error(context%deck, 'E-SHAPE', to_text(n - int(MOST_ERRORS, ip))// &

@@ -1,12 +1,12 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
 module atrito_model
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_points, only: contact_points_t
    use atrito_strings, only: string_t
    use atrito_mesh, only: mesh_t
    use atrito_sets, only: set_list_t
    use atrito_faces, only: face_list_t
-   use atrito_elasticity, only: FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    implicit none (type, external)
    private

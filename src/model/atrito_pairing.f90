@@ -38,7 +38,6 @@ contains
       type(contact_points_t), allocatable, intent(out) :: points(:)
       type(master_t), allocatable :: masters(:)        ! of the surfaces
       logical :: is_master(size(model%surfaces))
-      type(face_list_t) :: no_faces
       real(wp), allocatable :: thickness(:)
       integer(ip) :: i
 
@@ -60,11 +59,7 @@ contains
       do i = 1, size(points, kind=ip)
          associate (slave => model%surfaces(model%pairs(i)%slave)%faces, surface => model%surfaces(model%pairs(i)%master), &
                     master => masters(model%pairs(i)%master))
-            if (surface%kind == SURFACE_SEGMENTS) then
-               call make_points(model, thickness, model%pairs(i)%quadrature, slave, no_faces, master, points(i))
-            else
-               call make_points(model, thickness, model%pairs(i)%quadrature, slave, surface%faces, master, points(i))
-            end if
+            call make_points(model, thickness, model%pairs(i)%quadrature, slave, surface%faces, master, points(i))
          end associate
       end do
    end subroutine pair_all

@@ -3,7 +3,7 @@
 module atrito_references
    use atrito_deck, only: deck_t, token_t, token_text, is_id_token
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, is_invalid, is_undetermined, has_errors
+   use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, get_name
    use atrito_kinds, only: ip
@@ -12,7 +12,7 @@ module atrito_references
    use atrito_name_list, only: name_list_t, names_of
    use atrito_refinement, only: fine_elements, is_refined
    use atrito_sets, only: set_list_t, find_set
-   use atrito_strings, only: to_text
+   use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
    public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, report_unknown
@@ -49,11 +49,7 @@ contains
       if (.not. ok) return
       node = find_node(context%model%mesh, id)
       ok = node > 0
-      if (ok) return
-      if (has_errors() .and. find_id(context%invalid_nodes, id) > 0 .or. is_undetermined(context, 'node')) return
-      call report_error(context%deck, token, 'E-NODE', 'node '//to_text(id)//' does not exist', &
-                        expected='the number of a node that *NODE, *NGEN, *NFILL or *BLOCK defines ('// &
-                        range_text(context%model%mesh%n_nodes, 'node', context%greatest_node)//')', keyword=keyword)
+      if (.not. ok) call report_missing(context, token, context%nodes, 'node', id, context%model%mesh%n_nodes, keyword)
    end subroutine find_one_node
 
    !> The place of the element whose number an item is, in the mesh of the deck.
@@ -74,24 +70,28 @@ contains
          element = find_element(context%model%mesh, id)
       end if
       ok = element > 0
-      if (ok) return
-      if (has_errors() .and. find_id(context%invalid_elements, id) > 0 .or. is_undetermined(context, 'element')) return
-      call report_error(context%deck, token, 'E-ELEMENT', 'element '//to_text(id)//' does not exist', &
-                        expected='the number of an element that *ELEMENT, *ELGEN or *BLOCK defines ('// &
-                        range_text(context%model%mesh%n_elements, 'element', context%greatest_element)//')', keyword=keyword)
+      if (.not. ok) call report_missing(context, token, context%elements, 'element', id, context%model%mesh%n_elements, keyword)
    end subroutine find_one_element
 
-   pure function range_text(n, noun, greatest) result(text)
-      integer(ip), intent(in) :: n, greatest
-      character(len=*), intent(in) :: noun
-      character(len=:), allocatable :: text
+   !> A number that no node or element has, unless an earlier error explains it.
+   subroutine report_missing(context, token, numbered, noun, id, n, keyword)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token
+      type(numbered_t), intent(in) :: numbered
+      character(len=*), intent(in) :: noun             !< 'node' or 'element'
+      integer(ip), intent(in) :: id
+      integer(ip), intent(in) :: n                     !< how many there are
+      character(len=*), intent(in) :: keyword
+      character(len=:), allocatable :: makers, known
 
-      if (n == 0) then
-         text = 'there is none'
-      else
-         text = to_text(n)//' '//noun//'s, the greatest '//to_text(greatest)
-      end if
-   end function range_text
+      if (has_errors() .and. find_id(numbered%invalid, id) > 0 .or. is_undetermined(context, noun)) return
+      makers = '*NODE, *NGEN, *NFILL or *BLOCK'
+      if (noun == 'element') makers = '*ELEMENT, *ELGEN or *BLOCK'
+      known = to_text(n)//' '//noun//'s, the greatest '//to_text(numbered%greatest)
+      if (n == 0) known = 'there is none'
+      call report_error(context%deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id)//' does not exist', &
+                        expected='the number of '//article(noun)//noun//' that '//makers//' defines ('//known//')', keyword=keyword)
+   end subroutine report_missing
 
    !> The places of the nodes that an item names: a number or a node set.
    subroutine find_nodes(context, token, members, ok, keyword)

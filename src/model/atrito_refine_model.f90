@@ -85,15 +85,15 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip) :: places(coarse%n_elements), e, k, node, children
 
-      places = context%element_place(:coarse%n_elements)
+      places = context%elements%place(:coarse%n_elements)
       children = context%refinement%pieces**2
-      call note_place(context%node_place, fine%n_nodes, 0_ip)
-      context%node_place(coarse%n_nodes + 1:) = 0
+      call note_place(context%nodes%place, fine%n_nodes, 0_ip)
+      context%nodes%place(coarse%n_nodes + 1:) = 0
       do e = fine%n_elements, 1, -1
-         call note_place(context%element_place, e, places((e - 1)/children + 1))
+         call note_place(context%elements%place, e, places((e - 1)/children + 1))
          do k = 1, fine%shape(e)
             node = fine%nodes(k, e)
-            if (node > coarse%n_nodes) context%node_place(node) = context%element_place(e)
+            if (node > coarse%n_nodes) context%nodes%place(node) = context%elements%place(e)
          end do
       end do
    end subroutine keep_places

@@ -16,7 +16,7 @@ module atrito_listing
    use atrito_model_report, only: describe_model
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields, &
-                             scales_of_pair
+                             scales_of_pair, pair_name
    use atrito_table, only: ZERO_SHARE
    implicit none (type, external)
    private
@@ -229,24 +229,13 @@ contains
       scales = measure_fields(model, results)
       do i = 1, size(results%contact, kind=ip)
          if (i > 1) call add_blank(page)
-         call add_line(page, '   pair '//to_text(i)//pair_name(results, i))
+         call add_line(page, '   pair '//to_text(i)//': '//pair_name(results, i))
          list = pair_quantities(summarise_pair(results%contact(i)), scales_of_pair(scales, results%contact(i)))
          do j = 1, size(list)
             call add_quantity(page, list(j))
          end do
       end do
    end subroutine add_contact
-
-   pure function pair_name(results, i) result(text)
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: i
-      character(len=:), allocatable :: text
-
-      text = ''
-      if (.not. allocated(results%scene%pairs)) return
-      if (i > size(results%scene%pairs)) return
-      text = ': '//results%scene%pairs(i)%slave//' on '//results%scene%pairs(i)%master
-   end function pair_name
 
    subroutine add_quantity(page, quantity)
       type(page_t), intent(inout) :: page

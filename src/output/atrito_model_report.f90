@@ -2,6 +2,7 @@
 module atrito_model_report
    use atrito_element_table, only: KINDS, kind_of
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: depth_at
    use atrito_strings, only: to_text
    use atrito_mesh, only: face_end
    use atrito_sets, only: set_count
@@ -221,7 +222,7 @@ contains
       face = model%element_loads%face(i)
       a = model%mesh%x(:, model%mesh%nodes(face, e))
       b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
-      push = model%element_loads%value(1, i)*model%sections(model%section_of(e))%thickness
+      push = model%element_loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
       call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
    end subroutine add_pressure
 
@@ -229,7 +230,7 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                  !< place in model%element_loads
       type(force_t), intent(inout) :: force
-      real(wp) :: x(2, 4), area
+      real(wp) :: x(2, 4), middle(2), area
       integer(ip) :: e, k
 
       e = model%element_loads%element(i)
@@ -238,10 +239,18 @@ contains
          associate (d => x(:, k - 1) - x(:, 1), g => x(:, k) - x(:, 1))
             area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
          end associate
-         call add_to(force, area*model%sections(model%section_of(e))%thickness*model%element_loads%value(:, i), &
-                     (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp)
+         middle = (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp
+         call add_to(force, area*depth_of(model, e, middle(1))*model%element_loads%value(:, i), middle)
       end do
    end subroutine add_body_force
+
+   pure real(wp) function depth_of(model, e, x1)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: x1
+
+      depth_of = depth_at(model%mesh%state(e), model%sections(model%section_of(e))%thickness, x1)
+   end function depth_of
 
    subroutine describe_interactions(page, model)
       type(page_t), intent(inout) :: page

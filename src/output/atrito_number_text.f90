@@ -46,21 +46,11 @@ contains
       end do
    end function integer_width
 
-   !> Writes a real to the right end of a field: d.ddde+dd, `0`, `nan` or `inf`.
+   !> Writes a real to the right end of a field that is blank: d.ddde+dd, `0`, `nan` or `inf`.
    pure subroutine put_real(x, digits, field)
       real(wp), intent(in) :: x
       integer, intent(in) :: digits                !< LEAST_DIGITS..MOST_DIGITS
-      character(len=*), intent(out) :: field       !< at least real_width(digits) long
-
-      field = ''
-      call fill_real(x, digits, field)
-   end subroutine put_real
-
-   !> As put_real in a field that is blank.
-   pure subroutine fill_real(x, digits, field)
-      real(wp), intent(in) :: x
-      integer, intent(in) :: digits
-      character(len=*), intent(inout) :: field
+      character(len=*), intent(inout) :: field     !< at least real_width(digits) long
       integer(lp) :: mantissa
       integer :: exponent_of_ten
       logical :: decided
@@ -73,7 +63,7 @@ contains
       else
          call lay_out(x < 0.0_wp, mantissa, digits, exponent_of_ten, field)
       end if
-   end subroutine fill_real
+   end subroutine put_real
 
    !> Writes a column of reals: one to a field, which is blank, of each line.
    pure subroutine put_reals(x, smallest, digits, first, last, lines)
@@ -103,7 +93,7 @@ contains
       if (bits_of(x) == 0_lp .or. bits_of(x) < bits_of(smallest)) then
          field(len(field):len(field)) = '0'
       else
-         call fill_real(x, digits, field)
+         call put_real(x, digits, field)
       end if
    end subroutine fill_real_or_zero
 
@@ -115,12 +105,12 @@ contains
       integer(ip) :: i
 
       if (size(list) == 0) return
-      call fill_integer(list(1), lines(1) (first:last))
+      call put_integer(list(1), lines(1) (first:last))
       do i = 2, size(list, kind=ip)
          if (list(i) == list(i - 1)) then
             lines(i) (first:last) = lines(i - 1) (first:last)
          else
-            call fill_integer(list(i), lines(i) (first:last))
+            call put_integer(list(i), lines(i) (first:last))
          end if
       end do
    end subroutine put_integers
@@ -132,19 +122,10 @@ contains
       bits = iand(transfer(x, 0_lp), MAGNITUDE)
    end function bits_of
 
-   !> Writes an integer to the right end of a field.
+   !> Writes an integer to the right end of a field that is blank.
    pure subroutine put_integer(i, field)
       integer(ip), intent(in) :: i
-      character(len=*), intent(out) :: field       !< at least integer_width(i) long
-
-      field = ''
-      call fill_integer(i, field)
-   end subroutine put_integer
-
-   !> As put_integer in a field that is blank.
-   pure subroutine fill_integer(i, field)
-      integer(ip), intent(in) :: i
-      character(len=*), intent(inout) :: field
+      character(len=*), intent(inout) :: field     !< at least integer_width(i) long
       integer(lp) :: rest
       integer :: place
 
@@ -157,7 +138,7 @@ contains
          if (rest == 0_lp) exit
       end do
       if (i < 0) field(place:place) = '-'
-   end subroutine fill_integer
+   end subroutine put_integer
 
    !> A real without blanks round it.
    pure function trimmed_real(x, digits) result(text)
@@ -166,6 +147,7 @@ contains
       character(len=:), allocatable :: text
       character(len=MOST_DIGITS + 7) :: field
 
+      field = ''
       call put_real(x, digits, field)
       text = trim(adjustl(field))
    end function trimmed_real

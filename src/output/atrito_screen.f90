@@ -12,7 +12,7 @@ module atrito_screen
    use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
                           plural
    use atrito_plot_files, only: plot_folder
-   use atrito_summary, only: pair_summary_t, summarise_pair, body_count, pair_count
+   use atrito_summary, only: pair_summary_t, summarise_pair, body_count, pair_count, pair_name
    implicit none (type, external)
    private
    public :: compose_summary, compose_check
@@ -243,7 +243,7 @@ contains
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
       do i = 1, shown
-         call add_pair(page, pair_label(results, i), summarise_pair(results%contact(i)))
+         call add_pair(page, to_text(i)//' '//pair_name(results, i), summarise_pair(results%contact(i)))
       end do
       if (shown < size(results%contact)) then
          call add_line(page, '... and '//to_text(size(results%contact, kind=ip) - shown)//' more pairs in the listing')
@@ -271,17 +271,6 @@ contains
                                '; '//to_text(summary%open_points)//' open, '//to_text(summary%stick_points)// &
                                ' stick, '//to_text(summary%slip_points)//' slip', WIDTH))
    end subroutine add_pair
-
-   pure function pair_label(results, i) result(text)
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: i
-      character(len=:), allocatable :: text
-
-      text = 'pair '//to_text(i)
-      if (.not. allocated(results%scene%pairs)) return
-      if (i > size(results%scene%pairs)) return
-      text = to_text(i)//' '//results%scene%pairs(i)%slave//' on '//results%scene%pairs(i)%master
-   end function pair_label
 
    subroutine add_closing(page, folder, files)
       type(page_t), intent(inout) :: page

@@ -10,7 +10,7 @@ module atrito_summary
    private
    public :: pair_summary_t, quantity_t, scales_t
    public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields, scales_of_pair
-   public :: pair_count, body_count
+   public :: pair_count, pair_name, body_count
 
    !> What the contact tractions of one pair come to.
    type :: pair_summary_t
@@ -204,6 +204,17 @@ contains
       pair_count = 0
       if (allocated(results%contact)) pair_count = size(results%contact, kind=ip)
    end function pair_count
+
+   !> `SLAVE on MASTER`; nothing where the scene is not known.
+   pure function pair_name(results, i) result(name)
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: i
+      character(len=:), allocatable :: name
+
+      name = ''
+      if (.not. allocated(results%scene%pairs)) return
+      if (i <= size(results%scene%pairs)) name = results%scene%pairs(i)%slave//' on '//results%scene%pairs(i)%master
+   end function pair_name
 
    pure integer(ip) function body_count(scene)
       type(scene_t), intent(in) :: scene

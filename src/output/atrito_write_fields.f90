@@ -3,6 +3,7 @@ module atrito_write_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_element_table, only: SHAPES, MOST_NODES
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_status, only: status_t, is_ok
@@ -11,7 +12,7 @@ module atrito_write_fields
    use atrito_model, only: model_t
    use atrito_results, only: results_t, contact_result_t
    use atrito_table, only: origin_t
-   use atrito_write_tables, only: origin_of, stress_rows, STRESS_NAMES
+   use atrito_write_tables, only: origin_of, stress_rows
    use atrito_hdf5, only: hdf5_file_t, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
    use atrito_xdmf, only: xdmf_grid_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
    implicit none (type, external)

@@ -1,29 +1,35 @@
 !> The tables of a run, docs/user/tables.md: what is in them and when each is written.
 module atrito_write_tables
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, iteration_t
+   use atrito_results, only: results_t, contact_result_t, iteration_t, body_motion_t
    use atrito_number_text, only: trimmed_real
-   use atrito_resultant_tables, only: build_bodies, build_joints
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, &
                              measure_fields, scales_of_pair, pair_count
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_real_columns, add_field, add_integers, &
                            add_integer_field, add_words, write_table, clear_small, abs_is_below, one_word, ZERO_SHARE
    implicit none (type, external)
    private
-   public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES, STRESS_NAMES
+   public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES
 
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(9) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
                                                                                          'bodies', 'joints', 'iterations', 'timing']
 
+   !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
+   integer, parameter :: BEFORE_STATUS = 8
+   character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', &
+                                                                                     'weighted_pressure', 'shear', 'slip', 'weight']
+   character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', &
+                                                                                                                         'L', 'L^2']
+
    !> The rows of results%stress.
-   character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises']
 
 contains
 
@@ -106,12 +112,9 @@ contains
       integer(ip), allocatable :: pair(:), point(:), point_status(:)
       real(wp), allocatable :: field(:, :)
       integer(ip) :: first, last, n, i, j
-      character(len=17), parameter :: NAMES(8) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', 'weighted_pressure', &
-                                                                                                                   'shear', 'slip']
-      character(len=5), parameter :: DIMENSIONS(8) = ['L    ', 'L    ', 'L    ', 'L    ', 'F/L^2', 'F/L^2', 'F/L^2', 'L    ']
 
       n = sum(results%contact%n)
-      allocate (pair(n), point(n), point_status(n), field(n, 9))
+      allocate (pair(n), point(n), point_status(n), field(n, size(CONTACT_NAMES)))
       last = 0
       do i = 1, pair_count(results)
          first = last + 1
@@ -119,47 +122,46 @@ contains
          pair(first:last) = i
          point(first:last) = [(j, j=1, results%contact(i)%n)]
          point_status(first:last) = results%contact(i)%status(:results%contact(i)%n)
-         call copy_fields(field(first:last, :), results, i)
-         call clear_rounding(field(first:last, :), scales_of_pair(scales, results%contact(i)))
+         call copy_fields(results%contact(i), scales_of_pair(scales, results%contact(i)), field(first:last, :))
       end do
       call begin_table(table, 'contact', 'a row a quadrature point of the slave surface', n)
       call add_integers(table, 'step', spread(results%step, 1, n))
       call add_integers(table, 'pair', pair)
       call add_integers(table, 'point', point)
-      call add_real_columns(table, NAMES, DIMENSIONS, field(:, :8))
+      call add_real_columns(table, CONTACT_NAMES(:BEFORE_STATUS), CONTACT_DIMENSIONS(:BEFORE_STATUS), field)
       call add_integers(table, 'status', point_status)
-      call add_reals(table, 'weight', 'L^2', field(:, 9), 0.0_wp)
+      call add_real_columns(table, CONTACT_NAMES(BEFORE_STATUS + 1:), CONTACT_DIMENSIONS(BEFORE_STATUS + 1:), &
+                            field(:, BEFORE_STATUS + 1:))
    end subroutine build_contact
 
-   !> What is rounding in the fields of a pair becomes 0.
-   pure subroutine clear_rounding(field, own)
-      real(wp), intent(inout) :: field(:, :)
+   !> What a pair has in the columns CONTACT_NAMES; what is rounding in it becomes 0.
+   subroutine copy_fields(contact, own, field)
+      type(contact_result_t), intent(in) :: contact
       type(scales_t), intent(in) :: own              !< scales of the pair
-      real(wp) :: scale(8)
+      real(wp), intent(out) :: field(:, :)
       integer :: k
 
-      scale = [spread(own%length, 1, 3), own%displacement, spread(own%pressure, 1, 3), own%slip]
-      do k = 1, size(scale)
-         call clear_small(scale(k), field(:, k))
-      end do
-   end subroutine clear_rounding
+      k = 0
+      call copy(contact%s, own%length)
+      call copy(contact%x(1, :), own%length)
+      call copy(contact%x(2, :), own%length)
+      call copy(contact%gap, own%displacement)
+      call copy(contact%pressure, own%pressure)
+      call copy(contact%weighted_pressure, own%pressure)
+      call copy(contact%shear, own%pressure)
+      call copy(contact%slip, own%slip)
+      call copy(contact%weight, 0.0_wp)
 
-   pure subroutine copy_fields(field, results, i)
-      real(wp), intent(out) :: field(:, :)
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: i
+   contains
 
-      associate (contact => results%contact(i), n => results%contact(i)%n)
-         field(:, 1) = contact%s(:n)
-         field(:, 2) = contact%x(1, :n)
-         field(:, 3) = contact%x(2, :n)
-         field(:, 4) = contact%gap(:n)
-         field(:, 5) = contact%pressure(:n)
-         field(:, 6) = contact%weighted_pressure(:n)
-         field(:, 7) = contact%shear(:n)
-         field(:, 8) = contact%slip(:n)
-         field(:, 9) = contact%weight(:n)
-      end associate
+      subroutine copy(values, scale)
+         real(wp), intent(in) :: values(:), scale
+
+         k = k + 1
+         field(:, k) = values(:contact%n)
+         call clear_small(scale, field(:, k))
+      end subroutine copy
+
    end subroutine copy_fields
 
    !> A row a quantity: the pairs, then the step as pair 0.
@@ -360,5 +362,82 @@ contains
       call add_reals(table, 'cpu', 's', [phases%cpu, sum(phases%cpu)], 0.0_wp)
       call write_table(set, table, origin_of(model, results), digits, status)
    end subroutine write_timing
+
+   !> A row a body.
+   subroutine build_bodies(results, scales, table)
+      type(results_t), intent(in) :: results        !< with bodies
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      character(len=8), parameter :: GROUPS(3) = ['loads   ', 'supports', 'contact ']
+      type(string_t) :: names(size(results%bodies))
+      real(wp) :: field(size(results%bodies), 12), force
+      integer(ip) :: i, n
+      integer :: k
+
+      n = size(results%bodies, kind=ip)
+      force = largest_force(results%bodies)
+      do i = 1, n
+         associate (body => results%bodies(i))
+            names(i)%s = one_word(body%name)
+            field(i, :) = [body%u, body%rotation, body%loads, body%supports, body%contact]
+            call clear_small(scales%displacement, field(i, 1:2))
+            call clear_small(scales%displacement/body%size, field(i, 3:3))
+            do k = 4, 10, 3
+               call clear_small(max(force, body%terms(1)), field(i, k:k + 1))
+               call clear_small(max(force*body%size, body%terms(2)), field(i, k + 2:k + 2))
+            end do
+         end associate
+      end do
+      call begin_table(table, 'bodies', 'a row a body: its best rigid motion, resultants and moments about its centre', n)
+      call add_integers(table, 'step', [results%step])
+      call add_integers(table, 'body', [(i, i=1, n)])
+      call add_words(table, 'name', '-', names, on_the_left=.true.)
+      call add_real_columns(table, ['u1      ', 'u2      ', 'rotation'], ['L', 'L', '-'], field(:, :3))
+      do k = 1, size(GROUPS)
+         call add_real_columns(table, trim(GROUPS(k))//['_fx    ', '_fy    ', '_moment'], ['F  ', 'F  ', 'F*L'], &
+                               field(:, 3*k + 1:3*k + 3))
+      end do
+   end subroutine build_bodies
+
+   !> Largest component of the resultants.
+   pure real(wp) function largest_force(bodies) result(largest)
+      type(body_motion_t), intent(in) :: bodies(:)
+      integer(ip) :: i
+
+      largest = 0.0_wp
+      do i = 1, size(bodies, kind=ip)
+         largest = max(largest, maxval(abs([bodies(i)%loads(:2), bodies(i)%supports(:2), bodies(i)%contact(:2)])))
+      end do
+   end function largest_force
+
+   !> A row a joint.
+   subroutine build_joints(results, scales, table)
+      type(results_t), intent(in) :: results        !< with joints
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      type(scales_t) :: own
+      real(wp) :: field(size(results%joints), 7)
+      integer(ip) :: i, n
+
+      n = size(results%joints, kind=ip)
+      do i = 1, n
+         associate (joint => results%joints(i))
+            own = scales_of_pair(scales, results%contact(joint%pair))
+            field(i, :) = [joint%n, joint%t, joint%m, joint%place, joint%opening, joint%sliding]
+            call clear_small(joint%force, field(i, 1:2))
+            call clear_small(joint%force*joint%length, field(i, 3:3))
+            call clear_small(scales%length, field(i, 4:5))
+            call clear_small(own%displacement, field(i, 6:6))
+            call clear_small(own%slip, field(i, 7:7))
+         end associate
+      end do
+      call begin_table(table, 'joints', 'a row for each two bodies that a pair brings together; body 0 is a rigid surface', n)
+      call add_integers(table, 'step', [results%step])
+      call add_integers(table, 'pair', results%joints%pair)
+      call add_integers(table, 'body_1', results%joints%bodies(1))
+      call add_integers(table, 'body_2', results%joints%bodies(2))
+      call add_real_columns(table, [character(len=7) :: 'n', 't', 'm', 'x', 'y', 'opening', 'sliding'], &
+                            ['F  ', 'F  ', 'F*L', 'L  ', 'L  ', 'L  ', 'L  '], field)
+   end subroutine build_joints
 
 end module atrito_write_tables

@@ -2,7 +2,6 @@
 !>
 !> Pictures are an extra: whatever goes wrong here is a warning, W-PLOT, never a failed run.
 module atrito_gnuplot
-   use atrito_kinds, only: ip
    use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_exists, read_file, remove_file

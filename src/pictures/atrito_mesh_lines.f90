@@ -8,7 +8,7 @@ module atrito_mesh_lines
    use atrito_faces, only: node_elements_t, list_node_elements
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t, face_end, side_count, middle_node
+   use atrito_mesh, only: mesh_t, face_end, has_side, side_count, middle_node
    use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real
    use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, put_terminal, put_plot, N_COLOURS
@@ -115,7 +115,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), allocatable, intent(out) :: neighbour(:, :)  !< (MOST_SIDES, n_elements)
       type(node_elements_t) :: around
-      integer(ip) :: e, face, i, other, a, b
+      integer(ip) :: e, face, i, a, b
 
       around = list_node_elements(mesh)
       allocate (neighbour(MOST_SIDES, mesh%n_elements), source=0_ip)
@@ -124,10 +124,7 @@ contains
             a = mesh%nodes(face, e)
             b = mesh%nodes(face_end(mesh, e, face), e)
             do i = around%first(a), around%first(a + 1) - 1
-               do other = 1, side_count(mesh, around%list(i))
-                  if (mesh%nodes(other, around%list(i)) == b .and. &
-                      mesh%nodes(face_end(mesh, around%list(i), other), around%list(i)) == a) neighbour(face, e) = around%list(i)
-               end do
+               if (has_side(mesh, around%list(i), b, a)) neighbour(face, e) = around%list(i)
             end do
          end do
       end do

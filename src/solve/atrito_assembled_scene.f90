@@ -22,12 +22,14 @@ module atrito_assembled_scene
    private
    public :: assembled_scene_t, assemble_scene, set_scene_load, displacements_of
 
+   integer(ip), parameter :: ROWS_A_POINT = 2
+
    type, extends(contact_system_t) :: assembled_scene_t
       type(scene_numbering_t) :: numbering
       type(variable_matrix_t) :: matrix
       logical :: is_near = .false.                          !< fronts have one matrix for elements that are near, and not equal
       character(len=:), allocatable :: order                !< how the order of elimination was found
-      integer(ip), allocatable, private :: point_row(:, :)  !< (2, points with a row) normal and tangential row; 0: none
+      integer(ip), allocatable, private :: point_row(:, :)  !< (ROWS_A_POINT, points with a row) normal, tangential; 0: none
       integer(lp), allocatable, private :: start(:)         !< (variable elements + 1) their unknowns
       integer(ip), allocatable, private :: unknown(:)
       real(wp), allocatable, private :: stiffness(:)        !< (rows) of the last factorisation
@@ -88,7 +90,8 @@ contains
 
       n = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
       associate (floating => count(scene%numbering%n_motions > 0, kind=ip))
-         allocate (scene%point_row(2, n), scene%start(n + floating + 1), scene%unknown(size(scene%rows%column) + scene%k))
+         allocate (scene%point_row(ROWS_A_POINT, n), scene%start(n + floating + 1), &
+                   scene%unknown(size(scene%rows%column) + scene%k))
       end associate
       scene%start(1) = 0
       v = 0
@@ -98,7 +101,7 @@ contains
          scene%point_row(:, v) = [line%normal(j), line%tangential(j)]
          first = scene%start(v)
          scene%start(v + 1) = first
-         do i = 1, 2
+         do i = 1, ROWS_A_POINT
             if (scene%point_row(i, v) > 0) call add_unknowns(scene, scene%point_row(i, v), v)
          end do
       end do
@@ -278,7 +281,7 @@ contains
       integer(ip) :: i
 
       is_changed = .false.
-      do i = 1, 2
+      do i = 1, ROWS_A_POINT
          associate (row => self%point_row(i, v))
             if (row > 0) is_changed = is_changed .or. self%stiffness(row) /= stiffness(row)
          end associate
@@ -308,7 +311,7 @@ contains
          allocate (row(n), matrix(n, n))
       end associate
       matrix = 0.0_wp
-      do i = 1, 2
+      do i = 1, ROWS_A_POINT
          j = self%point_row(i, v)
          if (j == 0) cycle
          row = 0.0_wp

@@ -6,9 +6,9 @@ module atrito_body_cache
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
-   use atrito_elasticity, only: elastic_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
+   use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: body_result_t
@@ -78,7 +78,8 @@ contains
             call set_load(fem, b, load, bodies(b))
             call stop_phase('factor')
          end if
-         call report_body(store%reporter, fem, b, bodies(b), results(b))
+         call report_progress(store%reporter, 'body '//results(b)%name//'  dofs '//to_text(fem%bodies%list(b)%n) &
+                              //'  contact dofs '//to_text(fem%bodies%list(b)%n_retained)//'  '//results(b)%solver)
       end do
       call move_alloc(bodies, store%bodies)
       if (store%keeps) call remember(store, fem, held, points, load, asked, results, same_bodies)
@@ -216,16 +217,5 @@ contains
       body%is_near = store%bodies(b)%is_near
       result = store%results(b)
    end subroutine take_back
-
-   subroutine report_body(reporter, fem, b, body, result)
-      type(reporter_t), intent(in) :: reporter
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: b
-      type(condensed_body_t), intent(in) :: body
-      type(body_result_t), intent(in) :: result
-
-      call report_progress(reporter, 'body '//result%name//'  dofs '//to_text(fem%bodies%list(b)%n)//'  contact dofs ' &
-                           //to_text(fem%bodies%list(b)%n_retained)//'  '//body%solver%name())
-   end subroutine report_body
 
 end module atrito_body_cache

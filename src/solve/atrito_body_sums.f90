@@ -53,7 +53,8 @@ contains
          x = element_coordinates(fem%mesh, e)
          if (allocated(share)) deallocate (share)
          allocate (share(2, n))
-         call body_load(x, [1.0_wp, 0.0_wp], fem%sections(fem%section_of(e))%thickness, share)
+         call body_load(x, [1.0_wp, 0.0_wp], fem%sections(fem%section_of(e))%thickness, &
+                        fem%mesh%state(e), share)
          associate (nodes => fem%mesh%nodes(:n, e))
             volume(nodes) = volume(nodes) + share(1, :)
          end associate

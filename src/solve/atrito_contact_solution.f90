@@ -13,8 +13,8 @@ module atrito_contact_solution
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, FREE_MOTION, solve_with_bound, judge_condition, has_settled, may_be_round_off, &
-             relative_residual
+   public :: contact_solution_t, FREE_MOTION, solve_with_bound, bound_of_state, judge_condition, has_settled, &
+             may_be_round_off, relative_residual
 
    !> Text of the status when no friction bound holds a body; solution%inner%motion is the motion.
    character(len=*), parameter :: FREE_MOTION = 'free motion'
@@ -72,8 +72,17 @@ contains
       if (solution%inner%solved) call clear_noise(problem, line, solution)
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, tau)
-      image = friction_bound(line, solution%p)
+      image = bound_of_state(line, solution)
    end subroutine solve_with_bound
+
+   !> The friction bound that the law has in a state: what all loops take next, and stop at.
+   pure function bound_of_state(line, solution) result(tau)
+      type(contact_line_t), intent(in) :: line
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: tau(line%n)                         !< [F/L^2]
+
+      tau = friction_bound(line, pressure_of(line, solution%state%q))
+   end function bound_of_state
 
    !> A closed point may have a tension that is round-off, of the forces on the bodies there: another body may feel it. Such points
    !> open, where the others bear it without changing.

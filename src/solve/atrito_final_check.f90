@@ -3,9 +3,8 @@
 module atrito_final_check
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_assembly, only: fem_t
-   use atrito_average, only: apply_average
    use atrito_bodies, only: body_t, mode_at
-   use atrito_contact_line, only: contact_line_t, last_of_pair
+   use atrito_contact_line, only: contact_line_t, last_of_pair, friction_bound
    use atrito_contact_rows, only: contact_rows_t, row_value, bodies_of_row
    use atrito_contact_scales, only: contact_scales_t, measure_places, printed_as_none, usual_growth
    use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
@@ -240,7 +239,7 @@ contains
          results%verdict = 'the solution holds what is not a number'
          return
       end if
-      tau = line%law%nu*apply_average(line%average, p)
+      tau = friction_bound(line, p)
       uncertain = uncertain_displacements(results%u, of_node, growth)
       last = 0
       do j = 1, line%n

@@ -4,8 +4,8 @@ module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound, normal_bounds, set_friction_bounds
-   use atrito_contact_solution, only: contact_solution_t, FREE_MOTION
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds
+   use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
@@ -121,7 +121,7 @@ contains
       solution%inner%solved = multipliers%settled
       solution%p = pressure_of(line, solution%state%q)
       solution%t = shear_force_of(line, solution%state%q, solution%tau)
-      image = friction_bound(line, solution%p)
+      image = bound_of_state(line, solution)
       loop%distance = measure_distance(system, line, multipliers, solution%state%q, solution%tau, image)
       solution%residual = loop%distance%bound
       call end_outer(solution%history, loop%distance%bound)
@@ -227,7 +227,7 @@ contains
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
                                                          solution%inner%undetermined)
       solution%p = pressure_of(line, solution%state%q)
-      solution%tau = friction_bound(line, solution%p)
+      solution%tau = bound_of_state(line, solution)
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
       associate (state => solution%state, n => shape%n_normal)
          where (state%state(n + 1:) == FROZEN) state%q(n + 1:) = 0.0_wp

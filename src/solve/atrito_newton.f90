@@ -6,10 +6,10 @@
 module atrito_newton
    use atrito_active_set, only: change_states
    use atrito_bound_qp, only: bound_qp_t, set_residual, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, friction_bound
-   use atrito_contact_solution, only: contact_solution_t, judge_condition, has_settled
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, set_friction_bounds
+   use atrito_contact_solution, only: contact_solution_t, bound_of_state, judge_condition, has_settled
    use atrito_dense, only: solve_lu
-   use atrito_friction_law, only: stick_compliance, FRICTION_NONLOCAL
+   use atrito_friction_law, only: FRICTION_NONLOCAL
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t
    use atrito_solve_history, only: record_solve, begin_outer, end_outer
@@ -26,21 +26,20 @@ contains
       type(contact_line_t), intent(in) :: line
       type(controls_t), intent(in) :: controls
       type(contact_solution_t), intent(inout) :: solution
-      real(wp), allocatable :: jacobian(:, :), rhs(:), dtau(:, :)
+      real(wp), allocatable :: jacobian(:, :), rhs(:)
       integer(ip), allocatable :: active(:)
       integer(ip) :: iteration, info, changes, i
       real(wp) :: change, last_change, largest_force
 
       call judge_condition(solution)
-      dtau = bound_derivative(problem, line)
       solution%converged = .false.
       last_change = -1.0_wp
       do iteration = 1, controls%max_iterations
          call begin_outer(solution%history)
-         solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
+         solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
          active = pack([(i, i=1, problem%m)], is_active(problem, solution%state%state))
-         call build_system(problem, line, solution, dtau, active, jacobian, rhs)
+         call build_system(problem, line, solution, active, jacobian, rhs)
          call solve_lu(jacobian, rhs, info)
          if (info /= 0) then
             solution%verdict = 'NEWTON met a singular matrix'
@@ -49,7 +48,7 @@ contains
          change = maxval(abs([rhs(:size(active)), 0.0_wp]))
          call apply_step(problem, active, rhs, solution)
          largest_force = maxval(abs([scaled_forces(problem, active, solution), 0.0_wp]))
-         solution%tau = friction_bound(line, pressure_of(line, solution%state%q))
+         solution%tau = bound_of_state(line, solution)
          call update_compliances(problem, line, solution)
          call set_residual(problem, solution%bounds%d, solution%state)
          call record_solve(solution%history, problem, solution%bounds, solution%state)
@@ -85,49 +84,38 @@ contains
       active = [(is_row(state(i), i > problem%n_normal), i=1, size(state, kind=ip))]
    end function is_active
 
-   !> d tau_j / d q_k = nu W_jk / w_k for the normal unknowns, (n points, n_normal).
-   pure function bound_derivative(problem, line) result(dtau)
+   !> d tau_j / d q of the active unknowns: nu W_jk / w_k of the pressures.
+   pure function bound_slope(problem, line, active, j) result(slope)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
-      real(wp) :: dtau(line%n, problem%n_normal)
-      integer(ip) :: j, k, i
+      integer(ip), intent(in) :: active(:), j
+      real(wp) :: slope(size(active))
+      real(wp) :: of_all(problem%m)
+      integer(ip) :: k, i
 
-      dtau = 0.0_wp
-      do j = 1, line%n
-         do k = line%average%first(j), line%average%first(j + 1) - 1
-            i = line%normal(line%average%column(k))
-            if (i > 0) dtau(j, i) = line%law(j)%nu*line%average%entry(k)/problem%weight(i)
-         end do
+      of_all = 0.0_wp
+      do k = line%average%first(j), line%average%first(j + 1) - 1
+         i = line%normal(line%average%column(k))
+         if (i > 0) of_all(i) = line%law(j)%nu*line%average%entry(k)/problem%weight(i)
       end do
-   end function bound_derivative
+      slope = of_all(active)
+   end function bound_slope
 
-   !> D of the tangential unknowns for the present bound; points without any take no part, points that get one begin stuck.
+   !> Points without a bound have no force either.
    pure subroutine update_compliances(problem, line, solution)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(inout) :: solution
-      integer(ip) :: i, j
 
-      do i = problem%n_normal + 1, problem%m
-         j = line%point(i)
-         solution%bounds%upper(i) = solution%tau(j)*line%weight(j)
-         solution%bounds%lower(i) = -solution%bounds%upper(i)
-         if (solution%tau(j) <= 0.0_wp) then
-            solution%state%state(i) = FROZEN
-            solution%state%q(i) = 0.0_wp
-         else
-            if (solution%state%state(i) == FROZEN) solution%state%state(i) = FREE
-            solution%bounds%d(i) = stick_compliance(line%law(j), solution%tau(j))/line%weight(j)
-         end if
-      end do
+      call set_friction_bounds(line, problem, solution%tau, solution%bounds, solution%state)
+      where (solution%state%state == FROZEN) solution%state%q = 0.0_wp
    end subroutine update_compliances
 
    !> The linear system for the changes, scaled: forces by 1/sqrt(C_ii + D_ii), motions to unit columns.
-   pure subroutine build_system(problem, line, solution, dtau, active, jacobian, rhs)
+   pure subroutine build_system(problem, line, solution, active, jacobian, rhs)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
-      real(wp), intent(in) :: dtau(:, :)
       integer(ip), intent(in) :: active(:)
       real(wp), allocatable, intent(out) :: jacobian(:, :), rhs(:)
       real(wp) :: scale(size(active)), motion_scale(problem%k), r(problem%m)
@@ -142,12 +130,12 @@ contains
       do row = 1, n
          i = active(row)
          if (solution%state%state(i) == FREE) then
-            call stick_row(problem, line, solution, dtau, active, row, jacobian(row, :n))
+            call stick_row(problem, line, solution, active, row, jacobian(row, :n))
             jacobian(row, :n) = jacobian(row, :n)*scale*scale(row)
             jacobian(row, n + 1:) = -problem%g(i, :)*scale(row)*motion_scale
             rhs(row) = r(i)*scale(row)
          else
-            call slip_row(problem, line, solution, dtau, active, row, jacobian(row, :n), rhs(row))
+            call slip_row(problem, line, solution, active, row, jacobian(row, :n), rhs(row))
             jacobian(row, :n) = jacobian(row, :n)*scale/scale(row)
             rhs(row) = rhs(row)/scale(row)
          end if
@@ -182,46 +170,38 @@ contains
    end function scale_of_motions
 
    !> -dr/dq of a closed or sticking point: C + D, and for the law of Oden and Pires -q D'(tau) dtau/dq.
-   pure subroutine stick_row(problem, line, solution, dtau, active, row, jacobian)
+   pure subroutine stick_row(problem, line, solution, active, row, jacobian)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
-      real(wp), intent(in) :: dtau(:, :)
       integer(ip), intent(in) :: active(:), row
       real(wp), intent(inout) :: jacobian(:)
-      integer(ip) :: i, j, column
+      integer(ip) :: i, j
 
       i = active(row)
       j = line%point(i)
       jacobian = problem%c(i, active)
       jacobian(row) = jacobian(row) + solution%bounds%d(i)
       if (i <= problem%n_normal .or. line%law(j)%kind /= FRICTION_NONLOCAL) return
-      do column = 1, size(active, kind=ip)
-         if (active(column) > problem%n_normal) exit
-         jacobian(column) = jacobian(column) - solution%state%q(i)*solution%bounds%d(i)/solution%tau(j)*dtau(j, active(column))
-      end do
+      jacobian = jacobian - solution%state%q(i)*solution%bounds%d(i)/solution%tau(j)*bound_slope(problem, line, active, j)
    end subroutine stick_row
 
    !> q - sign w tau(q) = 0 of a slipping point.
-   pure subroutine slip_row(problem, line, solution, dtau, active, row, jacobian, rhs)
+   pure subroutine slip_row(problem, line, solution, active, row, jacobian, rhs)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
-      real(wp), intent(in) :: dtau(:, :)
       integer(ip), intent(in) :: active(:), row
       real(wp), intent(inout) :: jacobian(:)
       real(wp), intent(out) :: rhs
       real(wp) :: direction
-      integer(ip) :: i, j, column
+      integer(ip) :: i, j
 
       i = active(row)
       j = line%point(i)
       direction = merge(1.0_wp, -1.0_wp, solution%state%state(i) == AT_UPPER)
-      jacobian(row) = 1.0_wp
-      do column = 1, size(active, kind=ip)
-         if (active(column) > problem%n_normal) exit
-         jacobian(column) = jacobian(column) - direction*line%weight(j)*dtau(j, active(column))
-      end do
+      jacobian = -direction*line%weight(j)*bound_slope(problem, line, active, j)
+      jacobian(row) = jacobian(row) + 1.0_wp
       rhs = direction*line%weight(j)*solution%tau(j) - solution%state%q(i)
    end subroutine slip_row
 

@@ -41,7 +41,8 @@ contains
       associate (loads => model%element_loads)
          nodes = face_nodes(model%mesh, loads%element(i), loads%face(i))
          allocate (fe(2, size(nodes)))
-         call pressure_load(model%mesh%x(:, nodes), loads%value(1, i), thickness_of(model, loads%element(i)), fe)
+         call pressure_load(model%mesh%x(:, nodes), loads%value(1, i), thickness_of(model, loads%element(i)), &
+                            model%mesh%state(loads%element(i)), fe)
       end associate
       f(:, nodes) = f(:, nodes) + fe
    end subroutine add_pressure
@@ -57,7 +58,8 @@ contains
       e = model%element_loads%element(i)
       nodes = model%mesh%nodes(:model%mesh%shape(e), e)
       allocate (fe(2, size(nodes)))
-      call body_load(element_coordinates(model%mesh, e), model%element_loads%value(:, i), thickness_of(model, e), fe)
+      call body_load(element_coordinates(model%mesh, e), model%element_loads%value(:, i), thickness_of(model, e), &
+                     model%mesh%state(e), fe)
       f(:, nodes) = f(:, nodes) + fe
    end subroutine add_body_force
 

@@ -106,7 +106,7 @@ contains
       call solve_coarse(coarse_problem, coarse_line, coarse, status)
       if (.not. coarse%converged) return
       call report_progress(task%reporter, 'start from '//to_text(coarse_line%n)//' of '//to_text(task%line%n)//' contact points')
-      call begin_history(task%problem, task%line, solution)
+      solution%history%tangential_of = task%line%tangential(task%line%point(:task%problem%n_normal))
       call start_from_coarse(task%problem, task%line, interpolation, coarse_line, coarse%state, solution%bounds, &
                              solution%state, tau)
       if (task%line%has_friction) then
@@ -147,18 +147,21 @@ contains
       type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
       type(status_t), intent(out) :: status
       type(constraint_rows_t), intent(in), optional :: rows
+      type(picard_t) :: picard
       real(wp), allocatable :: tau(:)
 
       if (present(rows)) solution%rows = rows
       call start(task%problem, task%line, solution, tau, status)
       if (.not. is_ok(status)) return
       if (.not. task%line%has_friction) then
-         call finish_frictionless(solution)
+         solution%converged = solution%inner%solved
+         if (.not. solution%converged) solution%verdict = 'the active set did not settle'
          return
       end if
       select case (task%controls%method)
       case (METHOD_PICARD)
-         call iterate_picard(task, tau, solution, status)
+         picard%relaxation = task%controls%relaxation
+         call iterate(task, picard, tau, solution, status)
       case (METHOD_NEWTON)
          if (present(rows)) then                             ! whose matrix cannot be factored
             call iterate_with_fallbacks(task, tau, solution, status)
@@ -170,14 +173,6 @@ contains
       end select
    end subroutine solve_from_plain_start
 
-   subroutine begin_history(problem, line, solution)
-      type(bound_qp_t), intent(in) :: problem
-      type(contact_line_t), intent(in) :: line
-      type(contact_solution_t), intent(inout) :: solution
-
-      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
-   end subroutine begin_history
-
    subroutine start(problem, line, solution, tau, status)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -187,7 +182,7 @@ contains
       real(wp) :: none(line%n)
 
       allocate (tau(line%n))
-      call begin_history(problem, line, solution)
+      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
       call normal_bounds(line, problem, solution%bounds, solution%state)
       none = 0.0_wp
       call solve_with_bound(problem, line, none, solution, tau, status)
@@ -200,24 +195,6 @@ contains
       end if
       if (solution%inner%moves) call set_status(status, STATUS_SINGULAR, FREE_MOTION)
    end subroutine start
-
-   subroutine finish_frictionless(solution)
-      type(contact_solution_t), intent(inout) :: solution
-
-      solution%converged = solution%inner%solved
-      if (.not. solution%converged) solution%verdict = 'the active set did not settle'
-   end subroutine finish_frictionless
-
-   subroutine iterate_picard(task, tau, solution, status)
-      type(line_task_t), intent(in) :: task
-      real(wp), intent(inout) :: tau(:)
-      type(contact_solution_t), intent(inout) :: solution
-      type(status_t), intent(out) :: status
-      type(picard_t) :: picard
-
-      picard%relaxation = task%controls%relaxation
-      call iterate(task, picard, tau, solution, status)
-   end subroutine iterate_picard
 
    subroutine newton_from(task, tau, solution, status)
       type(line_task_t), intent(in) :: task

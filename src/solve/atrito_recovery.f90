@@ -4,16 +4,16 @@ module atrito_recovery
    use atrito_bodies, only: body_t, mode_at
    use atrito_bound_qp, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
-   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_line, only: contact_line_t, slip_of_unknown
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
-   use atrito_elasticity, only: stress_33, von_mises
    use atrito_element_table, only: SHAPES, MOST_NODES
    use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
+   use atrito_plane_state, only: COMPONENTS, STRESS_NAMES, stress_33, von_mises
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_points, only: contact_points_t
    use atrito_range, only: unit_of
@@ -178,8 +178,7 @@ contains
          ! the force has lost its digits at the end of the range of numbers
          slip = row_value(rows, j, rows%tangent(:, j), u)
       else
-         slip = solution%bounds%d(i)*solution%state%q(i)
-         if (solution%state%state(i) /= FREE) slip = slip + solution%state%r(i)
+         slip = slip_of_unknown(solution%bounds, solution%state, i)
       end if
    end subroutine place_of_point
 
@@ -223,7 +222,8 @@ contains
       call make_point_rules(rules, best=.false.)
       call count_rows(fem, wanted, rows)
       associate (n => rows(size(rows)))
-         allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), results%stress(5, n))
+         allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), &
+                   results%stress(size(STRESS_NAMES), n))
       end associate
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do chunk = 1, size(rows, kind=ip) - 1
@@ -274,7 +274,7 @@ contains
       type(point_geometry_t), intent(inout) :: geometry
       integer(ip), intent(inout) :: row              !< the last one filled
       type(results_t), intent(inout) :: results
-      real(wp) :: s(MOST_POINTS, 3), s33
+      real(wp) :: s(MOST_POINTS, COMPONENTS), s33
       integer(ip) :: k
 
       call fetch_geometry(fem, e, rule, geometry)

@@ -4,11 +4,11 @@ module atrito_scene_builder
    use atrito_assembly, only: fem_t, grain_of
    use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
    use atrito_body_names, only: name_bodies
-   use atrito_elasticity, only: elastic_t
    use atrito_incidence, only: list_holders
    use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_all
+   use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
    use atrito_solver_choice, only: needs_profile
    implicit none (type, external)

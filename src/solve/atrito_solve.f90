@@ -101,29 +101,13 @@ contains
 
    !> Solves. status: STATUS_SINGULAR (free motion, singular body, dependent points), STATUS_DECK (contradiction of prescribed
    !> displacements and hard contact; too little memory, which is told by a message). results%converged and law_holds tell the rest.
-   subroutine solve_static(model, options, reporter, results, status, kept)
+   subroutine solve_static(model, options, reporter, results, status, store)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
       type(results_t), intent(out) :: results
       type(status_t), intent(out) :: status
-      type(body_cache_t), intent(inout), optional :: kept  !< bodies of an earlier run; on return those of this one
-      type(body_cache_t) :: store
-
-      if (present(kept)) then
-         call solve_with_store(model, options, reporter, kept, results, status)
-      else
-         call solve_with_store(model, options, reporter, store, results, status)
-      end if
-   end subroutine solve_static
-
-   subroutine solve_with_store(model, options, reporter, store, results, status)
-      type(model_t), intent(in), target :: model
-      type(solve_options_t), intent(in) :: options
-      type(reporter_t), intent(in) :: reporter
-      type(body_cache_t), intent(inout) :: store
-      type(results_t), intent(out) :: results
-      type(status_t), intent(out) :: status
+      type(body_cache_t), intent(inout) :: store           !< bodies of an earlier run, or none; on return those of this one
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
       type(controls_t) :: controls
@@ -155,7 +139,7 @@ contains
       results%scene%memory = forecast_memory(model, data, results%scene)
       call report_unsettled(data%fem%mesh, data%points, data%rows, data%line, solution, results)
       call warn(data, solution, results)
-   end subroutine solve_with_store
+   end subroutine solve_static
 
    pure logical function is_solved(results, status)
       type(results_t), intent(in) :: results
@@ -242,11 +226,8 @@ contains
       integer :: attempt
 
       if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
-      if (data%contact_form == CONTACT_DENSE) then
-         call try_form(data, CONTACT_SPARSE, controls, store, results, solution)
-      else
-         call try_form(data, CONTACT_DENSE, controls, store, results, solution)
-      end if
+      call try_form(data, merge(CONTACT_SPARSE, CONTACT_DENSE, data%contact_form == CONTACT_DENSE), controls, store, results, &
+                    solution)
       if (results%converged .and. results%law_holds) return
       newton = controls
       newton%method = METHOD_NEWTON

@@ -29,10 +29,14 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
       type(constraint_rows_t) :: rows
+      type(assembled_scene_t) :: nothing
       real(wp), allocatable :: x(:)
+      integer(ip) :: b
 
       call start_phase('assemble')
-      call check_bodies(data%fem, status)
+      do b = 1, data%fem%bodies%n                  ! a floating body that no contact point touches is held by nothing
+         if (is_ok(status)) call check_held(data%fem, b, status)
+      end do
       if (is_ok(status)) call assemble(data, status)
       call stop_phase('assemble')
       if (.not. is_ok(status)) return
@@ -46,28 +50,9 @@ contains
       if (.not. allocated(x)) return
       u = data%value
       call displacements_of(data%fem, data%assembled, x, u)
-      call release(data)
-   end subroutine solve_sparse_form
-
-   !> Gives the memory of the factors back before the stresses want theirs.
-   subroutine release(data)
-      type(scene_data_t), intent(inout) :: data
-      type(assembled_scene_t) :: nothing
-
-      data%assembled = nothing
+      data%assembled = nothing                     ! the stresses want the memory of the factors
       data%is_assembled = .false.
-   end subroutine release
-
-   !> A floating body that no contact point touches is held by nothing.
-   subroutine check_bodies(fem, status)
-      type(fem_t), intent(in) :: fem
-      type(status_t), intent(inout) :: status
-      integer(ip) :: b
-
-      do b = 1, fem%bodies%n
-         if (is_ok(status)) call check_held(fem, b, status)
-      end do
-   end subroutine check_bodies
+   end subroutine solve_sparse_form
 
    !> A pivot that is not positive, by its body, node and dof.
    subroutine name_failure(data, status)

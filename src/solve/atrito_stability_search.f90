@@ -65,6 +65,7 @@ contains
       type(search_t), intent(inout) :: search
       real(wp), intent(out) :: x
       integer, intent(out) :: step
+      type(tried_t) :: known
       integer :: standing
 
       call look_at_ends(search, x, step, standing)
@@ -72,22 +73,14 @@ contains
       call narrow_balance(search, standing, x, step)
       if (step == STEP_DONE) call follow_curve(search, standing, x, step)
       if (step == STEP_DONE) call narrow_solutions(search, standing, x, step)
-      if (step == STEP_SOLVE) call ask_balance_first(search, x, step)
+      if (step == STEP_SOLVE) then   ! a value between two that can be balanced need not be one itself; where it falls, the limit
+         known = known_of(search, x) ! is sought on this side of it
+         if (known%balance == UNKNOWN) step = STEP_BALANCE
+      end if
       if (step /= STEP_DONE) return
       search%found = FOUND_INTERVAL
       if (abs(falling_value(search) - standing_value(search)) <= allowed_width(search)) search%found = FOUND_LIMIT
    end subroutine next_step
-
-   !> A value between two that can be balanced need not be one itself; where it falls, the limit is sought on this side of it.
-   pure subroutine ask_balance_first(search, x, step)
-      type(search_t), intent(in) :: search
-      real(wp), intent(in) :: x
-      integer, intent(inout) :: step
-      type(tried_t) :: known
-
-      known = known_of(search, x)
-      if (known%balance == UNKNOWN) step = STEP_BALANCE
-   end subroutine ask_balance_first
 
    !> The ends come first. Two that can be balanced are both solved, to tell what they are.
    pure subroutine look_at_ends(search, x, step, standing)

@@ -6,6 +6,7 @@
 !> `--keep` only writes all mutated decks, to FILE.K, for run-program.sh.
 program atrito_fuzz
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+   use atrito_body_cache, only: body_cache_t
    use atrito_build_model, only: build_model
    use atrito_deck, only: deck_t
    use atrito_files, only: read_file, remove_file
@@ -138,10 +139,11 @@ contains
       type(solve_options_t) :: options
       type(reporter_t) :: reporter
       type(results_t) :: results
+      type(body_cache_t) :: store
       type(status_t) :: status
 
       reporter%quiet = .true.
-      call solve_static(model, options, reporter, results, status)
+      call solve_static(model, options, reporter, results, status, store)
       call check_results(results, status, fault)
    end subroutine solve_model
 

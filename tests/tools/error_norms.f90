@@ -7,10 +7,12 @@
 !> Prints: elements, dofs, L2, energy, largest deviation of the Jacobian within an element from its mean.
 program error_norms
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use atrito_body_cache, only: body_cache_t
+   use atrito_plane_state, only: elastic_t, elasticity_matrix
    use atrito_reader, only: read_deck
    use atrito_build_model, only: build_model
    use atrito_deck, only: deck_t
-   use atrito_elasticity, only: elastic_t, elasticity_matrix, has_mean_dilatation
+   use atrito_element_table, only: has_mean_dilatation
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: element_coordinates
    use atrito_messages, only: count_messages, SEVERITY_ERROR
@@ -75,6 +77,7 @@ contains
       type(model_t), intent(out) :: model
       type(results_t), intent(out) :: results
       type(deck_t) :: deck
+      type(body_cache_t) :: store
       type(status_t) :: status
       type(reporter_t) :: reporter
 
@@ -82,7 +85,7 @@ contains
       call read_deck(name, [string_t ::], deck, status)
       if (is_ok(status)) call build_model(deck, model, levels)
       if (.not. is_ok(status) .or. count_messages(SEVERITY_ERROR) > 0) error stop 'error_norms: the deck is wrong'
-      call solve_static(model, solve_options_t(), reporter, results, status)
+      call solve_static(model, solve_options_t(), reporter, results, status, store)
       if (.not. (is_ok(status) .and. results%converged .and. results%law_holds)) error stop 'error_norms: not solved'
    end subroutine solve_deck
 

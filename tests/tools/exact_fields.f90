@@ -6,9 +6,8 @@
 !>    s11 + s22 = 4 Re phi',   s22 - s11 + 2 i s12 = 2 (conj(z) phi'' + psi')
 !> Ring: Lame's solution, phi = A z/2 and psi = B/z.
 module exact_fields
-   use atrito_elasticity, only: elastic_t
-   use atrito_element_table, only: PLANE_STRESS
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: elastic_t, PLANE_STRESS
    implicit none (type, external)
    private
    public :: field_t, make_field, exact_solution

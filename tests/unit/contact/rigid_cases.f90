@@ -1,10 +1,11 @@
 !> Scenes of rigid blocks for the tests of the certificate: bodies with three motions each, points between them, forces on them.
 module rigid_cases
-   use atrito_average, only: identity_average, build_average, join_averages
+   use atrito_average, only: identity_average, build_average
    use atrito_contact_line, only: contact_line_t, number_unknowns
    use atrito_friction_law, only: FRICTION_LOCAL, FRICTION_NONE, KERNEL_POINTS
    use atrito_kinds, only: ip, wp, PI
    use atrito_motion_rows, only: motion_rows_t
+   use surface_pairs, only: join_averages
    implicit none (type, external)
    private
    public :: rigid_scene_t, start_scene, add_force, add_point, finish_scene, average_points, arch_scene

@@ -1,9 +1,9 @@
 !> Two bodies one on the other, for the tests of the contact points.
 module strip_cases
-   use atrito_element_table, only: PLANE_STRAIN
    use atrito_faces, only: face_list_t, add_face
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, add_element, add_node, trim_mesh
+   use atrito_plane_state, only: PLANE_STRAIN
    implicit none (type, external)
    private
    public :: add_strip, begin_scene, FACE_BELOW, FACE_ABOVE

@@ -2,10 +2,9 @@
 module fem_cases
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: find_bodies, number_equations
-   use atrito_elasticity, only: elastic_t
-   use atrito_element_table, only: PLANE_STRAIN
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: add_element, add_node, nodes_of_square, trim_mesh
+   use atrito_plane_state, only: elastic_t, PLANE_STRAIN
    implicit none (type, external)
    private
    public :: SHAPES, PLACES, node_places, distorted, linear_field, row_of_elements, dense_stiffness, grid_of_elements

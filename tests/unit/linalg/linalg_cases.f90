@@ -1,11 +1,12 @@
 !> Matrices and measures for the tests of linalg.
 module linalg_cases
-   use atrito_dense, only: factor_cholesky, solve_cholesky, solve_lu, norm_one
+   use atrito_dense, only: solve_cholesky, solve_lu
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile
    use atrito_solver_choice, only: new_solver
    use atrito_status, only: status_t, is_ok
    use atrito_linear_solver, only: linear_solver_t
+   use dense_measures, only: factor_cholesky, norm_one
    implicit none (type, external)
    private
    public :: ORDERS, RATIO_LIMIT, kept_counts, random_matrix, random_symmetric, random_profile, fill_storage, make_storage

@@ -1,8 +1,8 @@
 !> Small meshes for the tests.
 module mesh_cases
-   use atrito_element_table, only: PLANE_STRAIN
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, add_node, add_element, trim_mesh
+   use atrito_plane_state, only: PLANE_STRAIN
    implicit none (type, external)
    private
    public :: grid, two_grids, ring

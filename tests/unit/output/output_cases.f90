@@ -1,8 +1,8 @@
 !> A small model and its results, made by hand: two elements side by side on a rigid line, three points.
 module output_cases
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_element_table, only: PLANE_STRAIN
    use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: PLANE_STRAIN
    use atrito_strings, only: string_t
    use atrito_mesh, only: add_node, add_element, trim_mesh
    use atrito_model, only: model_t, SURFACE_SEGMENTS, LOAD_PRESSURE, FRICTION_NONLOCAL

@@ -4,21 +4,30 @@ module body_cases
    use atrito_average, only: build_average
    use atrito_bodies, only: find_bodies, number_equations, find_rigid_modes
    use atrito_bound_qp, only: bound_qp_t
+   use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
    use atrito_contact_line, only: contact_line_t, number_unknowns
+   use atrito_contact_problem, only: build_problem
    use atrito_contact_rows, only: contact_rows_t, build_rows
-   use atrito_dense, only: norm_one
-   use atrito_elasticity, only: elastic_t
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_element, only: element_stiffness
-   use atrito_element_table, only: PLANE_STRAIN
    use atrito_faces, only: face_list_t, add_face
    use atrito_friction_law, only: friction_law_t, FRICTION_NONLOCAL, KERNEL_POINTS
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, add_element, add_node, element_coordinates, trim_mesh
-   use atrito_nodal_points, only: pair_surfaces
+   use atrito_model, only: controls_t, METHOD_ANDERSON
+   use atrito_outer_loop, only: solve_contact_line
+   use atrito_plane_state, only: elastic_t, PLANE_STRAIN
    use atrito_points, only: contact_points_t
+   use atrito_recovery, only: add_rigid_motions, contact_forces, elastic_displacements
+   use atrito_reporter, only: reporter_t
+   use atrito_results, only: body_result_t
+   use atrito_solver_choice, only: SOLVER_SKYLINE
+   use atrito_status, only: status_t, is_ok
+   use dense_measures, only: norm_one
+   use surface_pairs, only: pair_surfaces
    implicit none (type, external)
    private
-   public :: scene_case_t, stacked_blocks, full_matrix, random_line, random_numbers
+   public :: scene_case_t, stacked_blocks, solve_dense, full_matrix, random_line, random_numbers
 
    !> All that the solver knows of a scene of two bodies.
    type :: scene_case_t
@@ -133,6 +142,38 @@ contains
          call number_unknowns(line, spread(.true., 1, n), spread(.true., 1, n))
       end associate
    end subroutine lay_line
+
+   !> The forces and all displacements of a scene of two bodies, by the dense form. ok: it converged.
+   subroutine solve_dense(scene, solution, u, ok)
+      type(scene_case_t), intent(in) :: scene
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: u(:, :)    !< (2, n_nodes) [L]
+      logical, intent(out) :: ok
+      type(condensed_body_t) :: condensed(2)
+      type(bound_qp_t) :: problem
+      type(body_result_t) :: result
+      type(status_t) :: status
+      real(wp), allocatable :: force(:, :)
+      integer(ip) :: b
+
+      do b = 1, 2
+         call condense_body(scene%fem, b, SOLVER_SKYLINE, condensed(b), result, status)
+         ok = is_ok(status)
+         if (.not. ok) return
+         call set_load(scene%fem, b, scene%f, condensed(b))
+      end do
+      call build_problem(scene%fem, condensed, scene%rows, scene%line, scene%value, scene%f, problem)
+      call solve_contact_line(problem, scene%line, controls_t(METHOD_ANDERSON, 1.0e-12_wp, 100_ip, 1.0_wp), &
+                              reporter_t(quiet=.true.), solution, status)
+      ok = is_ok(status) .and. solution%converged
+      if (.not. ok) return
+      force = contact_forces(scene%fem, scene%rows, scene%line, solution)
+      u = scene%value
+      do b = 1, 2
+         call elastic_displacements(scene%fem, b, condensed(b), force, u)
+      end do
+      call add_rigid_motions(scene%fem, solution%state%a, u)
+   end subroutine solve_dense
 
    !> The matrix of all elements, order u1, u2 of node 1, of node 2, ...
    pure function full_matrix(fem) result(k)

@@ -3,11 +3,11 @@
 !> Kolosov and Muskhelishvili with phi = exp(z), psi = 0: 2 G (u + iv) = kappa phi - z conj(phi'), s11 + s22 = 4 Re phi',
 !> s22 - s11 + 2 i s12 = 2 conj(z) phi''. No body force.
 module exact_cases
-   use atrito_elasticity, only: compliance_matrix, elastic_t, elasticity_matrix
-   use atrito_element_table, only: PLANE_STRAIN
+   use atrito_body_cache, only: body_cache_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: add_element, add_node, element_coordinates, nodes_of_square, trim_mesh
    use atrito_model, only: model_t, FORMULATION_BBAR
+   use atrito_plane_state, only: compliance_matrix, elastic_t, elasticity_matrix, PLANE_STRAIN
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t
    use atrito_shape_functions, only: gauss_point, shape_gradients, shape_values
@@ -15,7 +15,7 @@ module exact_cases
    use atrito_status, only: status_t
    implicit none (type, external)
    private
-   public :: errors_t, solve_exact_case, DOMAIN_SQUARE, DOMAIN_RING
+   public :: errors_t, solve_exact_case, make_exact_model, DOMAIN_SQUARE, DOMAIN_RING
 
    integer(ip), parameter :: DOMAIN_SQUARE = 1      !< unit square, its elements distorted smoothly
    integer(ip), parameter :: DOMAIN_RING = 2        !< a quarter of the ring 1/2 < r < 1
@@ -75,19 +75,20 @@ contains
       integer(ip), intent(in), optional :: formulation !< STANDARD when left out
       type(model_t) :: model
       type(results_t) :: results
+      type(body_cache_t) :: store
       type(status_t) :: status
       type(reporter_t) :: reporter
       type(solve_options_t) :: options
 
       reporter%quiet = .true.
-      call make_model(domain, n_nodes, n, model)
+      call make_exact_model(domain, n_nodes, n, model)
       if (present(formulation)) model%sections(1)%formulation = formulation
-      call solve_static(model, options, reporter, results, status)
+      call solve_static(model, options, reporter, results, status, store)
       ok = results%converged .and. results%law_holds
       if (ok) call measure(model, results, errors)
    end subroutine solve_exact_case
 
-   subroutine make_model(domain, n_nodes, n, model)
+   subroutine make_exact_model(domain, n_nodes, n, model)
       integer(ip), intent(in) :: domain, n_nodes, n
       type(model_t), intent(out) :: model
       integer(ip) :: square(3, 3), p, i, j, k, l, m
@@ -116,7 +117,7 @@ contains
       model%sections(1)%material = 1
       allocate (model%section_of(n*n), source=1_ip)
       call prescribe_outline(m, model)
-   end subroutine make_model
+   end subroutine make_exact_model
 
    subroutine prescribe_outline(m, model)
       integer(ip), intent(in) :: m                  !< nodes along a side

@@ -1,11 +1,29 @@
-!> Linear isotropic elasticity in the plane. Strains are e11, e22, 2 e12.
-module atrito_elasticity
-   use atrito_element_table, only: STATES, can_average
+!> The plane states, which all rooms ask: stresses and elasticity, what a point weighs, how a body moves without strain.
+!>
+!> Strains are e11, e22, 2 e12, of linear isotropic elasticity. A new state is a row of STATES and a branch in the procedures below;
+!> the strains of the shape functions are in strain_points (atrito_point_stress) and integrate_products (atrito_element).
+module atrito_plane_state
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, has_mean_dilatation
+   public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, COMPONENTS, STRESS_NAMES
+   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, depth_at
    public :: FORMULATION_STANDARD, FORMULATION_BBAR
+
+   type :: plane_state_t
+      character(len=3) :: prefix = ''            !< of the names of its elements
+      character(len=12) :: name = ''
+      logical :: is_thin = .false.               !< no stress across the plane; else no strain
+      real(wp) :: depth(2) = [1.0_wp, 0.0_wp]    !< over the thickness at x1: depth(1) + depth(2) x1 [-, 1/L]
+      logical :: moves(3) = .true.               !< rigid motions: translations along 1 and 2, rotation
+   end type plane_state_t
+
+   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2
+   type(plane_state_t), parameter :: STATES(2) = [plane_state_t('CPE', 'plane strain', .false.), &
+                                                  plane_state_t('CPS', 'plane stress', .true.)]
+
+   integer(ip), parameter :: COMPONENTS = 3      !< of the stresses that work on strains: s11, s22, s12
+   character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises'] !< in tables and fields
 
    integer(ip), parameter :: FORMULATION_STANDARD = 1   !< the strains of the displacements
    integer(ip), parameter :: FORMULATION_BBAR = 2       !< with the element's mean dilatation, where has_mean_dilatation
@@ -21,11 +39,20 @@ module atrito_elasticity
 
 contains
 
+   !> What stands behind a point of the plane, and so what it weighs besides its share of the area or line [L].
+   elemental real(wp) function depth_at(state, thickness, x1)
+      integer(ip), intent(in) :: state     !< place in STATES
+      real(wp), intent(in) :: thickness    !< [L]
+      real(wp), intent(in) :: x1           !< of the point [L]
+
+      depth_at = thickness*(STATES(state)%depth(1) + STATES(state)%depth(2)*x1)
+   end function depth_at
+
    !> Stress = matrix * strain for s11, s22, s12 [F/L^2].
    pure function elasticity_matrix(section, state) result(d)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state     !< place in STATES
-      real(wp) :: d(3, 3)
+      real(wp) :: d(COMPONENTS, COMPONENTS)
       real(wp) :: lambda, shear
 
       associate (young => section%young, mu => section%poisson)
@@ -47,7 +74,7 @@ contains
    pure function compliance_matrix(section, state) result(c)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state     !< place in STATES
-      real(wp) :: c(3, 3)
+      real(wp) :: c(COMPONENTS, COMPONENTS)
 
       c = 0.0_wp
       associate (young => section%young, mu => section%poisson)
@@ -64,20 +91,11 @@ contains
       c(2, 1) = c(1, 2)
    end function compliance_matrix
 
-   !> Whether the strains of an element have one dilatation, the mean of the element (B-bar).
-   pure logical function has_mean_dilatation(section, state, n_nodes)
-      type(elastic_t), intent(in) :: section
-      integer(ip), intent(in) :: state     !< place in STATES
-      integer(ip), intent(in) :: n_nodes   !< of the element
-
-      has_mean_dilatation = section%formulation == FORMULATION_BBAR .and. can_average(n_nodes, state)
-   end function has_mean_dilatation
-
    !> The stress across the plane.
    pure real(wp) function stress_33(section, state, s)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state
-      real(wp), intent(in) :: s(3)         !< s11, s22, s12 [F/L^2]
+      real(wp), intent(in) :: s(COMPONENTS)
 
       stress_33 = section%poisson*(s(1) + s(2))
       if (STATES(state)%is_thin) stress_33 = 0.0_wp
@@ -85,7 +103,7 @@ contains
 
    !> Von Mises' equivalent stress.
    pure real(wp) function von_mises(s, s33)
-      real(wp), intent(in) :: s(3), s33    !< s11, s22, s12 and s33 [F/L^2]
+      real(wp), intent(in) :: s(COMPONENTS), s33 !< [F/L^2]
       real(wp), parameter :: SMALL = 1.0e-140_wp, LARGE = 1.0e140_wp !< between them squares stay in the range of numbers
       real(wp) :: scale, squares
 
@@ -101,4 +119,4 @@ contains
       end if
    end function von_mises
 
-end module atrito_elasticity
+end module atrito_plane_state
