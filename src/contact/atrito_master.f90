@@ -6,14 +6,18 @@ module atrito_master
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_piece_tree, only: piece_tree_t, search_t, plant, begin_search, next_leaf, is_far_off, FACING
    use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
+   use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
    private
-   public :: master_t, sight_t, master_of_faces, master_of_segments, is_out_of_sight, look_along, look_at_end, nearest_end
+   public :: master_t, sight_t, master_of_faces, master_of_segments, smooth_normal, is_out_of_sight, look_along, look_at_end, &
+             nearest_end
 
    !> Faces of elements, or rigid segments and arcs.
    type, extends(pieces_t) :: master_t
       logical :: rigid = .false.
       integer(ip) :: shape = 0                      !< nodes of the elements of all faces; 0: rigid, none, or not the same
+      real(wp), allocatable :: ends(:, :, :)        !< (2, first and last end, n) unit normals of the smooth surface
+      real(wp), allocatable :: curvature(:)         !< (n) [1/L] >= 0
       type(piece_tree_t) :: tree
    end type master_t
 
@@ -50,6 +54,7 @@ contains
          master%shape = mesh%shape(faces%element(1))
          if (any(mesh%shape(faces%element(:faces%n)) /= master%shape)) master%shape = 0
       end if
+      call smooth_surface(mesh, faces, master%ends, master%curvature)
       call plant(master%pieces_t, master%tree)
    end subroutine master_of_faces
 
@@ -74,8 +79,29 @@ contains
             master%sweep(i) = sweep_of(ends(:, i), ends(:, i + 1), centre(:, i))
          end do
       end if
+      allocate (master%ends(2, 2, n), master%curvature(n), source=0.0_wp)
+      do i = 1, n
+         master%ends(:, 1, i) = normal_at(master, i, 0.0_wp)
+         master%ends(:, 2, i) = normal_at(master, i, 1.0_wp)
+         if (abs(master%sweep(i)) > 0.0_wp) master%curvature(i) = 1/norm2(master%a(:, i) - master%centre(:, i))
+      end do
       call plant(master%pieces_t, master%tree)
    end subroutine master_of_segments
+
+   !> Unit normal of the smooth surface at a place of a piece: that of the piece, drawn to the means at its ends; in the middle of a
+   !> bent piece it is right as it is.
+   pure function smooth_normal(master, i, t) result(n)
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: t                     !< in [0,1]
+      real(wp) :: n(2), share(2)
+
+      share = [1 - t, t]
+      if (any(abs(master%sag(:, i)) > 0.0_wp)) share = [(1 - t)*(1 - 2*t), t*(2*t - 1)]
+      n = normal_at(master, i, t) + share(1)*(master%ends(:, 1, i) - normal_at(master, i, 0.0_wp)) &
+          + share(2)*(master%ends(:, 2, i) - normal_at(master, i, 1.0_wp))
+      n = n/norm2(n)
+   end function smooth_normal
 
    !> Whether the whole master lies so far off the line through x along the normal that neither look_along nor look_at_end, in no
    !> more doubt about the normal than this, can find it: most faces of a long slave are so far off a short master.

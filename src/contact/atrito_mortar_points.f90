@@ -14,7 +14,7 @@ module atrito_mortar_points
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_master, only: master_t
+   use atrito_master, only: master_t, smooth_normal
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
@@ -22,6 +22,7 @@ module atrito_mortar_points
    use atrito_points, only: contact_points_t, allocate_points, add_point, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, clear_small_component
+   use atrito_smooth_normals, only: common_normal
    implicit none (type, external)
    private
    public :: pair_by_mortar
@@ -42,6 +43,7 @@ module atrito_mortar_points
       logical :: has_point(MOST) = .true.           !< nodes that get a weighting function
       real(wp) :: length(MOST) = 0.0_wp             !< int phi ds [L]
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
+      real(wp) :: normal(2, MOST) = 0.0_wp          !< int psi n h ds [L^2], n the direction in which the sides touch
       real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
       real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
       integer(ip) :: n = 0                          !< nodes of the master
@@ -117,7 +119,7 @@ contains
       type(face_list_t), intent(in) :: faces        !< of the master
       type(master_t), intent(in) :: master
       type(face_integrals_t), intent(out) :: integrals
-      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, ds, psi(MOST), phi(MOST), on_master, gap
+      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, ds, psi(MOST), phi(MOST), on_master, normal(2), gap
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: k, g, n
 
@@ -136,7 +138,8 @@ contains
             psi = weighting(n, t, integrals)
             integrals%length = integrals%length + ds*psi
             ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%x(1, :n)))
-            call look_at_piece(face, t, master, segments%piece(k), on_master, gap)
+            call look_at_piece(face, t, master, segments%piece(k), on_master, normal, gap)
+            integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
             integrals%weight = integrals%weight + ds*psi
             integrals%gap = integrals%gap + (ds*gap)*psi
             integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
@@ -206,13 +209,14 @@ contains
       end select
    end function hats
 
-   !> The place t in [0,1] of a piece that a place of the slave faces, and how far off it is along the line of sight [L].
-   pure subroutine look_at_piece(face, t, master, piece, on_master, gap)
+   !> The place t in [0,1] of a piece that a place of the slave faces, the direction in which they would touch, and how far off it
+   !> is along that.
+   pure subroutine look_at_piece(face, t, master, piece, on_master, normal, gap)
       type(slave_face_t), intent(in) :: face
       real(wp), intent(in) :: t
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: piece
-      real(wp), intent(out) :: on_master, gap
+      real(wp), intent(out) :: on_master, normal(2), gap !< gap: [L]
       real(wp) :: x(2), d(2), roots(2), distance, nearest
       integer(ip) :: k, n
 
@@ -220,7 +224,6 @@ contains
       d = direction_at(face, t)
       call cross_piece(master, piece, x, d, roots, n)
       on_master = 0.5_wp
-      gap = dot_product(place_at(master, piece, on_master) - x, d)
       nearest = huge(1.0_wp)
       do k = 1, n
          roots(k) = min(max(roots(k), 0.0_wp), 1.0_wp)
@@ -228,8 +231,9 @@ contains
          if (abs(distance) >= nearest) cycle
          nearest = abs(distance)
          on_master = roots(k)
-         gap = distance
       end do
+      normal = common_normal(d, face%curvature, smooth_normal(master, piece, on_master), master%curvature(piece))
+      gap = dot_product(place_at(master, piece, on_master) - x, normal)
    end subroutine look_at_piece
 
    !> Adds a place's part of the master's integrals.
@@ -301,7 +305,7 @@ contains
          points%length(j) = points%length(j) + integrals%length(a)
          points%weight(j) = points%weight(j) + integrals%weight(a)
          points%gap(j) = points%gap(j) + integrals%gap(a)
-         points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
+         points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
          call add_term(j, face%node(a), integrals%slave(a, a), own)
          do b = 1, face%n
             if (b /= a) call add_term(j, face%node(b), integrals%slave(a, b), own)

@@ -4,7 +4,7 @@
 !> A place of the slave faces what it sees along a direction that turns from the normal at one end of the face to that at the other,
 !> and is the same on both sides of a node: nothing of a smooth master is seen twice or left out.
 module atrito_mortar_segments
-   use atrito_face_geometry, only: face_direction
+   use atrito_face_geometry, only: face_direction, outward_normal
    use atrito_faces, only: face_list_t
    use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
@@ -13,7 +13,8 @@ module atrito_mortar_segments
    use atrito_piece_tree, only: search_t, begin_search, next_leaf
    use atrito_pieces, only: place_at, cross
    use atrito_shape_functions, only: face_shape_values, face_shape_slopes
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, sine, CORNER
+   use atrito_slave_faces, only: sine
+   use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
    private
    public :: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
@@ -24,6 +25,7 @@ module atrito_mortar_segments
       integer(ip), allocatable :: piece(:)          !< of the master
       real(wp), allocatable :: from(:), to(:)       !< on the face, in [-1,1]
       real(wp), allocatable :: direction(:, :, :)   !< (2, 3, faces) of sight, at the nodes of each face in the order of face_nodes
+      real(wp), allocatable :: curvature(:)         !< (faces) [1/L]
    end type segments_t
 
    !> A face of the slave with what is needed of it.
@@ -32,6 +34,7 @@ module atrito_mortar_segments
       integer(ip) :: node(3) = 0                    !< in the order of face_nodes
       real(wp) :: x(2, 3) = 0.0_wp                  !< [L]
       real(wp) :: direction(2, 3) = 0.0_wp
+      real(wp) :: curvature = 0.0_wp                !< [1/L]
       real(wp) :: length = 0.0_wp                   !< of the chord [L]
       integer(ip) :: state = 0                      !< of its element
       real(wp) :: thickness = 0.0_wp                !< of its element [L]
@@ -57,7 +60,7 @@ contains
       real(wp), allocatable :: cuts(:)
       integer(ip) :: i
 
-      call find_directions(mesh, slave, segments%direction)
+      call find_directions(mesh, slave, segments)
       allocate (segments%first(slave%n + 1), source=1_ip)
       do i = 1, slave%n
          face = take_face(mesh, slave, i, segments)
@@ -67,37 +70,21 @@ contains
       end do
    end subroutine cut_slave
 
-   !> The directions of sight: normals, at an end the mean with that of the next face unless they meet at a corner.
-   pure subroutine find_directions(mesh, slave, direction)
+   !> The directions of sight: normals of the smooth surface.
+   pure subroutine find_directions(mesh, slave, segments)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
-      real(wp), allocatable, intent(out) :: direction(:, :, :)
-      type(nodal_rule_t) :: rule, first, last
+      type(segments_t), intent(inout) :: segments
+      real(wp), allocatable :: ends(:, :, :)
       integer(ip) :: i
 
-      allocate (direction(2, 3, slave%n), source=0.0_wp)
+      call smooth_surface(mesh, slave, ends, segments%curvature)
+      allocate (segments%direction(2, 3, slave%n))
+      segments%direction(:, :2, :) = ends
       do i = 1, slave%n
-         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-         direction(:, 1, i) = rule%normal(:, 1)
-         direction(:, 2, i) = rule%normal(:, rule%n)
-         if (rule%n == 3) direction(:, 3, i) = rule%normal(:, 2)
-         if (i > 1) call join_directions(direction(:, 2, i - 1), direction(:, 1, i))
+         segments%direction(:, 3, i) = outward_normal(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), 0.0_wp)
       end do
-      if (slave%n < 3) return
-      first = nodal_rule(mesh, slave%element(1), slave%face(1))
-      last = nodal_rule(mesh, slave%element(slave%n), slave%face(slave%n))
-      if (last%node(last%n) == first%node(1)) call join_directions(direction(:, 2, slave%n), direction(:, 1, 1))
    end subroutine find_directions
-
-   pure subroutine join_directions(a, b)
-      real(wp), intent(inout) :: a(2), b(2)
-      real(wp) :: mean(2)
-
-      if (sine(a, b) > CORNER) return
-      mean = (a + b)/norm2(a + b)
-      a = mean
-      b = mean
-   end subroutine join_directions
 
    !> Face i of the slave.
    pure function take_face(mesh, slave, i, segments) result(face)
@@ -113,6 +100,7 @@ contains
       end associate
       face%x(:, :face%n) = mesh%x(:, face%node(:face%n))
       face%direction = segments%direction(:, :, i)
+      face%curvature = segments%curvature(i)
       face%length = norm2(face%x(:, 2) - face%x(:, 1))
    end function take_face
 

@@ -8,12 +8,14 @@ module atrito_nodal_points
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, is_out_of_sight, look_along, look_at_end, &
+   use atrito_master, only: master_t, sight_t, smooth_normal, is_out_of_sight, look_along, look_at_end, &
                             nearest_end
+   use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, clear_small_component, CORNER
+   use atrito_smooth_normals, only: smooth_surface, common_normal
    implicit none (type, external)
    private
    public :: pair_with_master, finds_master
@@ -36,6 +38,7 @@ contains
       type(master_t), intent(in) :: master          !< of these faces
       type(contact_points_t), intent(out) :: points
       logical, allocatable :: used(:)
+      real(wp), allocatable :: curvature(:)         ! of the slave at the points [1/L]
       integer(ip) :: i
 
       points%rigid = master%rigid
@@ -44,8 +47,8 @@ contains
       points%n_left_out = count(.not. used, kind=ip)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
-      call place_points(mesh, thickness, slave, used, points)
-      call look_for_master(mesh, master, master_faces, points)
+      call place_points(mesh, thickness, slave, used, points, curvature)
+      call look_for_master(mesh, master, master_faces, curvature, points)
       call trim_points(points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
    end subroutine pair_with_master
@@ -76,17 +79,21 @@ contains
    end function finds_master
 
    !> One point a slave node; weights and normals of the faces that share it are summed.
-   pure subroutine place_points(mesh, thickness, slave, used, points)
+   pure subroutine place_points(mesh, thickness, slave, used, points, curvature)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)
       type(face_list_t), intent(in) :: slave
       logical, intent(in) :: used(:)
       type(contact_points_t), intent(inout) :: points
+      real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
+      real(wp), allocatable :: ends(:, :, :), of_face(:)
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule
       real(wp) :: s
       integer(ip) :: i, j, k
 
+      call smooth_surface(mesh, slave, ends, of_face)
+      allocate (curvature(size(points%s)), source=0.0_wp)
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
@@ -96,9 +103,11 @@ contains
             points%weight(j) = points%weight(j) + rule%weight(k)* &
                                depth_at(mesh%state(slave%element(i)), thickness(slave%element(i)), mesh%x(1, rule%node(k)))
             points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
+            curvature(j) = curvature(j) + rule%weight(k)*of_face(i)
          end do
          s = s + rule%s(rule%n)
       end do
+      curvature(:points%n) = curvature(:points%n)/points%length(:points%n)
       do i = 1, points%n
          points%normal(:, i) = points%normal(:, i)/norm2(points%normal(:, i))
          call clear_small_component(points%x(:, i), points%length(i), points%normal(:, i))
@@ -107,10 +116,11 @@ contains
 
    !> Initial distances, and the master's shape functions where each point faces it. A distance that is round-off of the
    !> coordinates is none: displacements may be smaller than that.
-   pure subroutine look_for_master(mesh, master, faces, points)
+   pure subroutine look_for_master(mesh, master, faces, curvature, points)
       type(mesh_t), intent(in) :: mesh
       type(master_t), intent(in) :: master
       type(face_list_t), intent(in) :: faces
+      real(wp), intent(in) :: curvature(:)          !< of the slave at the points [1/L]
       type(contact_points_t), intent(inout) :: points
       type(sight_t) :: sight
       integer(ip), allocatable :: nodes(:)
@@ -124,7 +134,9 @@ contains
          ! where two faces meet at an angle, the mean normal may miss the end of the master
          if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master, any_side=.true.)
          points%gap(i) = sight%distance
-         if (abs(sight%distance) <= round_off) points%gap(i) = 0.0_wp
+         if (curvature(i) > 0.0_wp) call turn_to_common_normal(master, sight, curvature(i), points%x(:, i), points%length(i), &
+                                                               points%normal(:, i), points%gap(i))
+         if (abs(points%gap(i)) <= round_off) points%gap(i) = 0.0_wp
          points%first(i + 1) = points%first(i)
          call add_entries([points%node(i)], [1.0_wp], i, points)
          if (master%rigid) cycle
@@ -134,6 +146,20 @@ contains
       end do
       if (.not. master%rigid) call find_coarsest(spacing, points)
    end subroutine look_for_master
+
+   !> On a curved slave the gap is measured along the normal that both sides have in common.
+   pure subroutine turn_to_common_normal(master, sight, curvature, x, length, normal, gap)
+      type(master_t), intent(in) :: master
+      type(sight_t), intent(in) :: sight
+      real(wp), intent(in) :: curvature             !< of the slave [1/L]
+      real(wp), intent(in) :: x(2), length          !< [L]
+      real(wp), intent(inout) :: normal(2)
+      real(wp), intent(out) :: gap                  !< [L]
+
+      normal = common_normal(normal, curvature, smooth_normal(master, sight%piece, sight%t), master%curvature(sight%piece))
+      call clear_small_component(x, length, normal)
+      gap = dot_product(place_at(master, sight%piece, sight%t) - x, normal)
+   end subroutine turn_to_common_normal
 
    !> Where neighbours on the slave lie farthest apart, by the distance of the master's nodes that they face: what is pushed
    !> between them meets no point.
