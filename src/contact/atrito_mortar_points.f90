@@ -114,7 +114,7 @@ contains
       type(face_list_t), intent(in) :: faces        !< of the master
       type(master_t), intent(in) :: master
       type(face_integrals_t), intent(out) :: integrals
-      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t
+      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, weight
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: k, g
 
@@ -126,7 +126,8 @@ contains
          if (.not. master%rigid) nodes = face_nodes(mesh, faces%element(segments%piece(k)), faces%face(segments%piece(k)))
          do g = 1, N_GAUSS
             t = 0.5_wp*((1 - gauss(g))*segments%from(k) + (1 + gauss(g))*segments%to(k))
-            call add_place(face, t, 0.5_wp*weights(g)*(segments%to(k) - segments%from(k)), master, segments%piece(k), nodes, integrals)
+            weight = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))
+            call add_place(face, t, weight, master, segments%piece(k), nodes, integrals)
          end do
       end do
       if (integrals%is_whole) call make_dual(face%n, integrals)
