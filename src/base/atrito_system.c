@@ -250,7 +250,8 @@ void atrito_guard_interrupts(int code) {
    for (int i = 0; i < ENDINGS; i++)
       if (sigaction(endings[i], NULL, &present) == 0 && present.sa_handler != SIG_IGN)
          sigaction(endings[i], &action, NULL);
-   sigaltstack(&stack, NULL);
+   sigaltstack(&stack, NULL);                       /* of this thread alone: where another one's stack overflows, the system ends the
+                                                       program (139), and what is unfinished stays, as docs/user/running.md says */
    for (int i = 0; i < FAULTS; i++)
       guard_fault(i);
    atexit(remove_unfinished);

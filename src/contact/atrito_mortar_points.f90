@@ -58,6 +58,12 @@ module atrito_mortar_points
       real(wp), allocatable :: value(:)             !< [L^2]
    end type terms_t
 
+   !> The rows while faces are added.
+   type :: rows_t
+      type(id_map_t) :: place                       !< of the points of nodes
+      type(terms_t) :: slave, master
+   end type rows_t
+
 contains
 
    !> The points of a slave that faces a master, on a deformable master's faces or rigid.
@@ -69,10 +75,10 @@ contains
       type(master_t), intent(in) :: master          !< of these faces
       type(contact_points_t), intent(out) :: points
       type(segments_t) :: segments
-      type(terms_t) :: own, others
-      type(id_map_t) :: place
+      type(rows_t) :: rows
       type(face_integrals_t) :: integrals
       type(slave_face_t) :: face
+      type(nodal_rule_t) :: rule
       real(wp) :: s
       integer(ip) :: i
 
@@ -85,30 +91,21 @@ contains
       s = 0.0_wp
       do i = 1, slave%n
          face = take_face(mesh, slave, i, segments)
+         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
          if (segments%first(i + 1) == segments%first(i)) then
             points%n_left_out = points%n_left_out + 1
          else
             face%state = mesh%state(slave%element(i))
             face%thickness = thickness(slave%element(i))
             call integrate_face(mesh, face, i, segments, master_faces, master, integrals)
-            call add_face(mesh, slave, i, s, face, integrals, place, points, own, others)
+            call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
-         s = s + face_length(mesh, slave, i)
+         s = s + rule%s(rule%n)
       end do
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], &
                           segments%first(2:) > segments%first(:slave%n))
-      call finish_points(own, others, points)
+      call finish_points(rows%slave, rows%master, points)
    end subroutine pair_by_mortar
-
-   pure real(wp) function face_length(mesh, slave, i) result(length)
-      type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
-      type(nodal_rule_t) :: rule
-
-      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-      length = rule%s(rule%n)
-   end function face_length
 
    !> The integrals over the segments of a face.
    subroutine integrate_face(mesh, face, i, segments, faces, master, integrals)
@@ -119,36 +116,50 @@ contains
       type(face_list_t), intent(in) :: faces        !< of the master
       type(master_t), intent(in) :: master
       type(face_integrals_t), intent(out) :: integrals
-      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, ds, psi(MOST), phi(MOST), on_master, normal(2), gap
+      real(wp) :: gauss(N_GAUSS), weights(N_GAUSS), t, weight
       integer(ip), allocatable :: nodes(:)
-      integer(ip) :: k, g, n
+      integer(ip) :: k, g
 
       call judge_cover(face, segments%from(segments%first(i):segments%first(i + 1) - 1), &
                        segments%to(segments%first(i):segments%first(i + 1) - 1), integrals)
       call gauss_rule(N_GAUSS, gauss, weights)
       allocate (integrals%node(0), integrals%master(MOST, 0), nodes(0))
-      n = face%n
-      phi = 0.0_wp
       do k = segments%first(i), segments%first(i + 1) - 1
          if (.not. master%rigid) nodes = face_nodes(mesh, faces%element(segments%piece(k)), faces%face(segments%piece(k)))
          do g = 1, N_GAUSS
             t = 0.5_wp*((1 - gauss(g))*segments%from(k) + (1 + gauss(g))*segments%to(k))
-            ds = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))*norm2(face_direction(face%x(:, :n), t))
-            phi(:n) = face_shape_values(n, t)
-            psi = weighting(n, t, integrals)
-            integrals%length = integrals%length + ds*psi
-            ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%x(1, :n)))
-            call look_at_piece(face, t, master, segments%piece(k), on_master, normal, gap)
-            integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
-            integrals%weight = integrals%weight + ds*psi
-            integrals%gap = integrals%gap + (ds*gap)*psi
-            integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
-            if (master%rigid) cycle
-            call add_master(nodes, face_shape_values(size(nodes, kind=ip), 2*on_master - 1), ds*psi, integrals)
+            weight = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))
+            call add_place(face, t, weight, master, segments%piece(k), nodes, integrals)
          end do
       end do
-      if (integrals%is_whole) call make_dual(n, integrals)
+      if (integrals%is_whole) call make_dual(face%n, integrals)
    end subroutine integrate_face
+
+   !> Adds what a place of the slave is worth.
+   pure subroutine add_place(face, t, weight, master, piece, nodes, integrals)
+      type(slave_face_t), intent(in) :: face
+      real(wp), intent(in) :: t, weight             !< on the face, in [-1,1]
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: piece              !< of the master, that the place faces
+      integer(ip), intent(in) :: nodes(:)           !< of the piece; none of a rigid one
+      type(face_integrals_t), intent(inout) :: integrals
+      real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), gap
+
+      associate (n => face%n)
+         phi = 0.0_wp
+         phi(:n) = face_shape_values(n, t)
+         psi = weighting(n, t, integrals)
+         ds = weight*norm2(face_direction(face%x(:, :n), t))
+         integrals%length = integrals%length + ds*psi
+         ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%x(1, :n)))
+         call look_at_piece(face, t, master, piece, on_master, normal, gap)
+         integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
+         integrals%weight = integrals%weight + ds*psi
+         integrals%gap = integrals%gap + (ds*gap)*psi
+         integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
+      end associate
+      if (.not. master%rigid) call add_master(nodes, face_shape_values(size(nodes, kind=ip), 2*on_master - 1), ds*psi, integrals)
+   end subroutine add_place
 
    !> Whether a face is covered whole, and which nodes get a weighting function where it is not: those that are covered, or the
    !> one that is nearest to what is.
@@ -282,36 +293,32 @@ contains
    end subroutine make_dual
 
    !> Adds the integrals of a face to its points.
-   pure subroutine add_face(mesh, slave, i, s, face, integrals, place, points, own, others)
+   pure subroutine add_face(mesh, face, rule, s, integrals, rows, points)
       type(mesh_t), intent(in) :: mesh
-      type(face_list_t), intent(in) :: slave
-      integer(ip), intent(in) :: i
-      real(wp), intent(in) :: s                     !< arc length at the beginning of the face [L]
       type(slave_face_t), intent(in) :: face
+      type(nodal_rule_t), intent(in) :: rule        !< of the face
+      real(wp), intent(in) :: s                     !< arc length at the beginning of the face [L]
       type(face_integrals_t), intent(in) :: integrals
-      type(id_map_t), intent(inout) :: place
+      type(rows_t), intent(inout) :: rows
       type(contact_points_t), intent(inout) :: points
-      type(terms_t), intent(inout) :: own, others   !< of the slave and of the master
-      type(nodal_rule_t) :: rule
       integer(ip) :: order(MOST), k, a, b, j
 
-      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
       order = [1_ip, 2_ip, 3_ip]
       if (face%n == 3) order = [1_ip, 3_ip, 2_ip]
       do k = 1, face%n
          a = order(k)
          if (.not. integrals%has_point(a)) cycle
-         call add_point(mesh, face%node(a), s + rule%s(k), points, place, j)
+         call add_point(mesh, face%node(a), s + rule%s(k), points, rows%place, j)
          points%length(j) = points%length(j) + integrals%length(a)
          points%weight(j) = points%weight(j) + integrals%weight(a)
          points%gap(j) = points%gap(j) + integrals%gap(a)
          points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
-         call add_term(j, face%node(a), integrals%slave(a, a), own)
+         call add_term(j, face%node(a), integrals%slave(a, a), rows%slave)
          do b = 1, face%n
-            if (b /= a) call add_term(j, face%node(b), integrals%slave(a, b), own)
+            if (b /= a) call add_term(j, face%node(b), integrals%slave(a, b), rows%slave)
          end do
          do b = 1, size(integrals%node, kind=ip)
-            call add_term(j, integrals%node(b), -integrals%master(a, b), others)
+            call add_term(j, integrals%node(b), -integrals%master(a, b), rows%master)
          end do
       end do
    end subroutine add_face

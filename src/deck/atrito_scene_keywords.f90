@@ -83,7 +83,7 @@ contains
       call add_form(k, 'nonlocal', 1, 1, when='NONLOCAL')
       call add_item(k, 'nu', KIND_REAL, 'coefficient of friction, >= 0', dimension='-')
       call add_item(k, 'eps', KIND_REAL, 'slip up to which phi is smoothed, >= 0', dimension='L')
-      call add_item(k, 'rho', KIND_REAL, 'radius of the average, >= 0', dimension='L')
+      call add_item(k, 'rho', KIND_REAL, 'radius of the average by straight distance, >= 0', dimension='L')
       call add_example(k, '*FRICTION, NONLOCAL|0.3, 4e-4, 0.1')
    end subroutine define_interaction_keywords
 
