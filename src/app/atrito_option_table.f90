@@ -49,7 +49,7 @@ module atrito_option_table
                                          'a number, 1e-8 to 0.1: of the interval round the limit, over the limit'), &
                                 option_t('--watch    ', Y, [N, N, N, N, N, N, Y], 'NODE,DOF: a node of the deck, and 1 or 2'), &
                                 option_t('--elements ', Y, [N, N, N, N, N, Y, N], &
-                                         'cpe4, cps4, cpe9, cps9, several with commas between them'), &
+                                         'cpe4, cps4, cpe8, cps8, cpe9, cps9, several with commas between them'), &
                                 option_t('--reference', Y, [N, N, N, N, N, Y, N], &
                                          'QUANTITY or QUANTITY=VALUE, a quantity of summary.tab'), &
                                 option_t('--help     ', N, [Y, Y, Y, Y, Y, Y, Y], ''), &

@@ -41,7 +41,7 @@ module atrito_usage
                                                '  --vary NAME=v1,..  values of a *PARAMETER; several --vary: all combinations', &
                                                'options of a study', &
                                                '  --levels N         so many meshes, each of four times the elements', &
-                                               '  --elements LIST    cpe4, cps4, cpe9, cps9 with commas; default the deck''s own', &
+                                               '  --elements LIST    cpe4,cpe8,cpe9,cps4,...; default the deck''s', &
                                                '  --reference Q=V    exact value of a quantity of summary.tab; Q alone:', &
                                                '                     extrapolated; may be repeated', &
                                                'options of a limit', &

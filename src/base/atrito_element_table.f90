@@ -22,6 +22,7 @@ module atrito_element_table
       character(len=2) :: name = ''              !< in field files
       character(len=15) :: topology = ''         !< in XDMF; its order of nodes is ours
       real(wp) :: place(2, MOST_NODES) = 0.0_wp  !< of the nodes, in [-1,1]^2
+      logical :: hollow = .false.                !< no node in the middle of its grid of nodes
    end type element_shape_t
 
    type :: element_kind_t
@@ -38,13 +39,16 @@ module atrito_element_table
                                                                                    0, -1, 1, 0, 0, 1, -1, 0, 0, 0], [2, MOST_NODES])
    type(element_shape_t), parameter :: SHAPES(MOST_NODES) = &
                                        [(NO_SHAPE, i=1, 3), element_shape_t(4, 4, 1, 4, 1, 'Q1', 'Quadrilateral', SQUARE), &
-                                        (NO_SHAPE, i=5, 8), element_shape_t(9, 4, 2, 9, 4, 'Q2', 'Quadrilateral_9', SQUARE)]
+                                        (NO_SHAPE, i=5, 7), &
+                                        element_shape_t(8, 4, 2, 9, 4, 'S2', 'Quadrilateral_8', SQUARE, hollow=.true.), &
+                                        element_shape_t(9, 4, 2, 9, 4, 'Q2', 'Quadrilateral_9', SQUARE)]
 
    !> Columns by themselves: of all elements of a mesh, SHAPES(shape)%degree would copy the rows.
    integer(ip), parameter :: DEGREE_OF(MOST_NODES) = SHAPES%degree, BEST_OF(MOST_NODES) = SHAPES%n_best
 
-   type(element_kind_t), parameter :: KINDS(4) = &
+   type(element_kind_t), parameter :: KINDS(6) = &
                                       [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
+                                       element_kind_t('CPE8', 8, PLANE_STRAIN), element_kind_t('CPS8', 8, PLANE_STRESS), &
                                    element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), element_kind_t('CPS9', 9, PLANE_STRESS, .true.)]
 
 contains

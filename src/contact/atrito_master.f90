@@ -1,6 +1,7 @@
 !> The master of a contact pair as a list of pieces, and what a point of the slave sees of it. Of pieces that are equally good the
 !> first of the list is taken, as if all of them had been looked at.
 module atrito_master
+   use atrito_element_table, only: DEGREE_OF
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
@@ -15,7 +16,7 @@ module atrito_master
    !> Faces of elements, or rigid segments and arcs.
    type, extends(pieces_t) :: master_t
       logical :: rigid = .false.
-      integer(ip) :: shape = 0                      !< nodes of the elements of all faces; 0: rigid, none, or not the same
+      integer(ip) :: degree = 0                     !< of the elements of all faces; 0: rigid, none, or not the same
       real(wp), allocatable :: ends(:, :, :)        !< (2, first and last end, n) unit normals of the smooth surface
       real(wp), allocatable :: curvature(:)         !< (n) [1/L] >= 0
       type(piece_tree_t) :: tree
@@ -51,8 +52,8 @@ contains
          master%sag(:, i) = sag_of(mesh%x(:, nodes))
       end do
       if (faces%n > 0) then
-         master%shape = mesh%shape(faces%element(1))
-         if (any(mesh%shape(faces%element(:faces%n)) /= master%shape)) master%shape = 0
+         master%degree = DEGREE_OF(mesh%shape(faces%element(1)))
+         if (any(DEGREE_OF(mesh%shape(faces%element(:faces%n))) /= master%degree)) master%degree = 0
       end if
       call smooth_surface(mesh, faces, master%ends, master%curvature)
       call plant(master%pieces_t, master%tree)

@@ -3,7 +3,7 @@
 !> The points are the slave's nodes, trapezoidal for Q1 and Simpson for Q2. Each looks along
 !> the slave's normal for the master, element faces or rigid segments.
 module atrito_nodal_points
-   use atrito_element_table, only: MOST_SIDES
+   use atrito_element_table, only: DEGREE_OF, MOST_SIDES
    use atrito_id_map, only: id_map_t
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
@@ -192,7 +192,7 @@ contains
          are_matching = are_matching .and. &
                         minval(points%coefficient(points%first(i):points%first(i + 1) - 1)) <= -(1 - 4*MATCH_TOLERANCE)
       end do
-      if (slave%n > 0) are_matching = are_matching .and. master%shape == mesh%shape(slave%element(1))
+      if (slave%n > 0) are_matching = are_matching .and. master%degree == DEGREE_OF(mesh%shape(slave%element(1)))
    end function are_matching
 
 end module atrito_nodal_points

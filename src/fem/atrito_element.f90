@@ -7,7 +7,8 @@ module atrito_element
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
-                                     gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
+                                     gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, &
+                                     S2_ETA_SLOPES, Q2_WEIGHTS
    implicit none (type, external)
    private
    public :: element_stiffness, mean_gradients, pressure_load, body_load
@@ -69,6 +70,10 @@ contains
       if (n == 4) then
          do i = 1, size(Q1_XI_SLOPES, 2, kind=ip)
             call add_products(n, x, Q1_XI_SLOPES(:, i), Q1_ETA_SLOPES(:, i), 1.0_wp, products)
+         end do
+      else if (n == 8) then
+         do i = 1, size(S2_XI_SLOPES, 2, kind=ip)
+            call add_products(n, x, S2_XI_SLOPES(:, i), S2_ETA_SLOPES(:, i), Q2_WEIGHTS(i), products)
          end do
       else
          do i = 1, size(Q2_XI_SLOPES, 2, kind=ip)

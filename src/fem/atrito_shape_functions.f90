@@ -1,4 +1,4 @@
-!> Shape functions of the Lagrange quadrilaterals on [-1,1]^2 and of their faces, and Gauss points.
+!> Shape functions of the quadrilaterals on [-1,1]^2 (Lagrange's, and eight nodes) and of their faces, and Gauss points.
 !>
 !> Nodes: corners counter-clockwise from (-1,-1), then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre.
 module atrito_shape_functions
@@ -7,10 +7,10 @@ module atrito_shape_functions
    implicit none (type, external)
    private
    public :: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, rule_point
-   public :: Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, Q2_WEIGHTS
+   public :: Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, S2_ETA_SLOPES, Q2_WEIGHTS
 
    !> Places of the nodes in the tensor grid: index along xi and along eta (1: -1, 2: 0 or +1 for Q1, 3: +1).
-   integer(ip), parameter :: Q1_NODES = 4, Q2_NODES = 9
+   integer(ip), parameter :: Q1_NODES = 4, S2_NODES = 8, Q2_NODES = 9
    integer(ip), parameter :: Q1_GRID(2, Q1_NODES) = reshape([1, 1, 2, 1, 2, 2, 1, 2], [2, 4])
    integer(ip), parameter :: Q2_GRID(2, Q2_NODES) = reshape([1, 1, 3, 1, 3, 3, 1, 3, 2, 1, 3, 2, 2, 3, 1, 2, 2, 2], [2, 9])
 
@@ -31,6 +31,12 @@ module atrito_shape_functions
    real(wp), parameter :: Q1_ETA_SLOPES(Q1_NODES, 4) = V2(Q1_GRID(1, :), Q1_POINTS(:, 1))*D2(Q1_GRID(2, :), Q1_POINTS(:, 2))
    real(wp), parameter :: Q2_XI_SLOPES(Q2_NODES, 9) = D3(Q2_GRID(1, :), Q2_POINTS(:, 1))*V3(Q2_GRID(2, :), Q2_POINTS(:, 2))
    real(wp), parameter :: Q2_ETA_SLOPES(Q2_NODES, 9) = V3(Q2_GRID(1, :), Q2_POINTS(:, 1))*D3(Q2_GRID(2, :), Q2_POINTS(:, 2))
+   !> Eight nodes are the nine with a centre that follows the others: what each of them takes of its shape function.
+   real(wp), parameter :: OF_CENTRE(S2_NODES) = [-0.25_wp, -0.25_wp, -0.25_wp, -0.25_wp, 0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp]
+   real(wp), parameter :: S2_XI_SLOPES(S2_NODES, 9) = Q2_XI_SLOPES(:S2_NODES, :) + &
+                          spread(OF_CENTRE, 2, 9)*spread(Q2_XI_SLOPES(Q2_NODES, :), 1, S2_NODES)
+   real(wp), parameter :: S2_ETA_SLOPES(S2_NODES, 9) = Q2_ETA_SLOPES(:S2_NODES, :) + &
+                          spread(OF_CENTRE, 2, 9)*spread(Q2_ETA_SLOPES(Q2_NODES, :), 1, S2_NODES)
    !> Weights of the nine points; those of the four are 1.
    real(wp), parameter :: Q2_WEIGHTS(9) = W3(Q2_POINTS(:, 1))*W3(Q2_POINTS(:, 2))
 
@@ -50,6 +56,7 @@ contains
          grid = grid_of(n_nodes, i)
          n(i) = a(grid(1))*b(grid(2))
       end do
+      if (n_nodes == S2_NODES) n = n + OF_CENTRE*(a(2)*b(2))
    end function shape_values
 
    !> Derivatives of the shape functions with respect to xi (column 1) and eta (column 2).
@@ -68,6 +75,10 @@ contains
          grid = grid_of(n_nodes, i)
          dn(i, :) = [da(grid(1))*b(grid(2)), a(grid(1))*db(grid(2))]
       end do
+      if (n_nodes == S2_NODES) then
+         dn(:, 1) = dn(:, 1) + OF_CENTRE*(da(2)*b(2))
+         dn(:, 2) = dn(:, 2) + OF_CENTRE*(a(2)*db(2))
+      end if
    end function shape_gradients
 
    pure function grid_of(n_nodes, node) result(grid)

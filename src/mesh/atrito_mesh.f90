@@ -9,7 +9,7 @@ module atrito_mesh
    private
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
-   public :: opposite_face_count, has_side, nodes_of_square
+   public :: opposite_face_count, has_side, nodes_of_square, is_hollow
    public :: side_count, middle_node, element_coordinates, signed_area
 
    type :: mesh_t
@@ -101,30 +101,30 @@ contains
    end subroutine add_nodes
 
    !> Adds the elements of a block, row by row, with the numbers first_id, first_id + 1, ..., none of which is there yet.
-   subroutine add_block(mesh, first_id, state, order, nodes)
+   subroutine add_block(mesh, first_id, state, shape, nodes)
       type(mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: first_id           !< > 0
       integer(ip), intent(in) :: state              !< place in STATES
-      integer(ip), intent(in) :: order              !< 1 for Q1, 2 for Q2
-      integer(ip), intent(in) :: nodes(0:, 0:)      !< places, in lines along the block, (order nx + 1, order ny + 1)
-      integer(ip) :: i, j, k, e, nx, ny, before
+      integer(ip), intent(in) :: shape              !< place in SHAPES
+      integer(ip), intent(in) :: nodes(0:, 0:)      !< places, in lines along the block, (degree nx + 1, degree ny + 1)
+      integer(ip) :: i, j, order, e, nx, ny, before
 
+      order = SHAPES(shape)%degree
       nx = ubound(nodes, 1, kind=ip)/order
       ny = ubound(nodes, 2, kind=ip)/order
       before = mesh%n_elements
       call reserve_mesh(mesh, 0_ip, nx*ny)
       call add_sequence(mesh%element_map, first_id, before + 1, nx*ny)
-      k = (order + 1)**2
-      !$omp parallel do default(none) private(i, e) shared(mesh, first_id, state, order, nodes, nx, ny, before, k) &
+      !$omp parallel do default(none) private(i, e) shared(mesh, first_id, state, shape, order, nodes, nx, ny, before) &
       !$omp if(is_shared(nx*ny))
       do j = 0, ny - 1
          do i = 0, nx - 1
             e = before + j*nx + i + 1
             mesh%element_id(e) = first_id + j*nx + i
             mesh%state(e) = state
-            mesh%shape(e) = k
-            mesh%nodes(:k, e) = nodes_of_square(nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
-            mesh%nodes(k + 1:, e) = 0
+            mesh%shape(e) = shape
+            mesh%nodes(:shape, e) = nodes_of_square(shape, nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
+            mesh%nodes(shape + 1:, e) = 0
          end do
       end do
       !$omp end parallel do
@@ -243,16 +243,25 @@ contains
       end do
    end function has_side
 
-   !> The nodes of an element from their square of 2 x 2 (Q1) or 3 x 3 (Q2): corners counter-clockwise, mid-sides, centre.
-   pure function nodes_of_square(square) result(nodes)
+   !> The nodes of an element from their square of 2 x 2 or 3 x 3: corners counter-clockwise, mid-sides, centre.
+   pure function nodes_of_square(shape, square) result(nodes)
+      integer(ip), intent(in) :: shape              !< place in SHAPES
       integer(ip), intent(in) :: square(:, :)
-      integer(ip) :: nodes(size(square))
+      integer(ip) :: nodes(shape)
       integer(ip) :: n
 
       n = size(square, 1, kind=ip)
       nodes(:4) = [square(1, 1), square(n, 1), square(n, n), square(1, n)]
-      if (n == 3) nodes(5:) = [square(2, 1), square(3, 2), square(2, 3), square(1, 2), square(2, 2)]
+      if (n == 3) nodes(5:8) = [square(2, 1), square(3, 2), square(2, 3), square(1, 2)]
+      if (shape == 9) nodes(9) = square(2, 2)
    end function nodes_of_square
+
+   !> Whether a place of the grid of nodes of such elements, from 0 at a corner, has none: the middle of an element of eight nodes.
+   pure logical function is_hollow(shape, i, j)
+      integer(ip), intent(in) :: shape, i, j
+
+      is_hollow = SHAPES(shape)%hollow .and. mod(i, 2_ip) == 1 .and. mod(j, 2_ip) == 1
+   end function is_hollow
 
    !> Coordinates [L] of an element's nodes, (2, shape).
    pure function element_coordinates(mesh, element) result(x)

@@ -2,11 +2,11 @@
 !> its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then
 !> those inside elements.
 module atrito_refinement
-   use atrito_element_table, only: SHAPES, MOST_NODES, MOST_SIDES
+   use atrito_element_table, only: SHAPES, DEGREE_OF, MOST_NODES, MOST_SIDES
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: add_id
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: mesh_t, side_count, face_end, middle_node, nodes_of_square
+   use atrito_mesh, only: mesh_t, side_count, face_end, middle_node, nodes_of_square, is_hollow
    implicit none (type, external)
    private
    public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, is_refined, edge_place
@@ -131,7 +131,7 @@ contains
       b = mesh%nodes(face_end(mesh, element, face), element)
       do k = around%first(a), around%first(a + 1) - 1
          other = around%list(k)
-         if (mesh%shape(other) /= mesh%shape(element)) cycle
+         if (DEGREE_OF(mesh%shape(other)) /= DEGREE_OF(mesh%shape(element))) cycle
          do other_face = 1, side_count(mesh, other)
             if (mesh%nodes(other_face, other) == b .and. mesh%nodes(face_end(mesh, other, other_face), other) == a) return
          end do
@@ -157,10 +157,28 @@ contains
          refinement%inner_first(e) = n
          intervals = element_intervals(mesh, refinement, e)
          n = n + (intervals - 1)**2
-         if (SHAPES(mesh%shape(e))%degree > 1) n = n - 1
+         if (SHAPES(fine_shape(mesh, refinement%shape, e))%hollow) n = n - refinement%pieces**2
+         if (has_centre(mesh, e) .and. .not. drops_centre(mesh, refinement, e)) n = n - 1
       end do
       refinement%inner_first(e) = n
    end subroutine number_nodes
+
+   pure logical function has_centre(mesh, element)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+
+      has_centre = SHAPES(mesh%shape(element))%degree > 1 .and. .not. SHAPES(mesh%shape(element))%hollow
+   end function has_centre
+
+   !> Whether the node in the middle of an element belongs to none of its pieces: nine nodes become eight.
+   pure logical function drops_centre(mesh, refinement, element)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element
+
+      drops_centre = has_centre(mesh, element) .and. is_hollow(fine_shape(mesh, refinement%shape, element), refinement%pieces, &
+                                                               refinement%pieces)
+   end function drops_centre
 
    !> Coordinates and numbers of the nodes: new numbers follow the greatest.
    pure subroutine place_nodes(mesh, refinement, fine)
@@ -209,7 +227,7 @@ contains
             else
                line(:, 1) = along(mesh%x(:, nodes(1)), mesh%x(:, nodes(4)), t, mesh%x(:, nodes(8)))
                line(:, 2) = along(mesh%x(:, nodes(2)), mesh%x(:, nodes(3)), t, mesh%x(:, nodes(6)))
-               line(:, 3) = along(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), t, mesh%x(:, nodes(9)))
+               line(:, 3) = along(mesh%x(:, nodes(5)), mesh%x(:, nodes(7)), t, centre_of(mesh, element))
             end if
             do i = 0, n
                k = grid(i, j)
@@ -227,6 +245,22 @@ contains
          call map_edge(mesh, refinement, refinement%face_edge(i, element), x)
       end do
    end subroutine map_element
+
+   !> The middle of an element of the second degree [L]; of eight nodes where their shape functions have it.
+   pure function centre_of(mesh, element) result(x)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      real(wp) :: x(2), away(2, 8)
+
+      associate (nodes => mesh%nodes(:, element))
+         if (has_centre(mesh, element)) then
+            x = mesh%x(:, nodes(9))
+         else
+            away = mesh%x(:, nodes(:8)) - spread(mesh%x(:, nodes(1)), 2, 8)
+            x = mesh%x(:, nodes(1)) + (0.5_wp*sum(away(:, 5:), dim=2) - 0.25_wp*sum(away(:, :4), dim=2))
+         end if
+      end associate
+   end function centre_of
 
    pure subroutine map_edge(mesh, refinement, edge, x)
       type(mesh_t), intent(in) :: mesh
@@ -288,7 +322,9 @@ contains
       k = refinement%inner_first(element)
       do j = 1, n - 1
          do i = 1, n - 1
-            if (SHAPES(mesh%shape(element))%degree > 1 .and. 2*i == n .and. 2*j == n) then
+            if (is_hollow(fine_shape(mesh, refinement%shape, element), i, j)) then
+               grid(i, j) = 0
+            else if (has_centre(mesh, element) .and. 2*i == n .and. 2*j == n) then
                grid(i, j) = mesh%nodes(mesh%shape(element), element)
             else
                grid(i, j) = k
@@ -348,7 +384,7 @@ contains
          do j = 0, ubound(grid, 2, kind=ip) - m, m
             do i = 0, ubound(grid, 1, kind=ip) - m, m
                k = k + 1
-               fine%nodes(:shape, k) = nodes_of_square(grid(i:i + m, j:j + m))
+               fine%nodes(:shape, k) = nodes_of_square(shape, grid(i:i + m, j:j + m))
                fine%element_id(k) = k
                if (keep) fine%element_id(k) = k + (mesh%element_id(e) - e)*children
                fine%shape(k) = shape
@@ -423,9 +459,12 @@ contains
          if (.not. all(chosen(mesh%nodes(:mesh%shape(e), e)))) cycle
          chosen(refinement%inner_first(e):refinement%inner_first(e + 1) - 1) = .true.
       end do
-      k = size(members, kind=ip)
-      allocate (fine(k + count(chosen(mesh%n_nodes + 1:), kind=ip)))
-      fine(:k) = members
+      do e = 1, mesh%n_elements
+         if (drops_centre(mesh, refinement, e)) chosen(mesh%nodes(mesh%shape(e), e)) = .false.
+      end do
+      fine = pack(members, chosen(members))
+      k = size(fine, kind=ip)
+      fine = [fine, [(0_ip, i=1, count(chosen(mesh%n_nodes + 1:), kind=ip))]]
       do i = mesh%n_nodes + 1, n
          if (.not. chosen(i)) cycle
          k = k + 1

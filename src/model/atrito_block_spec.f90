@@ -25,6 +25,7 @@ module atrito_block_spec
 
    !> What a *BLOCK says.
    type :: block_spec_t
+      integer(ip) :: shape = 0                         !< place in SHAPES
       integer(ip) :: state = 0
       integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2: node intervals of an element along each direction
       integer(ip) :: n(2) = 0                          !< elements along and across
@@ -41,11 +42,10 @@ contains
       type(card_t), intent(in) :: card
       type(block_spec_t), intent(out) :: spec
       logical, intent(out) :: ok
-      integer(ip) :: n_nodes
       logical :: good(6)
 
-      call read_element_type(deck, card, n_nodes, spec%state, good(1))
-      spec%order = SHAPES(n_nodes)%degree
+      call read_element_type(deck, card, spec%shape, spec%state, good(1))
+      spec%order = SHAPES(spec%shape)%degree
       call read_count(deck, card, 'NX', spec%n(1), good(2))
       call read_count(deck, card, 'NY', spec%n(2), good(3))
       call read_corners(deck, card, spec, good(4))

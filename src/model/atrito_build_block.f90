@@ -13,7 +13,7 @@ module atrito_build_block
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: add_nodes, add_block, reserve_mesh
+   use atrito_mesh, only: add_nodes, add_block, reserve_mesh, is_hollow
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_references, only: report_unknown
@@ -80,6 +80,7 @@ contains
       block%card = i_card
       block%state = spec%state
       block%order = spec%order
+      block%shape = spec%shape
       call place_block_nodes(i_card, shifted, context, block, ok)
       if (.not. ok) return
       call put_block_sets(context, block)
@@ -108,7 +109,7 @@ contains
       do j = 0, n(2)
          do i = 0, n(1)
             k = k + 1
-            if (block%nodes(i, j) > 0) cycle
+            if (block%nodes(i, j) > 0 .or. is_hollow(block%shape, i, j)) cycle
             n_new = n_new + 1
             x(:, n_new) = x(:, k)
             block%nodes(i, j) = context%model%mesh%n_nodes + n_new
@@ -236,7 +237,7 @@ contains
       type(block_t), intent(in) :: block
       integer(ip) :: k
 
-      call put_node_set(context, block%card, block%name, reshape(block%nodes, [size(block%nodes)]))
+      call put_node_set(context, block%card, block%name, pack(block%nodes, block%nodes > 0))
       do k = 1, size(BLOCK_SIDES, kind=ip)
          call put_node_set(context, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
       end do
@@ -308,7 +309,7 @@ contains
          ok = context%elements%greatest <= huge(1_ip) - n
          if (ok) then
             call reserve_mesh(context%model%mesh, 0_ip, context%elements_to_come)   ! with those of the blocks that follow
-            call add_block(context%model%mesh, context%elements%greatest + 1, block%state, block%order, block%nodes)
+            call add_block(context%model%mesh, context%elements%greatest + 1, block%state, block%shape, block%nodes)
             call note_places(context%elements%place, block%first_element, context%model%mesh%n_elements, -i_card)
             context%elements%greatest = context%elements%greatest + n
          else

@@ -32,8 +32,9 @@ module atrito_build_context
       character(len=:), allocatable :: name
       integer(ip) :: card = 0                          !< place in deck%cards
       integer(ip) :: state = 0                         !< place in STATES
-      integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2
-      integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places
+      integer(ip) :: shape = 0                         !< place in SHAPES
+      integer(ip) :: order = 1                         !< node intervals along an edge of an element
+      integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places; 0: none
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
       character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
       logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES

@@ -181,7 +181,7 @@ contains
       end do
       call report_error(context%deck, place_token(context%deck, context%elements%place(first)), 'E-EDGE', 'element '// &
                         ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
-                        expected='elements of one order and size on both sides of an edge (CPE4 or CPE9, CPS4 or CPS9), '// &
+                        expected='elements of one order and size on both sides of an edge (CPE4, or CPE8 and CPE9; so CPS), '// &
                         'or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
 

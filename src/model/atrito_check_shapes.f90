@@ -72,7 +72,10 @@ contains
       integer(ip), intent(in) :: e, shape, node
       type(token_t), intent(in) :: place
       character(len=:), allocatable :: name, at_node
+      character(len=43) :: also(3)                     ! what is said of a centre, where there is one
 
+      also = [character(len=43) :: ' and centre', ', the centre', ', the centre near the middle of the element']
+      if (SHAPES(mesh%shape(e))%hollow) also = ''
       name = 'element '//to_text(mesh%element_id(e))
       at_node = 'node '//to_text(mesh%node_id(mesh%nodes(node, e)))
       select case (shape)
@@ -85,13 +88,14 @@ contains
                            expected='a convex quadrilateral, corners counter-clockwise', keyword='ELEMENT')
       case (SHAPE_ORDER)
          call report_error(deck, place, 'E-SHAPE', name//' folds over near '//at_node// &
-                           ': its mid-side nodes and centre stand in another order', &
-                           expected='corners counter-clockwise, the middles of sides 1-2, 2-3, 3-4, 4-1, the centre: '// &
+                           ': its mid-side nodes'//trim(also(1))//' stand in another order', &
+                           expected='corners counter-clockwise, the middles of sides 1-2, 2-3, 3-4, 4-1'// &
+                           trim(also(2))//': '// &
                            nodes_text(mesh, e, nearest_order(mesh%x(:, mesh%nodes(:mesh%shape(e), e)))), keyword='ELEMENT')
       case (SHAPE_FOLDED)
          call report_error(deck, place, 'E-SHAPE', name//' folds over: '//at_node//', the '//role_text(mesh, e, node)// &
-                           ', lies too far off', expected='a mid-side node in the middle half of its side, the centre '// &
-                           'near the middle of the element', keyword='ELEMENT')
+                           ', lies too far off', expected='a mid-side node in the middle half of its side'// &
+                           trim(also(3)), keyword='ELEMENT')
       end select
    end subroutine report_shape
 

@@ -5,7 +5,7 @@
 #      trapezoids  inner lines zigzag by 0.3 of a row: trapezoids of the same shape at every n (n and m even)
 #      ring        x along the radius from r1 to r2, y along the angle from `start` (default 0) over `turn` degrees
 #                  (turn=360: closed; LEFT and RIGHT are the inner and the outer circle)
-#      arched      four sides of parabolas, as a single nine-node element has them
+#      arched      four sides of parabolas, as a single element of the second degree has them
 #      hill        the upper side is one parabola, 0.2 high in the middle; valley: the lower side (of what lies on the hill)
 # first: numbers of nodes and elements begin above it. size, dy: all is multiplied by size, and dy added to y.
 # gx, gy: elements become smaller towards the left or lower side by this power, towards the other one if negative. Curved Q2 sides: mid-side nodes lie on the mapped curve; trapezoids have
@@ -54,14 +54,15 @@ BEGIN {
    if (!gy) gy = 1
    if (!size) size = 1
    closed = (map == "ring" && turn == 360)
-   order = (type ~ /9/) ? 2 : 1
+   order = (type ~ /[89]/) ? 2 : 1; hollow = (type ~ /8/)
    print "*NODE, NSET=" elset
-   for (j = 0; j <= order*m - closed; j++) for (i = 0; i <= order*n; i++) { node(i, j); printf "%d, %.17g, %.17g\n", id(i, j), px, py }
+   for (j = 0; j <= order*m - closed; j++) for (i = 0; i <= order*n; i++) if (!(hollow && i % 2 && j % 2)) { node(i, j); printf "%d, %.17g, %.17g\n", id(i, j), px, py }
    print "*ELEMENT, TYPE=" type ", ELSET=" elset
    for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
       a = order*i; b = order*j; c = a + order; d = b + order
       printf "%d, %d, %d, %d, %d", first + j*n + i + 1, id(a, b), id(c, b), id(c, d), id(a, d)
-      if (order == 2) printf ", %d, %d, %d, %d, %d", id(a + 1, b), id(c, b + 1), id(a + 1, d), id(a, b + 1), id(a + 1, b + 1)
+      if (order == 2) printf ", %d, %d, %d, %d", id(a + 1, b), id(c, b + 1), id(a + 1, d), id(a, b + 1)
+      if (order == 2 && !hollow) printf ", %d", id(a + 1, b + 1)
       print ""
    }
    print "*NSET, NSET=" elset "-RIGHT"; for (j = 0; j <= order*m; j++) print id(order*n, j)

@@ -9,7 +9,7 @@ module fem_cases
    private
    public :: SHAPES, PLACES, node_places, distorted, linear_field, row_of_elements, dense_stiffness, grid_of_elements
 
-   integer(ip), parameter :: SHAPES(2) = [4_ip, 9_ip]
+   integer(ip), parameter :: SHAPES(3) = [4_ip, 9_ip, 8_ip]
    !> Places in the parent element where functions are tried.
    real(wp), parameter :: PLACES(2, 4) = reshape([0.0_wp, 0.0_wp, 0.3_wp, -0.7_wp, -1.0_wp, 0.45_wp, 0.9_wp, 1.0_wp], [2, 4])
    !> Places of the nodes: corners, mid-sides, centre.
@@ -100,7 +100,7 @@ contains
             do k = 0, p
                square(:p + 1, k + 1) = row*(p*(j - 1) + k) + p*(i - 1) + SOME(:p + 1)
             end do
-            call add_element(fem%mesh, nx*(j - 1) + i, PLANE_STRAIN, nodes_of_square(square(:p + 1, :p + 1)), known)
+            call add_element(fem%mesh, nx*(j - 1) + i, PLANE_STRAIN, nodes_of_square((p + 1)**2, square(:p + 1, :p + 1)), known)
          end do
       end do
       call trim_mesh(fem%mesh)

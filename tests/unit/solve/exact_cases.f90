@@ -106,7 +106,7 @@ contains
             do k = 0, p
                square(:p + 1, k + 1) = [(m*(p*(j - 1) + k) + p*(i - 1) + 1 + l, l=0, p)]
             end do
-            call add_element(model%mesh, n*(j - 1) + i, PLANE_STRAIN, nodes_of_square(square(:p + 1, :p + 1)), known)
+            call add_element(model%mesh, n*(j - 1) + i, PLANE_STRAIN, nodes_of_square((p + 1)**2, square(:p + 1, :p + 1)), known)
          end do
       end do
       call trim_mesh(model%mesh)

@@ -28,7 +28,7 @@ ALL-OUTLINE, 2, 2, exp(k*x)*((c*a + b)*sin(k*y) - a*k*(y*cos(k*y) - x*sin(k*y)))
 # Two by two general quadrilaterals; nine nodes: straight sides.
 skewed() {
    awk -v type="$1" 'BEGIN {
-      nine = type ~ /9/
+      nine = type ~ /[89]/; hollow = type ~ /8/
       split("0 0.45 1 0 0.6 1 0 0.35 1", x); split("0 0 0 0.6 0.42 0.5 1 1 1", y)
       split("1 2 4 5", first)
       print "*NODE"
@@ -43,6 +43,7 @@ skewed() {
             if (!(key in middle)) { middle[key] = ++n; printf "%d, %.17g, %.17g\n", n, (x[p] + x[q])/2, (y[p] + y[q])/2 }
             list[e] = list[e] ", " middle[key]
          }
+         if (hollow) continue
          n++
          printf "%d, %.17g, %.17g\n", n, (x[c[1]] + x[c[2]] + x[c[3]] + x[c[4]])/4, (y[c[1]] + y[c[2]] + y[c[3]] + y[c[4]])/4
          list[e] = list[e] ", " n
@@ -55,15 +56,19 @@ skewed() {
    }' </dev/null
 }
 
-for type in CPE4 CPE9; do
+for type in CPE4 CPE9 CPE8; do
    l2=2; energy=1
-   [ $type = CPE9 ] && l2=3 && energy=2
+   [ $type != CPE4 ] && l2=3 && energy=2
    for map in square trapezoids arched; do
       for n in 4 8 16 32; do
          { printf '*HEADING\nWaves\n'; awk -v type=$type -v n=$n -v m=$n -v map=$map -f "$mesh"; waves; } >deck.inp
          row waves.txt ${type}_$map 0 deck.inp waves 2 1 0.5
       done
-      orders waves.txt ${type}_$map $l2 $energy
+      case ${type}_$map in
+      # eight nodes lose up to an order on meshes that stay distorted (D. N. Arnold, D. Boffi, R. S. Falk, Math. Comp. 71, 2002)
+      CPE8_trapezoids) orders waves.txt CPE8_trapezoids 2.5 1.5 0.5 ;;
+      *) orders waves.txt ${type}_$map $l2 $energy ;;
+      esac
    done
    { printf '*HEADING\nWaves\n'; skewed $type; waves; } >skewed.inp
    { printf '*HEADING\nWaves\n'; awk -v type=$type -v n=2 -v m=2 -v map=arched -f "$mesh"; waves; } >arched.inp
@@ -95,7 +100,7 @@ U
 S
 *END STEP"
 }
-for type in CPE4 CPS4 CPE9 CPS9; do
+for type in CPE4 CPS4 CPE9 CPS9 CPE8 CPS8; do
    case $type in *4) l2=2 energy=1 ;; *) l2=3 energy=2 ;; esac
    for n in 4 8 16 32; do
       ring $type $n >deck.inp

@@ -25,10 +25,10 @@ markdown() {
         name = $1; l2 = $4; energy = $5 }' "$1"
 }
 
-# orders TABLE CASE L2 ENERGY: the orders between the last two rows of a case, within 0.1.
+# orders TABLE CASE L2 ENERGY [WITHIN]: the orders between the last two rows of a case, within 0.1.
 orders() {
    found=$(awk -v name="$2" '$1 == name { a = l2; b = energy; l2 = $4; energy = $5 }
       END { if (a > 0 && l2 > 0) printf "%.6f %.6f", log(a/l2)/log(2), log(b/energy)/log(2); else print "none none" }' "$1")
-   near "$2: order of the L2 error" "${found% *}" "$3" 0.1
-   near "$2: order of the energy error" "${found#* }" "$4" 0.1
+   near "$2: order of the L2 error" "${found% *}" "$3" "${5:-0.1}"
+   near "$2: order of the energy error" "${found#* }" "$4" "${5:-0.1}"
 }

@@ -6,7 +6,7 @@ material() {
    printf '*MATERIAL, NAME=%s\n*ELASTIC\n%s, %s\n*DENSITY\n2.\n*SOLID SECTION, ELSET=%s, MATERIAL=%s\n%s\n' "$1" "$2" "$3" "$4" "$1" "${5:-1}"
 }
 
-for type in CPE9 CPS9; do
+for type in CPE9 CPS9 CPE8 CPS8; do
    { echo "*HEADING
 One curved element under pressure from all sides"
    awk -v type=$type -v n=1 -v m=1 -v map=arched -f "$mesh"
@@ -33,7 +33,7 @@ S
    all_near "$type curved element r1" curved-$type/reactions.tab r1 0 1e-13
    all_near "$type curved element r2" curved-$type/reactions.tab r2 0 1e-13
    s33=0
-   [ $type = CPE9 ] && s33=-1.8
+   case $type in CPE*) s33=-1.8 ;; esac
    all_near "$type curved element s33" curved-$type/stress.tab s33 $s33 3e-12
 
    { echo "*HEADING
@@ -55,7 +55,7 @@ S
    field_near "$type constant strain u2" strain-$type/nodes.tab u2 '3e-3*y - 1e-3*x' 1e-15
    # s11 = lambda (e11 + e22) + 2 G e11, lambda = G = 400 in plane strain, lambda = 800/3 in plane stress
    lambda=400
-   [ $type = CPS9 ] && lambda=$(value 800/3)
+   case $type in CPS*) lambda=$(value 800/3) ;; esac
    all_near "$type constant strain s11" strain-$type/stress.tab s11 "$(value "$lambda*4e-3 + 0.8")" 1e-12
    all_near "$type constant strain s22" strain-$type/stress.tab s22 "$(value "$lambda*4e-3 + 2.4")" 1e-12
    all_near "$type constant strain s12" strain-$type/stress.tab s12 0.4 1e-12
@@ -123,7 +123,7 @@ exact() {
 }
 for delta in 0 1e-8; do
    for slave in up low; do
-      for type in CPE4 CPE9 CPS9; do
+      for type in CPE4 CPE9 CPS9 CPE8 CPS8; do
          blocks $type-$slave-$delta $type 4 $type 4 $slave $delta ""
          exact $type-$slave-$delta $delta
       done
@@ -133,6 +133,12 @@ for delta in 0 1e-8; do
    blocks nine-under-four-$delta CPE9 3 CPE4 3 low $delta ", QUADRATURE=NODAL"
    exact nine-under-four-$delta $delta
 done
+
+# Faces of eight and of nine nodes are the same.
+blocks eight-on-nine CPE9 4 CPE8 4 up 0 ""
+exact eight-on-nine 0
+blocks eight-under-nine CPE8 4 CPE9 4 low 0 ", QUADRATURE=NODAL"
+exact eight-under-nine 0
 
 # What NODAL does on sides that do not match: resultant and equilibrium hold, the stress does not.
 measure() {
@@ -149,7 +155,7 @@ measure nine-slave-on-four-node-by-node CPE9 2 CPE4 4 low
 measure four-slave-on-nine-equal-elements CPE9 2 CPE4 2 up
 
 # hill TYPE N SLAVE
-for type in CPE9 CPS9; do
+for type in CPE9 CPS9 CPE8 CPS8; do
    for n in 1 2 5; do
       for slave in up low; do
          name=hill-$type-$n-$slave

@@ -71,8 +71,8 @@ for level in 1 2 3 4; do
    before=$error
 done
 # loads and reactions
-for type in CPS4 CPE9; do
-   case $type in *4) nodes=3 ;; *9) nodes=5 ;; esac
+for type in CPS4 CPE9 CPE8; do
+   case $type in *4) nodes=3 ;; *) nodes=5 ;; esac
    sed "s/STATE/$type/; s/^HELD/A-BOTTOM, 1, 2/" "$here/loads.inp" >"set-$type.inp"
    sed "s/STATE/$type/" "$here/loads.inp" |
       awk -v n=$nodes '/^HELD/ { for (i = n; i >= 1; i--) print i ", 1, 2"; next } { print }' >"numbers-$type.inp"
@@ -89,7 +89,7 @@ for type in CPS4 CPE9; do
    done
 done
 # example 2: finer by --refine and by NX, NY
-for type in CPS4 CPS9; do
+for type in CPS4 CPS9 CPS8; do
    sed "s/CPS4/$type/" "$input/ex2-two-plates.inp" >"beams-$type.inp"
    sed "s/CPS4/$type/; s/NX=20, NY=4/NX=40, NY=8/" "$input/ex2-two-plates.inp" >"finer-$type.inp"
    run 0 "beams-$type.inp" "refined-$type" --refine 1 --digits 17 --quiet

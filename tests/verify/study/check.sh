@@ -117,9 +117,10 @@ coulomb=$(awk '/^# shear_resultant: reference/ { sub(",", "", $4); print $4 }' o
 says 'rough punch' out/study.tab '# shear_resultant, cpe9: the error stops falling at 16 %: half the eps moves it by'
 
 # A smooth field: orders 2 and 4 of the energy, 1 and 2 of the estimate.
-"$atrito" study "$input/studies/smooth-field.inp" --levels 5 --elements cpe4,cpe9 --reference strain_energy=0.439428879465916 \
+"$atrito" study "$input/studies/smooth-field.inp" --levels 5 --elements cpe4,cpe8,cpe9 --reference strain_energy=0.439428879465916 \
    -o out --digits 17 --quiet || complain 'smooth field'
 near 'smooth field, cpe4: order' "$(value_of 4 cpe4 strain_energy_order)" 2 0.1
+near 'smooth field, cpe8: order' "$(value_of 4 cpe8 strain_energy_order)" 4 0.1
 near 'smooth field, cpe9: order' "$(value_of 4 cpe9 strain_energy_order)" 4 0.1
 says 'smooth field' out/study.tab '2 (cpe9) at the last level, as for a smooth solution'
 
