@@ -104,7 +104,7 @@ contains
       end do
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], &
                           segments%first(2:) > segments%first(:slave%n))
-      call finish_points(rows%slave, rows%master, points)
+      call finish_points(mesh, rows%slave, rows%master, points)
    end subroutine pair_by_mortar
 
    !> The integrals over the segments of a face.
@@ -338,7 +338,8 @@ contains
    end subroutine add_term
 
    !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's.
-   pure subroutine finish_points(own, others, points)
+   pure subroutine finish_points(mesh, own, others, points)
+      type(mesh_t), intent(in) :: mesh
       type(terms_t), intent(in) :: own, others
       type(contact_points_t), intent(inout) :: points
       integer(ip), allocatable :: next_own(:), next_other(:), of_own(:), of_other(:)
@@ -358,10 +359,27 @@ contains
          if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
          points%first(j + 1) = points%first(j)
          call gather(own, of_own(next_own(j):next_own(j + 1) - 1), j, points)
+         call place_force(mesh, j, points)
          call gather(others, of_other(next_other(j):next_other(j + 1) - 1), j, points)
       end do
       call trim_points(points)
    end subroutine finish_points
+
+   !> Moves a point from its node to where its force acts on the slave: elsewhere on a face that is covered in part.
+   pure subroutine place_force(mesh, j, points)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: j                  !< the point; its entries so far are those of the slave
+      type(contact_points_t), intent(inout) :: points
+      real(wp) :: away(2)
+      integer(ip) :: k
+
+      away = 0.0_wp
+      do k = points%first(j), points%first(j + 1) - 1
+         away = away + points%coefficient(k)*(mesh%x(:, points%entry(k)) - mesh%x(:, points%node(j)))
+      end do
+      points%x(:, j) = points%x(:, j) + away
+      points%s(j) = points%s(j) + (points%normal(1, j)*away(2) - points%normal(2, j)*away(1))
+   end subroutine place_force
 
    !> The terms of each point, in their order: those of point j are list(first(j) : first(j+1) - 1).
    pure subroutine sort_terms(terms, n, first, list)
