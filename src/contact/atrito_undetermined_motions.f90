@@ -39,7 +39,7 @@ contains
 
       call find_undetermined_motions(system, multipliers, basis)
       if (size(basis, 2) == 0) return
-      undetermined = simplest(basis(system%n - system%k + 1:, :))
+      allocate (undetermined, source=simplest(basis(system%n - system%k + 1:, :)))
       least = multipliers
       least_state = state
       call reduce_motion(system, basis, least%x)

@@ -240,7 +240,7 @@ contains
          return
       end if
       tau = friction_bound(line, p)
-      uncertain = uncertain_displacements(results%u, of_node, growth)
+      call find_uncertain_displacements(results%u, of_node, growth, uncertain)
       last = 0
       do j = 1, line%n
          if (j > last) then
@@ -262,16 +262,16 @@ contains
    end subroutine check_law
 
    !> What round-off may do to the displacements of the body of each node [L].
-   pure function uncertain_displacements(u, of_node, growth) result(uncertain)
+   pure subroutine find_uncertain_displacements(u, of_node, growth, uncertain)
       real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
       integer(ip), intent(in), optional :: of_node(:)
       real(wp), intent(in), optional :: growth(:)
-      real(wp) :: uncertain(size(u, 2))
+      real(wp), allocatable, intent(out) :: uncertain(:)
       real(wp), allocatable :: largest(:)
       real(wp) :: of_all
       integer(ip) :: i
 
-      uncertain = usual_growth(0_ip, 0.0_wp)*EPS_MACH*maxval(abs(u))
+      allocate (uncertain(size(u, 2)), source=usual_growth(0_ip, 0.0_wp)*EPS_MACH*maxval(abs(u)))
       if (.not. present(of_node)) return
       allocate (largest(0:maxval(of_node)), source=0.0_wp)
       do i = 1, size(u, 2, kind=ip)
@@ -284,7 +284,7 @@ contains
          largest = usual_growth(0_ip, 0.0_wp)*EPS_MACH*largest + printed_as_none(largest, of_all)
       end if
       uncertain = largest(of_node)
-   end function uncertain_displacements
+   end subroutine find_uncertain_displacements
 
    !> The scales of one pair: its own pressure, and what is certain of its gaps and slips.
    pure subroutine measure_pair(rows, line, results, uncertain, first, last, p, scales)

@@ -13,8 +13,7 @@ module bodies_deck
    type :: body_t
       real(real64) :: corner(2, 4) = 0           !< counter-clockwise
       integer :: nx = 2, ny = 2, order = 1
-      logical :: stress = .false.                !< plane stress
-      logical :: as_block = .false.              !< written as *BLOCK, else as nodes and elements
+      logical :: stress = .false., as_block = .false. !< plane stress; written as *BLOCK, else as nodes and elements
       real(real64) :: bx(0:MOST_ELEMENTS) = 0, by(0:MOST_ELEMENTS) = 0 !< break points, 0..1
       real(real64) :: shake = 0                  !< inner nodes are moved by up to this part of an element
       real(real64) :: e = 1, mu = 0, thickness = 1
@@ -26,22 +25,18 @@ module bodies_deck
       logical :: touches(4) = .false.            !< sides in a pair
       logical :: held(2, 4) = .false.            !< dofs of the sides that are prescribed
       real(real64) :: moved(2, 4) = 0            !< to these values
-      integer :: pinned_corner = 0
-      integer :: first_node = 1, first_element = 1
+      integer :: pinned_corner = 0, first_node = 1, first_element = 1
    end type body_t
 
    type :: pair_t
       integer :: slave = 0, slave_side = 1, slave_first = 1, slave_last = 0
-      integer :: master = 0                      !< 0: the rigid line
-      integer :: master_side = 1, master_first = 1, master_last = 0
+      integer :: master = 0, master_side = 1, master_first = 1, master_last = 0 !< master 0: the rigid line
       real(real64) :: line(2, 2) = 0
-      logical :: matching = .false.
+      logical :: matching = .false., line_kernel = .false.
       character(len=7) :: behaviour = 'HARD'
       real(real64) :: stiffness = 0              !< slope or delta
       character(len=8) :: friction = 'NONE'      !< NONE, LOCAL, NONLOCAL
-      real(real64) :: nu = 0, slope = 0          !< slope 0: exact stick
-      real(real64) :: eps = 0, rho = 0
-      logical :: line_kernel = .false.
+      real(real64) :: nu = 0, slope = 0, eps = 0, rho = 0 !< slope 0: exact stick
    end type pair_t
 
    type :: bodies_t

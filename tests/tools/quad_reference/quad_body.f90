@@ -7,8 +7,8 @@ module quad_body
    use, intrinsic :: iso_fortran_env, only: real64, real128
    implicit none (type, external)
    private
-   public :: body_t, make_body, finish_body, node_of, add_pressure, add_body_force, prescribe, SIDE_BOTTOM, SIDE_RIGHT, SIDE_TOP, &
-             SIDE_LEFT
+   public :: body_t, make_body, set_material, finish_body, node_of, add_pressure, add_body_force, prescribe, &
+             SIDE_BOTTOM, SIDE_RIGHT, SIDE_TOP, SIDE_LEFT
 
    integer, parameter :: qp = real128
    integer, parameter :: SIDE_BOTTOM = 1, SIDE_RIGHT = 2, SIDE_TOP = 3, SIDE_LEFT = 4
@@ -40,12 +40,11 @@ contains
       node_of = i*(body%my + 1) + j + 1
    end function node_of
 
-   subroutine make_body(corners, order, nx, ny, young, poisson, thickness, plane_stress, contact_side, body)
-      real(real64), intent(in) :: corners(2, 4), young, poisson, thickness
+   subroutine make_body(corners, order, nx, ny, contact_side, body)
+      real(real64), intent(in) :: corners(2, 4)
       integer, intent(in) :: order, nx, ny, contact_side
-      logical, intent(in) :: plane_stress
       type(body_t), intent(out) :: body
-      real(qp) :: s, t, lambda, shear, e, mu
+      real(qp) :: s, t
       integer :: i, j, n
 
       body%order = order
@@ -53,7 +52,6 @@ contains
       body%ny = ny
       body%mx = nx*order
       body%my = ny*order
-      body%thickness = thickness
       body%contact_side = contact_side
       n = (body%mx + 1)*(body%my + 1)
       allocate (body%x(2, n), body%f(2*n), body%value(2*n), body%held(2*n))
@@ -68,6 +66,17 @@ contains
                                              + (1 - s)*t*corners(:, 4)
          end do
       end do
+      j = merge(0, body%my, contact_side == SIDE_BOTTOM)
+      body%contact = [(node_of(body, i, j), i=0, body%mx)]
+   end subroutine make_body
+
+   subroutine set_material(young, poisson, thickness, plane_stress, body)
+      real(real64), intent(in) :: young, poisson, thickness
+      logical, intent(in) :: plane_stress
+      type(body_t), intent(inout) :: body
+      real(qp) :: lambda, shear, e, mu
+
+      body%thickness = thickness
       e = young
       mu = poisson
       shear = e/(2*(1 + mu))
@@ -77,9 +86,7 @@ contains
       body%d(1, 1) = lambda + 2*shear
       body%d(2, 2) = lambda + 2*shear
       body%d(3, 3) = shear
-      j = merge(0, body%my, contact_side == SIDE_BOTTOM)
-      body%contact = [(node_of(body, i, j), i=0, body%mx)]
-   end subroutine make_body
+   end subroutine set_material
 
    !> Nodes of a side in the order of travel round the block, counter-clockwise.
    pure function side_nodes(body, side) result(nodes)

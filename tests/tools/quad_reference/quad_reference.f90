@@ -7,7 +7,7 @@
 !> and whether the point is open (0), sticks (1) or slips (2), then what the contact law says of them. Exit code 3: no solution.
 program quad_reference
    use, intrinsic :: iso_fortran_env, only: real64, real128
-   use quad_body, only: body_t, make_body, finish_body, add_pressure, add_body_force, prescribe, &
+   use quad_body, only: body_t, make_body, set_material, finish_body, add_pressure, add_body_force, prescribe, &
                         SIDE_BOTTOM, SIDE_RIGHT, SIDE_TOP, SIDE_LEFT
    use quad_contact, only: contact_t, build_contact, place_of, bound_of
    use quad_solve, only: state_t, solve_contact, refine, law_error, new_state
@@ -51,8 +51,9 @@ contains
       type(body_t), intent(out) :: body
 
       call make_body(corners, count_of(scene, prefix//'_order'), count_of(scene, prefix//'_nx'), count_of(scene, prefix//'_ny'), &
-                     get(scene, prefix//'_e'), get(scene, prefix//'_mu'), get(scene, prefix//'_thick'), &
-                     get(scene, 'plane_stress') > 0, contact_side, body)
+                     contact_side, body)
+      call set_material(get(scene, prefix//'_e'), get(scene, prefix//'_mu'), get(scene, prefix//'_thick'), &
+                        get(scene, 'plane_stress') > 0, body)
    end subroutine begin_body
 
    subroutine make_lower()
