@@ -47,8 +47,8 @@ module atrito_mortar_points
       real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
       real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
       integer(ip) :: n = 0                          !< nodes of the master
-      integer(ip), allocatable :: node(:)
-      real(wp), allocatable :: master(:, :)         !< (MOST, n) int psi_a phi_k h ds [L^2]
+      integer(ip), allocatable :: node(:)           !< (n or more) maybe twice
+      real(wp), allocatable :: master(:, :)         !< (MOST, n or more) int psi_a phi_k h ds [L^2]
    end type face_integrals_t
 
    !> Terms of the rows as they come: point, node, value.
@@ -123,7 +123,9 @@ contains
       call judge_cover(face, segments%from(segments%first(i):segments%first(i + 1) - 1), &
                        segments%to(segments%first(i):segments%first(i + 1) - 1), integrals)
       call gauss_rule(N_GAUSS, gauss, weights)
-      allocate (integrals%node(0), integrals%master(MOST, 0), nodes(0))
+      k = MOST*(segments%first(i + 1) - segments%first(i))
+      allocate (integrals%node(k), nodes(0))
+      allocate (integrals%master(MOST, k), source=0.0_wp)
       do k = segments%first(i), segments%first(i + 1) - 1
          if (.not. master%rigid) nodes = face_nodes(mesh, faces%element(segments%piece(k)), faces%face(segments%piece(k)))
          do g = 1, N_GAUSS
@@ -247,23 +249,21 @@ contains
       gap = dot_product(place_at(master, piece, on_master) - x, normal)
    end subroutine look_at_piece
 
-   !> Adds a place's part of the master's integrals.
+   !> Adds a place's part of the master's integrals. A node is looked for among those of the pieces before.
    pure subroutine add_master(nodes, values, psi, integrals)
       integer(ip), intent(in) :: nodes(:)
       real(wp), intent(in) :: values(:)             !< shape functions
       real(wp), intent(in) :: psi(MOST)             !< times weight [L^2]
       type(face_integrals_t), intent(inout) :: integrals
-      real(wp), allocatable :: wider(:, :)
-      integer(ip) :: k, at
+      integer(ip) :: k, at, recent
 
+      recent = max(integrals%n - 2*MOST, 0_ip)
       do k = 1, size(nodes, kind=ip)
-         at = findloc(integrals%node, nodes(k), dim=1, kind=ip)
-         if (at == 0) then
-            integrals%node = [integrals%node, nodes(k)]
-            at = size(integrals%node, kind=ip)
-            allocate (wider(MOST, at), source=0.0_wp)
-            wider(:, :at - 1) = integrals%master
-            call move_alloc(wider, integrals%master)
+         at = recent + findloc(integrals%node(recent + 1:integrals%n), nodes(k), dim=1, kind=ip)
+         if (at == recent) then
+            integrals%n = integrals%n + 1
+            at = integrals%n
+            integrals%node(at) = nodes(k)
          end if
          integrals%master(:, at) = integrals%master(:, at) + values(k)*psi
       end do
@@ -285,7 +285,7 @@ contains
       call solve_lu(m, a, info)                     ! M^-1 D, the transpose of A
       a = transpose(a)
       integrals%gap(:n) = matmul(a, integrals%gap(:n))
-      integrals%master(:n, :) = matmul(a, integrals%master(:n, :))
+      integrals%master(:n, :integrals%n) = matmul(a, integrals%master(:n, :integrals%n))
       integrals%slave = 0.0_wp
       do k = 1, n
          integrals%slave(k, k) = integrals%weight(k)
@@ -317,7 +317,7 @@ contains
          do b = 1, face%n
             if (b /= a) call add_term(j, face%node(b), integrals%slave(a, b), rows%slave)
          end do
-         do b = 1, size(integrals%node, kind=ip)
+         do b = 1, integrals%n
             call add_term(j, integrals%node(b), -integrals%master(a, b), rows%master)
          end do
       end do
@@ -342,12 +342,13 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(terms_t), intent(in) :: own, others
       type(contact_points_t), intent(inout) :: points
-      integer(ip), allocatable :: next_own(:), next_other(:), of_own(:), of_other(:)
+      integer(ip), allocatable :: next_own(:), next_other(:), of_own(:), of_other(:), seen(:)
       real(wp) :: round_off
       integer(ip) :: j
 
       deallocate (points%entry, points%coefficient)
       allocate (points%entry(own%n + others%n), points%coefficient(own%n + others%n))
+      allocate (seen(mesh%n_nodes), source=0_ip)
       call sort_terms(own, points%n, next_own, of_own)
       call sort_terms(others, points%n, next_other, of_other)
       round_off = 0.0_wp
@@ -358,9 +359,9 @@ contains
          points%gap(j) = points%gap(j)/points%weight(j)
          if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
          points%first(j + 1) = points%first(j)
-         call gather(own, of_own(next_own(j):next_own(j + 1) - 1), j, points)
+         call gather(own, of_own(next_own(j):next_own(j + 1) - 1), j, seen, points)
          call place_force(mesh, j, points)
-         call gather(others, of_other(next_other(j):next_other(j + 1) - 1), j, points)
+         call gather(others, of_other(next_other(j):next_other(j + 1) - 1), j, seen, points)
       end do
       call trim_points(points)
    end subroutine finish_points
@@ -406,21 +407,34 @@ contains
    end subroutine sort_terms
 
    !> Appends terms of a point to its row, those of one node together, over its weight.
-   pure subroutine gather(terms, list, j, points)
+   pure subroutine gather(terms, list, j, seen, points)
       type(terms_t), intent(in) :: terms
       integer(ip), intent(in) :: list(:)
       integer(ip), intent(in) :: j
+      integer(ip), intent(inout) :: seen(:)         !< (nodes) all 0, as it is left
       type(contact_points_t), intent(inout) :: points
-      real(wp) :: value
-      integer(ip) :: k
+      integer(ip) :: first, last, k, at
 
-      associate (next => points%first(j + 1))
+      associate (next => points%first(j + 1), entry => points%entry, coefficient => points%coefficient)
+         first = next
          do k = 1, size(list, kind=ip)
-            if (any(terms%node(list(:k - 1)) == terms%node(list(k)))) cycle
-            value = sum(terms%value(list(k:)), mask=terms%node(list(k:)) == terms%node(list(k)))/points%weight(j)
-            if (abs(value) <= ROUND_OFF) cycle
-            points%entry(next) = terms%node(list(k))
-            points%coefficient(next) = value
+            at = seen(terms%node(list(k)))
+            if (at == 0) then
+               at = next
+               next = next + 1
+               seen(terms%node(list(k))) = at
+               entry(at) = terms%node(list(k))
+               coefficient(at) = 0.0_wp
+            end if
+            coefficient(at) = coefficient(at) + terms%value(list(k))
+         end do
+         last = next - 1
+         seen(entry(first:last)) = 0
+         next = first
+         do k = first, last
+            if (abs(coefficient(k)) <= ROUND_OFF*points%weight(j)) cycle
+            entry(next) = entry(k)
+            coefficient(next) = coefficient(k)/points%weight(j)
             next = next + 1
          end do
       end associate

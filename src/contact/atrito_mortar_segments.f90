@@ -7,7 +7,7 @@ module atrito_mortar_segments
    use atrito_face_geometry, only: face_direction, outward_normal
    use atrito_faces, only: face_list_t
    use atrito_growth, only: make_room
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_master, only: master_t, sight_t, look_along
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_piece_tree, only: search_t, begin_search, next_leaf
@@ -15,6 +15,7 @@ module atrito_mortar_segments
    use atrito_shape_functions, only: face_shape_values, face_shape_slopes
    use atrito_slave_faces, only: sine
    use atrito_smooth_normals, only: smooth_surface
+   use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
    public :: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
@@ -131,26 +132,42 @@ contains
       real(wp) :: strip, t
       integer(ip) :: first, last, i, k, n
 
-      allocate (cuts(8))
       n = 0
       strip = strip_of(face, master)
       call begin_search(master%tree, place_on_face(face, 0.0_wp), direction_at(face, 0.0_wp), .false., search)
       do
          call next_leaf(master%tree, strip, search, first, last)
          if (last < first) exit
-         if (n == 0) then
-            cuts(:2) = [-1.0_wp, 1.0_wp]
-            n = 2
-         end if
+         call make_room(cuts, n, n + 2*(last - first + 1))
          do i = first, last
             do k = 0, 1
                t = facing_place(face, place_at(master, master%tree%order(i), real(k, wp)))
-               call insert_cut(t, cuts, n)
+               if (abs(t) >= 1 - SAME_CUT) cycle
+               n = n + 1
+               cuts(n) = t
             end do
          end do
       end do
-      cuts = cuts(:n)
+      if (.not. allocated(cuts)) allocate (cuts(0))
+      if (size(cuts) > 0) cuts = sorted_cuts(cuts(:n))
    end subroutine find_cuts
+
+   !> Cuts in ascending order between -1 and 1, each once.
+   pure function sorted_cuts(list) result(cuts)
+      real(wp), intent(in) :: list(:)               !< in (-1,1)
+      real(wp), allocatable :: cuts(:)
+      real(wp), parameter :: STEPS = 2.0_wp**60
+      integer(ip) :: i, n
+
+      cuts = [-1.0_wp, list(sorted_places(int(list*STEPS, lp))), 1.0_wp]
+      n = 1
+      do i = 2, size(cuts, kind=ip)
+         if (cuts(i) - cuts(n) <= SAME_CUT) cycle
+         n = n + 1
+         cuts(n) = cuts(i)
+      end do
+      cuts = cuts(:n)
+   end function sorted_cuts
 
    !> Half of the width [L] of the strip that a face looks into: its own, and what the directions spread on the way to the master.
    pure real(wp) function strip_of(face, master) result(strip)
@@ -190,22 +207,6 @@ contains
       end do
       if (i <= MOST_STEPS) t = NOWHERE
    end function facing_place
-
-   !> Inserts a cut between those that are there, unless it is one of them or outside.
-   pure subroutine insert_cut(t, cuts, n)
-      real(wp), intent(in) :: t
-      real(wp), allocatable, intent(inout) :: cuts(:)
-      integer(ip), intent(inout) :: n
-      integer(ip) :: i
-
-      if (abs(t) >= 1 - SAME_CUT) return
-      if (any(abs(cuts(:n) - t) <= SAME_CUT)) return
-      call make_room(cuts, n, n + 1)
-      i = count(cuts(:n) < t, kind=ip)
-      cuts(i + 2:n + 1) = cuts(i + 1:n)
-      cuts(i + 1) = t
-      n = n + 1
-   end subroutine insert_cut
 
    !> The parts of the face between cuts that face a piece of the master.
    pure subroutine add_segments(face, master, cuts, i_face, segments)
