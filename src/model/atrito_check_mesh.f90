@@ -102,7 +102,7 @@ contains
    subroutine check_strained(deck, poisson, locks, oscillates, place)
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: poisson
-      logical, intent(in) :: locks, oscillates         !< STANDARD elements with four nodes; elements with nine
+      logical, intent(in) :: locks, oscillates         !< STANDARD elements with four nodes; elements with more
       type(token_t), intent(in) :: place
 
       if (poisson >= 0.5_wp) then
@@ -114,7 +114,7 @@ contains
                              'in plane strain', expected='FORMULATION=BBAR of *SOLID SECTION, or mu < 0.49 [-]', keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. oscillates) then
          call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: in plane strain the pressures of elements with '// &
-                             'nine nodes oscillate, in contact too', expected='elements with four nodes and '// &
+                             'eight or nine nodes oscillate, in contact too', expected='elements with four nodes and '// &
                              'FORMULATION=BBAR, or mu < 0.49 [-]', keyword='ELASTIC')
       end if
    end subroutine check_strained

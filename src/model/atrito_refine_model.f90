@@ -32,7 +32,7 @@ contains
       if (DEGREE_OF(max(shape, 1_ip)) == 1 .and. any(DEGREE_OF(context%model%mesh%shape) > 1)) then
          pieces = 2*pieces
          if (any(DEGREE_OF(context%model%mesh%shape) == 1)) then
-            call report_deck_error(context%deck, 'E-REFINE', 'elements of four and of nine nodes together cannot all get four', &
+            call report_deck_error(context%deck, 'E-REFINE', 'elements of four nodes and of more together cannot all get four', &
                                    expected='a mesh of one kind')
             return
          end if

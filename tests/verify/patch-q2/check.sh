@@ -139,6 +139,11 @@ blocks eight-on-nine CPE9 4 CPE8 4 up 0 ""
 exact eight-on-nine 0
 blocks eight-under-nine CPE8 4 CPE9 4 low 0 ", QUADRATURE=NODAL"
 exact eight-under-nine 0
+# Sides that do not match, segment by segment.
+for slave in up low; do
+   blocks eight-mortar-$slave CPE8 4 CPE8 6 $slave 0 ", QUADRATURE=MORTAR"
+   exact eight-mortar-$slave 0
+done
 
 # What NODAL does on sides that do not match: resultant and equilibrium hold, the stress does not.
 measure() {
