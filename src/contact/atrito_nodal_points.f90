@@ -26,6 +26,8 @@ module atrito_nodal_points
    real(wp), parameter :: ROUND_OFFS = 8.0_wp
    !> Sides match when their nodes are this close, in parts of an edge.
    real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
+   !> Nodes of the slave that lie farther apart than so many times those of the master have others between them.
+   real(wp), parameter :: NEIGHBOURS = 1.25_wp
 
 contains
 
@@ -124,7 +126,7 @@ contains
       type(contact_points_t), intent(inout) :: points
       type(sight_t) :: sight
       integer(ip), allocatable :: nodes(:)
-      real(wp) :: round_off, spacing(points%n)
+      real(wp) :: round_off
       integer(ip) :: i
 
       if (points%n == 0) return
@@ -142,9 +144,8 @@ contains
          if (master%rigid) cycle
          nodes = face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))
          call add_entries(nodes, -face_shape_values(size(nodes, kind=ip), 2*sight%t - 1), i, points)
-         spacing(i) = norm2(master%d(:, sight%piece))/(size(nodes) - 1)
       end do
-      if (.not. master%rigid) call find_coarsest(spacing, points)
+      if (.not. master%rigid) call find_coarsest(mesh, master, faces, points)
    end subroutine look_for_master
 
    !> On a curved slave the gap is measured along the normal that both sides have in common.
@@ -161,25 +162,33 @@ contains
       gap = dot_product(place_at(master, sight%piece, sight%t) - x, normal)
    end subroutine turn_to_common_normal
 
-   !> Where neighbours on the slave lie farthest apart, by the distance of the master's nodes that they face: what is pushed
-   !> between them meets no point.
-   pure subroutine find_coarsest(spacing, points)
-      real(wp), intent(in) :: spacing(:)            !< of the master's nodes at each point [L]
+   !> Where neighbours on the slave lie farthest apart, by the distance of the master's nodes that are faced from the middle
+   !> between them: what is pushed between them meets no point.
+   pure subroutine find_coarsest(mesh, master, faces, points)
+      type(mesh_t), intent(in) :: mesh
+      type(master_t), intent(in) :: master
+      type(face_list_t), intent(in) :: faces
       type(contact_points_t), intent(inout) :: points
-      real(wp) :: distance
+      type(sight_t) :: sight
+      real(wp) :: distance, spacing, normal(2)
       integer(ip) :: i
 
       do i = 2, points%n
          distance = points%s(i) - points%s(i - 1)
          ! neighbours on a face, not on both sides of faces that are left out
          if (distance > 2*(points%length(i) + points%length(i - 1))) cycle
-         if (distance <= points%coarseness*min(spacing(i - 1), spacing(i))) cycle
-         points%coarseness = distance/min(spacing(i - 1), spacing(i))
+         normal = points%normal(:, i - 1) + points%normal(:, i)
+         sight = look_along(0.5_wp*(points%x(:, i - 1) + points%x(:, i)), normal/norm2(normal), distance, master)
+         if (sight%piece == 0) cycle
+         spacing = norm2(master%d(:, sight%piece)) &
+                   /(size(face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))) - 1)
+         if (distance <= points%coarseness*spacing) cycle
+         points%coarseness = distance/spacing
          points%coarse_node = points%node(i)
       end do
    end subroutine find_coarsest
 
-   !> Each slave node faces a master node, and both sides are of one order.
+   !> Each slave node faces a master node, neighbours face neighbours, and both sides are of one order.
    pure logical function are_matching(mesh, slave, master, points)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
@@ -187,7 +196,7 @@ contains
       type(contact_points_t), intent(in) :: points
       integer(ip) :: i
 
-      are_matching = .true.
+      are_matching = points%coarseness < NEIGHBOURS
       do i = 1, points%n
          are_matching = are_matching .and. &
                         minval(points%coefficient(points%first(i):points%first(i + 1) - 1)) <= -(1 - 4*MATCH_TOLERANCE)
