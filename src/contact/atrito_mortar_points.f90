@@ -13,15 +13,17 @@ module atrito_mortar_points
    use atrito_faces, only: face_list_t
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t
+   use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, smooth_normal
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
-   use atrito_points, only: contact_points_t, allocate_points, add_point, trim_points
+   use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, clear_small_component
+   use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
    implicit none (type, external)
    private
@@ -41,7 +43,7 @@ module atrito_mortar_points
    type :: face_integrals_t
       logical :: is_whole = .true.
       logical :: has_point(MOST) = .true.           !< nodes that get a weighting function
-      real(wp) :: length(MOST) = 0.0_wp             !< int phi ds [L]
+      real(wp) :: length(MOST) = 0.0_wp             !< int psi ds [L]
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
       real(wp) :: normal(2, MOST) = 0.0_wp          !< int psi n h ds [L^2], n the direction in which the sides touch
       real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
@@ -87,7 +89,8 @@ contains
       points%n_faces = slave%n
       call cut_slave(mesh, slave, master, segments)
       call allocate_points(MOST*slave%n, 0_ip, points)
-      allocate (points%faces(0))
+      call begin_terms(rows%slave)
+      call begin_terms(rows%master)
       s = 0.0_wp
       do i = 1, slave%n
          face = take_face(mesh, slave, i, segments)
@@ -323,6 +326,12 @@ contains
       end do
    end subroutine add_face
 
+   pure subroutine begin_terms(terms)
+      type(terms_t), intent(inout) :: terms
+
+      allocate (terms%point(0), terms%node(0), terms%value(0))
+   end subroutine begin_terms
+
    pure subroutine add_term(point, node, value, terms)
       integer(ip), intent(in) :: point, node
       real(wp), intent(in) :: value
@@ -338,19 +347,18 @@ contains
    end subroutine add_term
 
    !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's.
-   pure subroutine finish_points(mesh, own, others, points)
+   subroutine finish_points(mesh, own, others, points)
       type(mesh_t), intent(in) :: mesh
       type(terms_t), intent(in) :: own, others
       type(contact_points_t), intent(inout) :: points
-      integer(ip), allocatable :: next_own(:), next_other(:), of_own(:), of_other(:), seen(:)
+      integer(ip), allocatable :: first_own(:), first_other(:), of_own(:), of_other(:)
       real(wp) :: round_off
       integer(ip) :: j
 
       deallocate (points%entry, points%coefficient)
       allocate (points%entry(own%n + others%n), points%coefficient(own%n + others%n))
-      allocate (seen(mesh%n_nodes), source=0_ip)
-      call sort_terms(own, points%n, next_own, of_own)
-      call sort_terms(others, points%n, next_other, of_other)
+      call list_holders(points%n, reshape(own%point(:own%n), [1_ip, own%n]), first_own, of_own)
+      call list_holders(points%n, reshape(others%point(:others%n), [1_ip, others%n]), first_other, of_other)
       round_off = 0.0_wp
       if (points%n > 0) round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
       do j = 1, points%n
@@ -359,9 +367,9 @@ contains
          points%gap(j) = points%gap(j)/points%weight(j)
          if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
          points%first(j + 1) = points%first(j)
-         call gather(own, of_own(next_own(j):next_own(j + 1) - 1), j, seen, points)
+         call gather(own, of_own(first_own(j):first_own(j + 1) - 1), j, points)
          call place_force(mesh, j, points)
-         call gather(others, of_other(next_other(j):next_other(j + 1) - 1), j, seen, points)
+         call gather(others, of_other(first_other(j):first_other(j + 1) - 1), j, points)
       end do
       call trim_points(points)
    end subroutine finish_points
@@ -382,62 +390,25 @@ contains
       points%s(j) = points%s(j) + (points%normal(1, j)*away(2) - points%normal(2, j)*away(1))
    end subroutine place_force
 
-   !> The terms of each point, in their order: those of point j are list(first(j) : first(j+1) - 1).
-   pure subroutine sort_terms(terms, n, first, list)
+   !> Appends terms of a point to its row, those of one node together, over its weight: its own node first, others by number.
+   pure subroutine gather(terms, list, j, points)
       type(terms_t), intent(in) :: terms
-      integer(ip), intent(in) :: n
-      integer(ip), allocatable, intent(out) :: first(:), list(:)
-      integer(ip), allocatable :: next(:)
-      integer(ip) :: i
-
-      allocate (first(n + 1), source=0_ip)
-      allocate (list(terms%n))
-      do i = 1, terms%n
-         first(terms%point(i) + 1) = first(terms%point(i) + 1) + 1
-      end do
-      first(1) = 1
-      do i = 1, n
-         first(i + 1) = first(i + 1) + first(i)
-      end do
-      next = first
-      do i = 1, terms%n
-         list(next(terms%point(i))) = i
-         next(terms%point(i)) = next(terms%point(i)) + 1
-      end do
-   end subroutine sort_terms
-
-   !> Appends terms of a point to its row, those of one node together, over its weight.
-   pure subroutine gather(terms, list, j, seen, points)
-      type(terms_t), intent(in) :: terms
-      integer(ip), intent(in) :: list(:)
+      integer(ip), intent(in) :: list(:)            !< terms of the point
       integer(ip), intent(in) :: j
-      integer(ip), intent(inout) :: seen(:)         !< (nodes) all 0, as it is left
       type(contact_points_t), intent(inout) :: points
-      integer(ip) :: first, last, k, at
+      integer(ip) :: order(size(list)), k
+      real(wp) :: value
 
-      associate (next => points%first(j + 1), entry => points%entry, coefficient => points%coefficient)
-         first = next
-         do k = 1, size(list, kind=ip)
-            at = seen(terms%node(list(k)))
-            if (at == 0) then
-               at = next
-               next = next + 1
-               seen(terms%node(list(k))) = at
-               entry(at) = terms%node(list(k))
-               coefficient(at) = 0.0_wp
-            end if
-            coefficient(at) = coefficient(at) + terms%value(list(k))
-         end do
-         last = next - 1
-         seen(entry(first:last)) = 0
-         next = first
-         do k = first, last
-            if (abs(coefficient(k)) <= ROUND_OFF*points%weight(j)) cycle
-            entry(next) = entry(k)
-            coefficient(next) = coefficient(k)/points%weight(j)
-            next = next + 1
-         end do
+      associate (node => terms%node(list))
+         order = list(sorted_places(int(merge(0_ip, node, node == points%node(j)), lp)))
       end associate
+      value = 0.0_wp
+      do k = 1, size(order, kind=ip)
+         value = value + terms%value(order(k))/points%weight(j)
+         if (any(terms%node(order(k + 1:min(k + 1, size(order)))) == terms%node(order(k)))) cycle
+         if (abs(value) > ROUND_OFF) call add_entries([terms%node(order(k))], [value], j, points)
+         value = 0.0_wp
+      end do
    end subroutine gather
 
 end module atrito_mortar_points

@@ -170,15 +170,15 @@ contains
       type(face_list_t), intent(in) :: faces
       type(contact_points_t), intent(inout) :: points
       type(sight_t) :: sight
-      real(wp) :: distance, spacing, normal(2)
+      real(wp) :: distance, spacing, d(2)
       integer(ip) :: i
 
       do i = 2, points%n
          distance = points%s(i) - points%s(i - 1)
          ! neighbours on a face, not on both sides of faces that are left out
          if (distance > 2*(points%length(i) + points%length(i - 1))) cycle
-         normal = points%normal(:, i - 1) + points%normal(:, i)
-         sight = look_along(0.5_wp*(points%x(:, i - 1) + points%x(:, i)), normal/norm2(normal), distance, master)
+         d = points%x(:, i) - points%x(:, i - 1)
+         sight = look_along(points%x(:, i - 1) + 0.5_wp*d, [d(2), -d(1)]/norm2(d), distance, master)
          if (sight%piece == 0) cycle
          spacing = norm2(master%d(:, sight%piece)) &
                    /(size(face_nodes(mesh, faces%element(sight%piece), faces%face(sight%piece))) - 1)
