@@ -10,8 +10,8 @@ module atrito_master
    use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
    private
-   public :: master_t, sight_t, master_of_faces, master_of_segments, smooth_normal, is_out_of_sight, look_along, look_at_end, &
-             nearest_end
+   public :: master_t, sight_t, master_of_faces, master_of_segments, smooth_normal, is_out_of_sight, &
+             look_along, look_at_end, nearest_end
 
    !> Faces of elements, or rigid segments and arcs.
    type, extends(pieces_t) :: master_t
@@ -19,6 +19,7 @@ module atrito_master
       integer(ip) :: degree = 0                     !< of the elements of all faces; 0: rigid, none, or not the same
       real(wp), allocatable :: ends(:, :, :)        !< (2, first and last end, n) unit normals of the smooth surface
       real(wp), allocatable :: curvature(:)         !< (n) [1/L] >= 0
+      real(wp), allocatable :: bend(:)              !< (n) [1/L] the same, convex > 0
       type(piece_tree_t) :: tree
    end type master_t
 
@@ -55,7 +56,7 @@ contains
          master%degree = DEGREE_OF(mesh%shape(faces%element(1)))
          if (any(DEGREE_OF(mesh%shape(faces%element(:faces%n))) /= master%degree)) master%degree = 0
       end if
-      call smooth_surface(mesh, faces, master%ends, master%curvature)
+      call smooth_surface(mesh, faces, master%ends, master%curvature, master%bend)
       call plant(master%pieces_t, master%tree)
    end subroutine master_of_faces
 
@@ -80,11 +81,13 @@ contains
             master%sweep(i) = sweep_of(ends(:, i), ends(:, i + 1), centre(:, i))
          end do
       end if
-      allocate (master%ends(2, 2, n), master%curvature(n), source=0.0_wp)
+      allocate (master%ends(2, 2, n), master%curvature(n), master%bend(n), source=0.0_wp)
       do i = 1, n
          master%ends(:, 1, i) = normal_at(master, i, 0.0_wp)
          master%ends(:, 2, i) = normal_at(master, i, 1.0_wp)
-         if (abs(master%sweep(i)) > 0.0_wp) master%curvature(i) = 1/norm2(master%a(:, i) - master%centre(:, i))
+         if (.not. abs(master%sweep(i)) > 0.0_wp) cycle
+         master%curvature(i) = 1/norm2(master%a(:, i) - master%centre(:, i))
+         master%bend(i) = sign(master%curvature(i), dot_product(master%ends(:, 1, i), master%a(:, i) - master%centre(:, i)))
       end do
       call plant(master%pieces_t, master%tree)
    end subroutine master_of_segments

@@ -17,7 +17,7 @@ module atrito_mortar_points
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, smooth_normal
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
+   use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
@@ -69,12 +69,13 @@ module atrito_mortar_points
 contains
 
    !> The points of a slave that faces a master, on a deformable master's faces or rigid.
-   subroutine pair_by_mortar(mesh, thickness, slave, master_faces, master, points)
+   subroutine pair_by_mortar(mesh, thickness, slave, master_faces, master, compliance, master_compliance, points)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)          !< of each element [L]
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
       type(face_list_t), intent(in) :: master_faces !< n = 0: the master is rigid
       type(master_t), intent(in) :: master          !< of these faces
+      real(wp), intent(in) :: compliance(:), master_compliance(:) !< of the faces, (1 - mu^2)/E in plane strain [L^2/F]
       type(contact_points_t), intent(out) :: points
       type(segments_t) :: segments
       type(rows_t) :: rows
@@ -88,6 +89,7 @@ contains
       points%is_mortar = .true.
       points%n_faces = slave%n
       call cut_slave(mesh, slave, master, segments)
+      call join_curves(master, compliance, master_compliance, segments)
       call allocate_points(MOST*slave%n, 0_ip, points)
       call begin_terms(rows%slave)
       call begin_terms(rows%master)
@@ -134,19 +136,21 @@ contains
          do g = 1, N_GAUSS
             t = 0.5_wp*((1 - gauss(g))*segments%from(k) + (1 + gauss(g))*segments%to(k))
             weight = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))
-            call add_place(face, t, weight, master, segments%piece(k), nodes, integrals)
+            call add_place(face, t, weight, master, segments%piece(k), nodes, segments%common(k), integrals)
          end do
       end do
       if (integrals%is_whole) call make_dual(face%n, integrals)
    end subroutine integrate_face
 
-   !> Adds what a place of the slave is worth.
-   pure subroutine add_place(face, t, weight, master, piece, nodes, integrals)
+   !> Adds what a place of the slave is worth. Displacements that are linear along a chord show nothing of the curve that both sides
+   !> take under pressure: it bulges by curvature/8 times the square of the chord in its middle.
+   pure subroutine add_place(face, t, weight, master, piece, nodes, curvature, integrals)
       type(slave_face_t), intent(in) :: face
       real(wp), intent(in) :: t, weight             !< on the face, in [-1,1]
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: piece              !< of the master, that the place faces
       integer(ip), intent(in) :: nodes(:)           !< of the piece; none of a rigid one
+      real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
       type(face_integrals_t), intent(inout) :: integrals
       real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), gap
 
@@ -158,6 +162,8 @@ contains
          integrals%length = integrals%length + ds*psi
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%x(1, :n)))
          call look_at_piece(face, t, master, piece, on_master, normal, gap)
+         if (size(nodes) == 2) gap = gap + 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
+         if (n == 2) gap = gap - 0.125_wp*curvature*(1 - t**2)*face%length**2
          integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
          integrals%weight = integrals%weight + ds*psi
          integrals%gap = integrals%gap + (ds*gap)*psi

@@ -18,7 +18,7 @@ module atrito_mortar_segments
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
-   public :: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
+   public :: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
 
    !> The segments of all faces of a slave; those of face i are first(i) .. first(i+1) - 1.
    type :: segments_t
@@ -27,6 +27,8 @@ module atrito_mortar_segments
       real(wp), allocatable :: from(:), to(:)       !< on the face, in [-1,1]
       real(wp), allocatable :: direction(:, :, :)   !< (2, 3, faces) of sight, at the nodes of each face in the order of face_nodes
       real(wp), allocatable :: curvature(:)         !< (faces) [1/L]
+      real(wp), allocatable :: bend(:)              !< (faces) [1/L] the same, convex > 0
+      real(wp), allocatable :: common(:)            !< (segments) [1/L] of the curve that both sides take under pressure
    end type segments_t
 
    !> A face of the slave with what is needed of it.
@@ -71,6 +73,25 @@ contains
       end do
    end subroutine cut_slave
 
+   !> The curve that both sides take under pressure. Of the curvature that they have against each other each gives up its share, in
+   !> the ratio of the compliances E*^-1 (Hertz); a rigid master keeps its own.
+   pure subroutine join_curves(master, slave_compliance, master_compliance, segments)
+      type(master_t), intent(in) :: master
+      real(wp), intent(in) :: slave_compliance(:), master_compliance(:) !< of the faces [L^2/F]; nothing of a rigid master
+      type(segments_t), intent(inout) :: segments
+      real(wp) :: share
+      integer(ip) :: i, k
+
+      allocate (segments%common(size(segments%piece)), source=0.0_wp)
+      do i = 1, size(slave_compliance, kind=ip)
+         do k = segments%first(i), segments%first(i + 1) - 1
+            share = 1.0_wp
+            if (.not. master%rigid) share = slave_compliance(i)/(slave_compliance(i) + master_compliance(segments%piece(k)))
+            segments%common(k) = segments%bend(i) - share*(segments%bend(i) + master%bend(segments%piece(k)))
+         end do
+      end do
+   end subroutine join_curves
+
    !> The directions of sight: normals of the smooth surface.
    pure subroutine find_directions(mesh, slave, segments)
       type(mesh_t), intent(in) :: mesh
@@ -79,7 +100,7 @@ contains
       real(wp), allocatable :: ends(:, :, :)
       integer(ip) :: i
 
-      call smooth_surface(mesh, slave, ends, segments%curvature)
+      call smooth_surface(mesh, slave, ends, segments%curvature, segments%bend)
       allocate (segments%direction(2, 3, slave%n))
       segments%direction(:, :2, :) = ends
       do i = 1, slave%n

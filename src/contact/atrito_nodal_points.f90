@@ -88,13 +88,13 @@ contains
       logical, intent(in) :: used(:)
       type(contact_points_t), intent(inout) :: points
       real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
-      real(wp), allocatable :: ends(:, :, :), of_face(:)
+      real(wp), allocatable :: ends(:, :, :), of_face(:), bend(:)
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule
       real(wp) :: s
       integer(ip) :: i, j, k
 
-      call smooth_surface(mesh, slave, ends, of_face)
+      call smooth_surface(mesh, slave, ends, of_face, bend)
       allocate (curvature(size(points%s)), source=0.0_wp)
       s = 0.0_wp
       do i = 1, slave%n

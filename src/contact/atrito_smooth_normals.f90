@@ -12,22 +12,25 @@ module atrito_smooth_normals
 
    !> A smaller turn of the normal [rad] is rounding of the coordinates: the surface is straight there.
    real(wp), parameter :: NO_TURN = 1.0e-6_wp
+   !> Slope at an end of a face that no other continues.
+   real(wp), parameter :: NO_SLOPE = huge(1.0_wp)
 
 contains
 
-   !> Unit normals at the ends of each face, the mean of both faces unless they meet at a corner; and the curvature of each, the
-   !> turn of the normal along it and at its ends over its length.
-   pure subroutine smooth_surface(mesh, faces, ends, curvature)
+   !> Unit normals at the ends of each face, the mean of both faces unless they meet at a corner; the curvature of each, the
+   !> turn of the normal along it and at its ends over its length; and the same with its sign.
+   pure subroutine smooth_surface(mesh, faces, ends, curvature, bend)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: faces
       real(wp), allocatable, intent(out) :: ends(:, :, :) !< (2, first and last end, faces)
       real(wp), allocatable, intent(out) :: curvature(:)  !< (faces) [1/L] >= 0
+      real(wp), allocatable, intent(out) :: bend(:)       !< (faces) [1/L] > 0: convex
       type(id_map_t) :: begins                      ! face of its first node
-      real(wp) :: turn(faces%n), joints(faces%n), own(2, 2)
+      real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2)
       integer(ip) :: n_joints(faces%n), last(faces%n), i, k
       logical :: known
 
-      allocate (ends(2, 2, faces%n), curvature(faces%n))
+      allocate (ends(2, 2, faces%n), curvature(faces%n), bend(faces%n))
       do i = 1, faces%n
          associate (nodes => face_nodes(mesh, faces%element(i), faces%face(i)))
             ends(:, 1, i) = outward_normal(mesh%x(:, nodes), -1.0_wp)
@@ -37,9 +40,11 @@ contains
             call add_id(begins, nodes(1), i, known)
          end associate
          turn(i) = asin(min(sine(ends(:, 1, i), ends(:, 2, i)), 1.0_wp))
+         bend(i) = turn_between(ends(:, 1, i), ends(:, 2, i))*curvature(i)
       end do
       joints = 0.0_wp
       n_joints = 0
+      slope = NO_SLOPE
       do i = 1, faces%n
          k = find_id(begins, last(i))
          if (k == 0) cycle
@@ -47,12 +52,50 @@ contains
          if (sine(own(:, 1), own(:, 2)) > CORNER) cycle
          joints([i, k]) = joints([i, k]) + asin(sine(own(:, 1), own(:, 2)))
          n_joints([i, k]) = n_joints([i, k]) + 1
+         call share_turn(own, 1/curvature(i), 1/curvature(k), slope(2, i), slope(1, k))
          ends(:, 2, i) = (own(:, 1) + own(:, 2))/norm2(own(:, 1) + own(:, 2))
          ends(:, 1, k) = ends(:, 2, i)
+      end do
+      do i = 1, faces%n
+         if (size(face_nodes(mesh, faces%element(i), faces%face(i))) == 2) bend(i) = 2*flatter(slope(:, i))*curvature(i)
       end do
       turn = turn + joints/max(n_joints, 1_ip)
       curvature = merge(turn*curvature, 0.0_wp, turn > NO_TURN)
    end subroutine smooth_surface
+
+   !> The slopes of a curve against the two chords that meet at one of its points, as of a circle through their three ends: the
+   !> turn is shared in the ratio of the chords.
+   pure subroutine share_turn(normals, before, behind, last, first)
+      real(wp), intent(in) :: normals(2, 2)         !< of both chords
+      real(wp), intent(in) :: before, behind        !< their lengths [L]
+      real(wp), intent(out) :: last, first          !< at the last end of the one, the first of the other; > 0: convex
+      real(wp) :: turn
+
+      turn = turn_between(normals(:, 1), normals(:, 2))
+      last = tan(turn*(before/(before + behind)))
+      first = tan(turn*(behind/(before + behind)))
+   end subroutine share_turn
+
+   !> The angle from one normal to the next [rad], > 0: convex.
+   pure real(wp) function turn_between(a, b) result(turn)
+      real(wp), intent(in) :: a(2), b(2)            !< unit vectors
+
+      turn = atan2(a(1)*b(2) - a(2)*b(1), dot_product(a, b))
+      if (abs(turn) <= NO_TURN) turn = 0.0_wp
+   end function turn_between
+
+   !> Of the slopes at the ends of a face the smaller one, so that a straight face beside a curved one stays straight.
+   pure real(wp) function flatter(slope)
+      real(wp), intent(in) :: slope(2)
+      real(wp) :: both(2)
+
+      both = slope
+      if (abs(both(1)) >= NO_SLOPE) both(1) = both(2)
+      if (abs(both(2)) >= NO_SLOPE) both(2) = both(1)
+      flatter = 0.0_wp
+      if (abs(both(1)) >= NO_SLOPE .or. both(1)*both(2) <= 0.0_wp) return
+      flatter = both(minloc(abs(both), dim=1))
+   end function flatter
 
    !> The direction in which two surfaces touch, out of the slave: of their normals the mean with the radii as weights, so that for
    !> two circles that touch it is the line between their centres, for a curve on a straight side the normal of that, and it does

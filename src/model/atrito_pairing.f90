@@ -6,6 +6,7 @@ module atrito_pairing
    use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_mortar_points, only: pair_by_mortar
    use atrito_nodal_points, only: pair_with_master
+   use atrito_plane_state, only: elastic_t, compliance_matrix, COMPONENTS
    use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
@@ -77,8 +78,26 @@ contains
          call pair_with_master(model%mesh, thickness, slave, master_faces, master, points)
          if (quadrature == QUADRATURE_NODAL .or. points%matching .or. points%rigid) return
       end if
-      call pair_by_mortar(model%mesh, thickness, slave, master_faces, master, points)
+      call pair_by_mortar(model%mesh, thickness, slave, master_faces, master, face_compliance(model, slave), &
+                          face_compliance(model, master_faces), points)
    end subroutine make_points
+
+   !> How much the surface of a half plane gives way [L^2/F], of the material behind each face: 1/E* of Hertz.
+   pure function face_compliance(model, faces) result(compliance)
+      type(model_t), intent(in) :: model
+      type(face_list_t), intent(in) :: faces
+      real(wp) :: compliance(faces%n), c(COMPONENTS, COMPONENTS)
+      integer(ip) :: i
+
+      do i = 1, faces%n
+         associate (e => faces%element(i))
+            associate (material => model%materials(model%sections(model%section_of(e))%material))
+               c = compliance_matrix(elastic_t(material%young, material%poisson), model%mesh%state(e))
+            end associate
+         end associate
+         compliance(i) = c(1, 1)
+      end do
+   end function face_compliance
 
    !> Thickness [L] of each element.
    pure function element_thickness(model) result(thickness)

@@ -27,11 +27,12 @@ contains
 
    !> The upper strip (slave) between `upper` at height `gap` over the lower one between `lower`; turned, or bent to the parabola
    !> x2 + bend x1^2, and moved.
-   subroutine two_strips(upper, lower, gap, order, scene, angle, bend, shift)
+   subroutine two_strips(upper, lower, gap, order, scene, angle, bend, shift, softer)
       real(wp), intent(in) :: upper(:), lower(:), gap
       integer(ip), intent(in) :: order(2)
       type(mortar_case_t), intent(out) :: scene
       real(wp), intent(in), optional :: angle, bend, shift
+      real(wp), intent(in), optional :: softer      !< the slave's compliance over the master's
       real(wp) :: tilt
 
       tilt = 0.0_wp
@@ -41,7 +42,7 @@ contains
       call add_strip(scene%mesh, lower, 0.0_wp, .true., order(2), tilt, scene%faces)
       if (present(bend)) scene%mesh%x(2, :) = scene%mesh%x(2, :) + bend*scene%mesh%x(1, :)**2
       if (present(shift)) scene%mesh%x = scene%mesh%x + shift
-      call pair_up(scene)
+      call pair_up(scene, softer)
    end subroutine two_strips
 
    !> A strip at height `gap` on a rigid line through `ends`, or on an arc about `centre`.
@@ -63,14 +64,19 @@ contains
       call pair_up(scene)
    end subroutine strip_on_line
 
-   !> A ring of n elements with its corners on the circle of radius 1, inside one of m elements.
-   subroutine ring_in_ring(n, m, scene)
+   !> A ring of n elements with its corners on the circle of radius 1, inside one of m elements, which may be too tight.
+   subroutine ring_in_ring(n, m, scene, tight)
       integer(ip), intent(in) :: n, m
       type(mortar_case_t), intent(out) :: scene
+      real(wp), intent(in), optional :: tight       !< radius less that of the hole
+      real(wp) :: hole
+
+      hole = 1.0_wp
+      if (present(tight)) hole = 1 - tight
 
       call begin_scene(scene%mesh)
       call add_ring(scene%mesh, n, 0.5_wp, 1.0_wp, 3_ip, scene%slave)
-      call add_ring(scene%mesh, m, 1.0_wp, 1.5_wp, 1_ip, scene%faces)
+      call add_ring(scene%mesh, m, hole, 1.5_wp, 1_ip, scene%faces)
       call pair_up(scene)
    end subroutine ring_in_ring
 
@@ -101,14 +107,20 @@ contains
    end subroutine add_ring
 
    !> Segments and points of a scene whose sides are there.
-   subroutine pair_up(scene)
+   subroutine pair_up(scene, softer)
       type(mortar_case_t), intent(inout) :: scene
+      real(wp), intent(in), optional :: softer      !< the slave's compliance over the master's
       real(wp), allocatable :: depth(:)
+      real(wp) :: compliance
+      integer(ip) :: i
 
+      compliance = 1.0_wp
+      if (present(softer)) compliance = softer
       if (scene%faces%n > 0) call master_of_faces(scene%mesh, scene%faces, scene%master)
       allocate (depth(scene%mesh%n_elements), source=THICKNESS)
       call cut_slave(scene%mesh, scene%slave, scene%master, scene%segments)
-      call pair_by_mortar(scene%mesh, depth, scene%slave, scene%faces, scene%master, scene%points)
+      call pair_by_mortar(scene%mesh, depth, scene%slave, scene%faces, scene%master, [(compliance, i=1, scene%slave%n)], &
+                          [(1.0_wp, i=1, scene%faces%n)], scene%points)
    end subroutine pair_up
 
    !> The coefficients of a point at all nodes.

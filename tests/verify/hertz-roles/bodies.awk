@@ -3,7 +3,7 @@
 #    awk -v type=CPE4 -v n=32 -v m=32 -v radius=0 -v slave=A -v load=3.9 -f bodies.awk
 #
 # A stands above, its lower side a circle of radius 10 up to x = 3, then straight; B lies below, its upper side straight (radius 0),
-# a circle of that radius, or hollow (radius < 0). n and m elements to x = 1, growing by 1.15 beyond. load: on the whole width [F/L].
+# a circle of that radius, or hollow (radius < 0). rigid=A or rigid=B: that one is a rigid line. n and m elements to x = 1, growing by 1.15 beyond. load: on the whole width [F/L].
 function side(x, r,    s, q) {
    if (r == 0) return 0
    s = r > 0 ? 1 : -1
@@ -33,7 +33,7 @@ function make_body(name, r, sign, elements,    nx, ny, i, j, q, c, b, a, surface
    ny = make_line(up, elements/2, 0.5)
    print "*NODE"
    for (j = 1; j <= ny; j++) for (i = 1; i <= nx; i++)
-      printf "%d, %.17g, %.17g\n", nodes + (j - 1)*nx + i, along[i], sign*((1 - up[j]/10)*side(along[i], r) + up[j])
+      if (!hollow || i%2 || j%2) printf "%d, %.17g, %.17g\n", nodes + (j - 1)*nx + i, along[i], sign*((1 - up[j]/10)*side(along[i], r) + up[j])
    print "*ELEMENT, TYPE=" type ", ELSET=" name
    q = middle ? 2 : 1
    for (j = 1; j < ny; j += q) for (i = 1; i < nx; i += q) {
@@ -41,7 +41,8 @@ function make_body(name, r, sign, elements,    nx, ny, i, j, q, c, b, a, surface
       b = sign > 0 ? c : c + q*nx                  # the side that comes first, counter-clockwise in the plane
       a = sign > 0 ? c + q*nx : c
       printf "%d, %d, %d, %d, %d", ++cells, b, b + q, a + q, a
-      if (middle) printf ", %d, %d, %d, %d, %d", b + 1, c + nx + 2, a + 1, c + nx, c + nx + 1
+      if (middle) printf ", %d, %d, %d, %d", b + 1, c + nx + 2, a + 1, c + nx
+      if (middle && !hollow) printf ", %d", c + nx + 1
       printf "\n"
       if (j == 1) surface = surface cells ", " (sign > 0 ? "S1" : "S3") "\n"
       if (j + q == ny) far = far cells ", " (sign > 0 ? "S3" : "S1") "\n"
@@ -54,12 +55,19 @@ function make_body(name, r, sign, elements,    nx, ny, i, j, q, c, b, a, surface
    nodes += nx*ny
 }
 BEGIN {
-   middle = type ~ /9/
+   middle = type ~ /[89]/
+   hollow = type ~ /8/
    print "*HEADING\ntwo bodies that touch in a point"
-   make_body("A", 10, 1, n)
-   make_body("B", radius, -1, m)
+   if (rigid != "A") make_body("A", 10, 1, n)
+   if (rigid != "B") make_body("B", radius, -1, m)
+   if (rigid == "B") print "*SURFACE, NAME=B-FACE, TYPE=SEGMENTS\nSTART, -1, 0\nLINE, 11, 0\n*RIGID BODY, ANALYTICAL SURFACE=B-FACE"
+   if (rigid == "A") print "*SURFACE, NAME=A-FACE, TYPE=SEGMENTS\nSTART, 5, 1.3397459621556135\nCIRCL, 0, 0, 0, 10\n*RIGID BODY, ANALYTICAL SURFACE=A-FACE"
    print "*MATERIAL, NAME=M\n*ELASTIC\n1000, 0.3\n*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I" quadrature
    print slave == "A" ? "A-FACE, B-FACE" : "B-FACE, A-FACE"
-   print "*STEP\n*STATIC\n*BOUNDARY\nB-BASE, 2, 2\nA-AXIS, 1, 1\nB-AXIS, 1, 1\n*DSLOAD"
-   printf "A-FAR, P, %.17g\n*CONTACT PRINT\n*END STEP\n", load/20
+   print "*STEP\n*STATIC\n*BOUNDARY"
+   if (rigid != "A") print "A-AXIS, 1, 1"
+   if (rigid != "B") print "B-AXIS, 1, 1"
+   if (rigid == "") print "B-BASE, 2, 2"
+   print "*DSLOAD"
+   printf "%s-FAR, P, %.17g\n*CONTACT PRINT\n*END STEP\n", rigid == "A" ? "B" : "A", load/20
 }
