@@ -122,4 +122,23 @@ awk 'function order(before, now) { return (before > 0) ? sprintf("%.2f", log(bef
    BEGIN { print "| rings | elements along the radius of each | largest error of the pressure | order |\n|---|---|---|---|" }
    { if ($1 != name) before = 0; text = $1; gsub(/_/, " ", text)
      printf "| %s | %d | %.3e | %s |\n", text, $2, $3, order(before, $3); name = $1; before = $3 }' pressure.txt
+
+# Rings whose nodes do not match, either ring the slave: the force on the joint of a quarter, against Lame and each other.
+# force TYPE N M N M SLAVE
+force() {
+   { printf '*HEADING\nPress fit\n'
+     awk -v type="$1" -v n="$2" -v m="$3" -v map=ring -v r1=1 -v r2=1.5 -v turn=90 -v elset=IN -f "$mesh"
+     awk -v type="$1" -v n="$4" -v m="$5" -v map=ring -v r1="$c" -v r2=2 -v turn=90 -v elset=OUT -v first=100000 -f "$mesh"
+     rings "$1" 2 "$6" 90 | sed -n '/^\*MATERIAL, NAME=A/,$p' | sed 's/, QUADRATURE=NODAL//'; } >press.inp
+   run 0 press.inp press --digits 17 --quiet
+   awk '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 } !/^#/ { sum += $at["pressure"]*$at["weight"] }
+      END { printf "%.17g", sum }' press/contact.tab
+}
+wanted=$(value "$p*1.5*2*atan2(1, 1)")
+for case in 'CPE4 3 24 2 36' 'CPE4 6 48 4 36' 'CPE4 4 24 4 25' 'CPE9 2 8 2 11'; do
+   in=$(force $case in)
+   out=$(force $case out)
+   near "$case: force" "$in" "$wanted" "$(value "0.005*$wanted")"
+   near "$case: force of either role" "$in" "$out" "$(value "0.001*$wanted")"
+done
 finish
