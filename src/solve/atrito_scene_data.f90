@@ -77,17 +77,23 @@ contains
       call nodal_loads(model, data%f)
    end subroutine prepare
 
-   !> The form of the contact system, by the numbers of points and nodes.
+   !> The form of the contact system, by the numbers of points and nodes: in the dense form the nodes that the points see are kept,
+   !> too, of which a master that is finer has more than there are points.
    subroutine choose_form(asked, data)
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(inout) :: data
-      integer(ip) :: i, n
+      logical :: seen(data%model%mesh%n_nodes)
+      integer(ip) :: i, n, n_points
 
       n = 0
+      seen = .false.
+      n_points = sum(data%points%n)
       do i = 1, size(data%points, kind=ip)
+         seen(data%points(i)%entry) = .true.
          n = n + data%points(i)%n
          if (data%model%interactions(data%model%pairs(i)%interaction)%nu > 0.0_wp) n = n + data%points(i)%n
       end do
+      n = max(n, count(seen, kind=ip) - n_points)
       call choose_contact_form(n, 2*data%model%mesh%n_nodes, asked%contact_form, data%model%controls%method /= METHOD_ANDERSON, &
                                min(asked%memory, available_memory()), data%contact_form, data%reason)
    end subroutine choose_form

@@ -22,6 +22,9 @@ module atrito_scene_elimination
 
    !> Corners that the dissection takes the centre of an element from.
    integer(ip), parameter :: CORNERS = 4_ip
+   !> A node with more rows is no corner of them: of a face that as many points see it says nothing about where they are, and in a
+   !> graph everything would be its neighbour.
+   integer(ip), parameter :: MOST_ROWS = 64_ip
 
 contains
 
@@ -122,11 +125,14 @@ contains
       type(scene_numbering_t), intent(in) :: numbering
       integer(ip), allocatable, intent(out) :: nodes(:, :), n_nodes_of(:)
       integer(ip) :: j, e, b, n_elements, n_points, most
-      logical :: seen(fem%bodies%n)
+      logical :: seen(fem%bodies%n), crowded(fem%mesh%n_nodes)
 
       n_elements = fem%mesh%n_elements
       n_points = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
-      most = max(size(fem%mesh%nodes, 1, kind=ip), max(CORNERS, rows%longest) + rows%longest)
+      crowded = find_crowded(fem%mesh%n_nodes, rows)
+      most = max(CORNERS, rows%longest) + rows%longest
+      if (any(crowded)) most = most + CORNERS
+      most = max(most, size(fem%mesh%nodes, 1, kind=ip))
       allocate (nodes(most, n_elements + n_points + fem%bodies%n), &
                 n_nodes_of(n_elements + n_points + fem%bodies%n))
       nodes(:size(fem%mesh%nodes, 1), :n_elements) = fem%mesh%nodes(:, :n_elements)
@@ -136,7 +142,7 @@ contains
       do j = 1, line%n
          if (line%normal(j) == 0 .and. line%tangential(j) == 0) cycle
          e = e + 1
-         call list_nodes_of_point(fem, rows, numbering, j, nodes(:, e), n_nodes_of(e))
+         call list_nodes_of_point(fem, rows, crowded, numbering, j, nodes(:, e), n_nodes_of(e))
          seen(bodies_of_row(rows, j, fem%bodies%of_node)) = .true.
       end do
       do b = 1, fem%bodies%n
@@ -149,21 +155,50 @@ contains
       n_nodes_of = n_nodes_of(:e)
    end subroutine list_elements
 
-   !> The nodes of the row, as often as it takes to have four corners, and the motions of their bodies.
-   pure subroutine list_nodes_of_point(fem, rows, numbering, j, nodes, n)
+   !> Nodes with too many rows to be corners.
+   pure function find_crowded(n_nodes, rows) result(crowded)
+      integer(ip), intent(in) :: n_nodes
+      type(contact_rows_t), intent(in) :: rows
+      logical :: crowded(n_nodes)
+      integer(ip) :: held(n_nodes), i
+
+      held = 0
+      do i = 1, size(rows%node, kind=ip)
+         held(rows%node(i)) = held(rows%node(i)) + 1
+      end do
+      crowded = held > MOST_ROWS
+   end function find_crowded
+
+   !> The nodes of the row, those first that may be corners, as often as it takes to have four, and the motions of their bodies.
+   pure subroutine list_nodes_of_point(fem, rows, crowded, numbering, j, nodes, n)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
+      logical, intent(in) :: crowded(:)          !< (nodes)
       type(scene_numbering_t), intent(in) :: numbering
       integer(ip), intent(in) :: j
       integer(ip), intent(inout) :: nodes(:)
       integer(ip), intent(out) :: n
       integer(ip) :: entries, k, b
 
-      entries = rows%first(j + 1) - rows%first(j)
-      n = max(entries, CORNERS)
-      do k = 0, n - 1
-         nodes(k + 1) = rows%node(rows%first(j) + mod(k, entries))
-      end do
+      associate (row => rows%node(rows%first(j):rows%first(j + 1) - 1))
+         entries = count(.not. crowded(row), kind=ip)
+         n = 0
+         if (entries > 0) then
+            n = max(entries, CORNERS)
+            nodes(:entries) = pack(row,.not. crowded(row))
+            do k = entries, n - 1
+               nodes(k + 1) = nodes(mod(k, entries) + 1)
+            end do
+         end if
+         if (entries < size(row)) then
+            nodes(n + 1:n + size(row) - entries) = pack(row, crowded(row))
+            n = n + size(row, kind=ip) - entries
+            do while (n < CORNERS)
+               n = n + 1
+               nodes(n) = nodes(n - 1)
+            end do
+         end if
+      end associate
       do k = rows%first(j), rows%first(j + 1) - 1
          b = fem%bodies%of_node(rows%node(k))
          if (numbering%n_motions(b) == 0) cycle

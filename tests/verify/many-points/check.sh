@@ -65,4 +65,47 @@ done
 blocks smooth ANDERSON '' .007
 run 0 smooth.inp smooth --quiet
 near "solves without friction" "$(summary smooth linear_solves)" 1 0
+
+# strips FILE N M: a strip of N faces on a strip of M.
+strips() {
+   echo "*BLOCK, TYPE=CPE4, ELSET=LOW, NX=$3, NY=2
+0., 0.
+10., 0.
+10., 1.
+0., 1.
+*BLOCK, TYPE=CPE4, ELSET=UP, NX=$2, NY=2
+0., 1.
+10., 1.
+10., 2.
+0., 2.
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.
+*SOLID SECTION, ELSET=LOW, MATERIAL=M
+*SOLID SECTION, ELSET=UP, MATERIAL=M
+*SURFACE INTERACTION, NAME=I
+*CONTACT PAIR, INTERACTION=I
+UP-BOTTOM, LOW-TOP
+*BOUNDARY
+LOW-BOTTOM, 1, 2
+UP-LEFT, 1
+*STEP
+*STATIC
+*DSLOAD
+UP-TOP, P, 1.
+*END STEP" >"$1"
+}
+# what a scene of 3,000 points on one face holds in memory: 24 MiB; 284 with that face as a neighbour of everything
+predicted() {
+   sed -n 's/.*memory, predicted \.* \([0-9.]*\) MiB/\1/p' "$1/$1.lst"
+}
+strips one-face.inp 3000 1
+run 0 one-face.inp one-face --quiet
+below "memory of 3,000 points on a face" "$(predicted one-face)" 50
+all_near "pressure of 3,000 points on a face" one-face/contact.tab pressure 1 1e-9
+# a finer master: its nodes count, too (66 s and 4.9 GB in the dense form)
+strips finer.inp 300 3000
+run 0 finer.inp finer --quiet
+says "300 points on 3,000 faces" finer/finer.lst 'sparse, predicted cost'
+all_near "pressure of 300 points on 3,000 faces" finer/contact.tab pressure 1 1e-9
 finish
