@@ -4,11 +4,11 @@
 !> a place of its own in every zone that it belongs to; different bodies share no node, so no zone reaches over a contact.
 module atrito_patches
    use atrito_assembly, only: fem_t
-   use atrito_element_table, only: MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: DEGREE_OF, MOST_NODES, MOST_CORNERS
    use atrito_growth, only: resize
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
-   use atrito_mesh, only: mesh_t
+   use atrito_mesh, only: mesh_t, side_count
    use atrito_plane_state, only: elastic_t, STATES
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -20,8 +20,6 @@ module atrito_patches
    integer(ip), parameter :: PATCH_INTERIOR = 1  !< elements of the zone all round the node
    integer(ip), parameter :: PATCH_OUTER = 2     !< on the outline, where no interior patch is at hand; two elements or more
    integer(ip), parameter :: PATCH_SINGLE = 3    !< a corner of an element without neighbours
-
-   integer(ip), parameter :: CORNERS = MOST_CORNERS
 
    type :: patches_t
       integer(ip) :: n = 0                        !< places: pairs of a node and a zone; the first zone of node i has place i
@@ -80,7 +78,7 @@ contains
       type(patches_t), intent(inout) :: patches
       integer(ip) :: e, i, most
 
-      most = maxval([mesh%shape(:mesh%n_elements), CORNERS])
+      most = maxval([mesh%shape(:mesh%n_elements), MOST_CORNERS])
       allocate (patches%place(most, mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
@@ -137,7 +135,11 @@ contains
       type(patches_t), intent(inout) :: patches
       integer(ip) :: e, k
 
-      call list_holders(patches%n, patches%place(:CORNERS, :), patches%first, patches%element, patches%corner)
+      if (any(mesh%shape(:mesh%n_elements) == 6)) then   ! their fourth node is the middle of a side
+         call list_holders(patches%n, corner_places(mesh, patches), patches%first, patches%element, patches%corner)
+      else
+         call list_holders(patches%n, patches%place(:MOST_CORNERS, :), patches%first, patches%element, patches%corner)
+      end if
       allocate (patches%owner(patches%n))
       !$omp parallel do schedule(static) if (is_shared(patches%n))
       do k = 1, patches%n
@@ -145,13 +147,26 @@ contains
          if (patches%first(k + 1) > patches%first(k)) patches%owner(k) = patches%element(patches%first(k))
       end do
       !$omp end parallel do
-      if (size(patches%place, 1) == CORNERS) return
+      if (all(DEGREE_OF(mesh%shape(:mesh%n_elements)) == 1)) return
       do e = mesh%n_elements, 1, -1
-         do k = CORNERS + 1, mesh%shape(e)
+         do k = side_count(mesh, e) + 1, mesh%shape(e)
             patches%owner(patches%place(k, e)) = e
          end do
       end do
    end subroutine list_elements_at_corners
+
+   !> The places of the corners alone; 0 behind those of triangles.
+   pure function corner_places(mesh, patches) result(places)
+      type(mesh_t), intent(in) :: mesh
+      type(patches_t), intent(in) :: patches
+      integer(ip), allocatable :: places(:, :)
+      integer(ip) :: e
+
+      places = patches%place(:MOST_CORNERS, :)
+      do e = 1, mesh%n_elements
+         places(side_count(mesh, e) + 1:, e) = 0
+      end do
+   end function corner_places
 
    !> Interior nodes have patches. Elements that touch none (a zone one or two elements wide) get patches at their nodes that
    !> have a neighbour; those that still have none are alone.
@@ -164,26 +179,27 @@ contains
       allocate (patches%kind(patches%n), patches%lends(mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(patches%n))
       do i = 1, patches%n
-         patches%kind(i) = merge(PATCH_INTERIOR, PATCH_NONE, is_interior(patches, i))
+         patches%kind(i) = merge(PATCH_INTERIOR, PATCH_NONE, is_interior(mesh, patches, i))
       end do
       !$omp end parallel do
       call patch_the_bare(mesh, 2_ip, PATCH_OUTER, patches, found)
       if (found) call patch_the_bare(mesh, 1_ip, PATCH_SINGLE, patches, found)
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
-         patches%lends(e) = mesh%shape(e) > CORNERS .or. patches_at(patches, e) < CORNERS
+         patches%lends(e) = DEGREE_OF(mesh%shape(e)) > 1 .or. patches_at(mesh, patches, e) < side_count(mesh, e)
       end do
       !$omp end parallel do
    end subroutine choose_patches
 
    !> Corners of an element with a patch.
-   pure integer(ip) function patches_at(patches, e)
+   pure integer(ip) function patches_at(mesh, patches, e)
+      type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: e
       integer(ip) :: k
 
       patches_at = 0
-      do k = 1, CORNERS
+      do k = 1, side_count(mesh, e)
          if (patches%kind(patches%place(k, e)) /= PATCH_NONE) patches_at = patches_at + 1
       end do
    end function patches_at
@@ -200,13 +216,13 @@ contains
       allocate (bare(mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
-         bare(e) = patches_at(patches, e) == 0
+         bare(e) = patches_at(mesh, patches, e) == 0
       end do
       !$omp end parallel do
       found = any(bare)
       do e = 1, mesh%n_elements
          if (.not. bare(e)) cycle
-         do k = 1, CORNERS
+         do k = 1, side_count(mesh, e)
             i = patches%place(k, e)
             if (patches%first(i + 1) - patches%first(i) >= least) patches%kind(i) = kind
          end do
@@ -214,17 +230,20 @@ contains
    end subroutine patch_the_bare
 
    !> Elements of the zone lie all round a corner node when each edge that leaves it has one of them on either side.
-   pure logical function is_interior(patches, i)
+   pure logical function is_interior(mesh, patches, i)
+      type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: i
-      integer(ip) :: j, k, wanted
+      integer(ip) :: j, k, n, wanted
 
       is_interior = .false.
       if (patches%first(i + 1) - patches%first(i) < 3) return
       do j = patches%first(i), patches%first(i + 1) - 1
-         wanted = patches%place(mod(patches%corner(j), CORNERS) + 1, patches%element(j))
+         n = side_count(mesh, patches%element(j))
+         wanted = patches%place(mod(patches%corner(j), n) + 1, patches%element(j))
          do k = patches%first(i), patches%first(i + 1) - 1
-            if (patches%place(mod(patches%corner(k) + 2, CORNERS) + 1, patches%element(k)) == wanted) exit
+            n = side_count(mesh, patches%element(k))
+            if (patches%place(mod(patches%corner(k) + n - 2, n) + 1, patches%element(k)) == wanted) exit
          end do
          if (k == patches%first(i + 1)) return
       end do

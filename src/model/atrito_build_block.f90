@@ -13,7 +13,7 @@ module atrito_build_block
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: add_nodes, add_block, reserve_mesh, is_hollow
+   use atrito_mesh, only: add_nodes, add_block, reserve_mesh, is_hollow, elements_of_square
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
    use atrito_references, only: report_unknown
@@ -325,7 +325,8 @@ contains
    pure integer(ip) function count_elements(block) result(n)
       type(block_t), intent(in) :: block
 
-      n = (ubound(block%nodes, 1, kind=ip)/block%order)*(ubound(block%nodes, 2, kind=ip)/block%order)
+      n = elements_of_square(block%shape)*(ubound(block%nodes, 1, kind=ip)/block%order)*(ubound(block%nodes, 2, &
+                                                                                               kind=ip)/block%order)
    end function count_elements
 
 end module atrito_build_block
