@@ -4,7 +4,7 @@
 !> a place of its own in every zone that it belongs to; different bodies share no node, so no zone reaches over a contact.
 module atrito_patches
    use atrito_assembly, only: fem_t
-   use atrito_element_table, only: DEGREE_OF, MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES, MOST_CORNERS
    use atrito_growth, only: resize
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
@@ -30,6 +30,7 @@ module atrito_patches
       integer(ip), allocatable :: element(:), corner(:)
       integer(ip), allocatable :: owner(:)        !< (n) the first element that a place belongs to; 0: none
       logical, allocatable :: lends(:)            !< (n_elements) a node of the element takes its stress from patches of other nodes
+      integer(ip), allocatable :: helper(:)       !< (n_elements, or none) triangle without a patch: a neighbour that has one; 0: none
    end type patches_t
 
 contains
@@ -44,8 +45,8 @@ contains
       call choose_patches(fem%mesh, patches)
    end subroutine build_patches
 
-   !> Number of the zone's kind for each element: alike are elements of equal elastic section, plane state and shape. (Two parts of
-   !> the mesh that do not touch may have the same number: they share no node.)
+   !> Number of the zone's kind for each element: alike are elements of equal elastic section, plane state and degree, triangles and
+   !> quadrilaterals together. (Two parts of the mesh that do not touch may have the same number: they share no node.)
    function zones_of_elements(fem) result(zone)
       type(fem_t), intent(in) :: fem
       integer(ip), allocatable :: zone(:)
@@ -60,7 +61,7 @@ contains
       allocate (zone(fem%mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_elements))
       do e = 1, fem%mesh%n_elements
-         zone(e) = (like(fem%section_of(e))*size(STATES, kind=ip) + fem%mesh%state(e))*MOST_NODES + fem%mesh%shape(e)
+         zone(e) = (like(fem%section_of(e))*size(STATES, kind=ip) + fem%mesh%state(e))*MOST_NODES + DEGREE_OF(fem%mesh%shape(e))
       end do
       !$omp end parallel do
    end function zones_of_elements
@@ -182,6 +183,7 @@ contains
          patches%kind(i) = merge(PATCH_INTERIOR, PATCH_NONE, is_interior(mesh, patches, i))
       end do
       !$omp end parallel do
+      if (any(CORNERS_OF(mesh%shape(:mesh%n_elements)) == 3)) call find_helpers(mesh, patches)
       call patch_the_bare(mesh, 2_ip, PATCH_OUTER, patches, found)
       if (found) call patch_the_bare(mesh, 1_ip, PATCH_SINGLE, patches, found)
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
@@ -189,7 +191,32 @@ contains
          patches%lends(e) = DEGREE_OF(mesh%shape(e)) > 1 .or. patches_at(mesh, patches, e) < side_count(mesh, e)
       end do
       !$omp end parallel do
+      if (.not. allocated(patches%helper)) return
+      do e = 1, mesh%n_elements
+         if (patches%helper(e) > 0) patches%lends(patches%helper(e)) = .true.
+      end do
    end subroutine choose_patches
+
+   !> A triangle in a corner of the outline has no node inside, but a neighbour that has one: the patches of that one serve both.
+   pure subroutine find_helpers(mesh, patches)
+      type(mesh_t), intent(in) :: mesh
+      type(patches_t), intent(inout) :: patches
+      integer(ip) :: e, side, j, other, from, to
+
+      allocate (patches%helper(mesh%n_elements), source=0_ip)
+      do e = 1, mesh%n_elements
+         if (side_count(mesh, e) /= 3 .or. patches_at(mesh, patches, e) > 0) cycle
+         do side = 1, 3
+            from = patches%place(side, e)
+            to = patches%place(mod(side, 3_ip) + 1, e)
+            do j = patches%first(from), patches%first(from + 1) - 1
+               other = patches%element(j)
+               if (.not. any(patches%place(:side_count(mesh, other), other) == to)) cycle
+               if (patches_at(mesh, patches, other) > 0) patches%helper(e) = other
+            end do
+         end do
+      end do
+   end subroutine find_helpers
 
    !> Corners of an element with a patch.
    pure integer(ip) function patches_at(mesh, patches, e)
@@ -219,6 +246,7 @@ contains
          bare(e) = patches_at(mesh, patches, e) == 0
       end do
       !$omp end parallel do
+      if (allocated(patches%helper)) bare = bare .and. patches%helper == 0
       found = any(bare)
       do e = 1, mesh%n_elements
          if (.not. bare(e)) cycle

@@ -46,7 +46,7 @@ module atrito_stress_recovery
    !> The same of triangles; there is no fourth corner.
    integer(ip), parameter :: TRIANGLE_RANK_OF(MOST_CORNERS, 6) = reshape([1, 2, 2, 0, 2, 1, 2, 0, 2, 2, 1, 0, &
                                                                           1, 1, 2, 0, 2, 1, 1, 0, 1, 2, 1, 0], [4, 6])
-   integer(ip), parameter :: RANK_NONE = 4
+   integer(ip), parameter :: RANK_NEIGHBOUR = 4, RANK_NONE = 5 !< 4: of an element that has the patches of its neighbour
 
 contains
 
@@ -257,20 +257,33 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: e, k
-      integer(ip) :: corner
+      integer(ip) :: corner, lender
 
+      lender = lender_to(patches, e)
       best_rank = RANK_NONE
-      do corner = 1, side_count(mesh, e)
-         if (patches%kind(patches%place(corner, e)) == PATCH_NONE) cycle
-         best_rank = min(best_rank, rank_for(mesh, e, corner, k))
+      do corner = 1, side_count(mesh, lender)
+         if (patches%kind(patches%place(corner, lender)) == PATCH_NONE) cycle
+         best_rank = min(best_rank, rank_for(mesh, e, lender, corner, k))
       end do
    end function best_rank
 
-   pure integer(ip) function rank_for(mesh, e, corner, k)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, corner, k
+   !> The element whose patches an element takes: its own, or those of its neighbour.
+   pure integer(ip) function lender_to(patches, e)
+      type(patches_t), intent(in) :: patches
+      integer(ip), intent(in) :: e
 
-      if (side_count(mesh, e) == 3) then
+      lender_to = e
+      if (.not. allocated(patches%helper)) return
+      if (patches%helper(e) > 0) lender_to = patches%helper(e)
+   end function lender_to
+
+   pure integer(ip) function rank_for(mesh, e, lender, corner, k)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: e, lender, corner, k
+
+      if (lender /= e) then
+         rank_for = RANK_NEIGHBOUR
+      else if (side_count(mesh, e) == 3) then
          rank_for = TRIANGLE_RANK_OF(corner, k)
       else
          rank_for = RANK_OF(corner, k)
@@ -284,11 +297,12 @@ contains
       type(recovery_t), intent(in) :: work
       real(wp), intent(inout) :: stress(COMPONENTS)
       integer(ip), intent(inout) :: count
-      integer(ip) :: corner, i
+      integer(ip) :: corner, i, lender
 
-      do corner = 1, side_count(mesh, e)
-         i = work%patches%place(corner, e)
-         if (work%patches%kind(i) == PATCH_NONE .or. rank_for(mesh, e, corner, k) /= rank) cycle
+      lender = lender_to(work%patches, e)
+      do corner = 1, side_count(mesh, lender)
+         i = work%patches%place(corner, lender)
+         if (work%patches%kind(i) == PATCH_NONE .or. rank_for(mesh, e, lender, corner, k) /= rank) cycle
          stress = stress + fitted_value(from_patch(mesh, work%patches, i, mesh%nodes(k, e)), work%polynomial(i))
          count = count + 1
       end do

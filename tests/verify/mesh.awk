@@ -22,7 +22,9 @@ function graded(k, of, g,   z) {
 }
 # The node at (i, j) counted in half elements for Q2.
 function node(i, j,   a, b, x, y, r, t) {
-   if (map == "trapezoids" && order == 2) {
+   if (map == "trapezoids" && triangles && i % 2 && j % 2 && order == 2) {
+      corner((i - 1)/2, (j - 1)/2); x = px/2; y = py/2; corner((i + 1)/2, (j + 1)/2); x += px/2; y += py/2
+   } else if (map == "trapezoids" && order == 2) {
       x = 0; y = 0
       for (a = 0; a <= 1; a++) for (b = 0; b <= 1; b++) {
          corner(int((i + a)/2), int((j + b)/2)); x += px/4; y += py/4
