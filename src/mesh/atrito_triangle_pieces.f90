@@ -83,7 +83,8 @@ contains
    end function triangle_point
 
    !> The nodes of the two triangles of a square of 2 x 2 or 3 x 3 nodes, cut from its first corner to its third: the lower one has
-   !> the sides 1-2 and 2-3 of the square as its faces 1 and 2, the upper one 3-4 and 4-1 as its faces 2 and 3.
+   !> the sides 1-2 and 2-3 of the square as its faces 1 and 2, the upper one 3-4 and 4-1. They begin at opposite ends of the cut, so
+   !> that in a parallelogram one is the other turned by 180 degrees.
    pure function triangles_of_square(square) result(nodes)
       integer(ip), intent(in) :: square(:, :)
       integer(ip) :: nodes(3*(size(square, 1) - 1), 2)
@@ -91,10 +92,10 @@ contains
 
       n = size(square, 1, kind=ip)
       nodes(:3, 1) = [square(1, 1), square(n, 1), square(n, n)]
-      nodes(:3, 2) = [square(1, 1), square(n, n), square(1, n)]
+      nodes(:3, 2) = [square(n, n), square(1, n), square(1, 1)]
       if (n == 2) return
       nodes(4:, 1) = [square(2, 1), square(3, 2), square(2, 2)]
-      nodes(4:, 2) = [square(2, 2), square(2, 3), square(1, 2)]
+      nodes(4:, 2) = [square(2, 3), square(1, 2), square(2, 2)]
    end function triangles_of_square
 
 end module atrito_triangle_pieces

@@ -77,7 +77,7 @@ contains
          face = side
          if (per == 2 .and. side > 2) then             ! of the upper triangle: see triangles_of_square
             k = 1
-            face = side - 1
+            face = side - 2
          end if
          pieces = fine_elements(context%refinement, block%first_element + k + per*squares)
          call put_faces(block%name//trim(BLOCK_SIDES(side)), face, pieces)

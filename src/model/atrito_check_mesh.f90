@@ -114,7 +114,7 @@ contains
                            keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. triangles) then
          call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: triangles with three nodes are much too stiff '// &
-                             'in plane strain, more than Q1 elements', expected='CPE4 with FORMULATION=BBAR of *SOLID SECTION, '// &
+                             'in plane strain', expected='CPE4 with FORMULATION=BBAR of *SOLID SECTION, '// &
                              'or mu < 0.49 [-]', keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. locks) then
          call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: fully integrated Q1 elements are much too stiff '// &
