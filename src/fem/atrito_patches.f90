@@ -8,7 +8,7 @@ module atrito_patches
    use atrito_growth, only: resize
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
-   use atrito_mesh, only: mesh_t, side_count
+   use atrito_mesh, only: mesh_t
    use atrito_plane_state, only: elastic_t, STATES
    use atrito_threads, only: is_shared
    implicit none (type, external)
@@ -150,7 +150,7 @@ contains
       !$omp end parallel do
       if (all(DEGREE_OF(mesh%shape(:mesh%n_elements)) == 1)) return
       do e = mesh%n_elements, 1, -1
-         do k = side_count(mesh, e) + 1, mesh%shape(e)
+         do k = CORNERS_OF(mesh%shape(e)) + 1, mesh%shape(e)
             patches%owner(patches%place(k, e)) = e
          end do
       end do
@@ -165,7 +165,7 @@ contains
 
       places = patches%place(:MOST_CORNERS, :)
       do e = 1, mesh%n_elements
-         places(side_count(mesh, e) + 1:, e) = 0
+         places(CORNERS_OF(mesh%shape(e)) + 1:, e) = 0
       end do
    end function corner_places
 
@@ -188,7 +188,7 @@ contains
       if (found) call patch_the_bare(mesh, 1_ip, PATCH_SINGLE, patches, found)
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
-         patches%lends(e) = DEGREE_OF(mesh%shape(e)) > 1 .or. patches_at(mesh, patches, e) < side_count(mesh, e)
+         patches%lends(e) = DEGREE_OF(mesh%shape(e)) > 1 .or. patches_at(mesh, patches, e) < CORNERS_OF(mesh%shape(e))
       end do
       !$omp end parallel do
       if (.not. allocated(patches%helper)) return
@@ -205,13 +205,13 @@ contains
 
       allocate (patches%helper(mesh%n_elements), source=0_ip)
       do e = 1, mesh%n_elements
-         if (side_count(mesh, e) /= 3 .or. patches_at(mesh, patches, e) > 0) cycle
+         if (CORNERS_OF(mesh%shape(e)) /= 3 .or. patches_at(mesh, patches, e) > 0) cycle
          do side = 1, 3
             from = patches%place(side, e)
             to = patches%place(mod(side, 3_ip) + 1, e)
             do j = patches%first(from), patches%first(from + 1) - 1
                other = patches%element(j)
-               if (.not. any(patches%place(:side_count(mesh, other), other) == to)) cycle
+               if (.not. any(patches%place(:CORNERS_OF(mesh%shape(other)), other) == to)) cycle
                if (patches_at(mesh, patches, other) > 0) patches%helper(e) = other
             end do
          end do
@@ -226,7 +226,7 @@ contains
       integer(ip) :: k
 
       patches_at = 0
-      do k = 1, side_count(mesh, e)
+      do k = 1, CORNERS_OF(mesh%shape(e))
          if (patches%kind(patches%place(k, e)) /= PATCH_NONE) patches_at = patches_at + 1
       end do
    end function patches_at
@@ -250,7 +250,7 @@ contains
       found = any(bare)
       do e = 1, mesh%n_elements
          if (.not. bare(e)) cycle
-         do k = 1, side_count(mesh, e)
+         do k = 1, CORNERS_OF(mesh%shape(e))
             i = patches%place(k, e)
             if (patches%first(i + 1) - patches%first(i) >= least) patches%kind(i) = kind
          end do
@@ -262,16 +262,18 @@ contains
       type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: i
-      integer(ip) :: j, k, n, wanted
+      integer(ip) :: j, k, next, before, wanted
 
       is_interior = .false.
       if (patches%first(i + 1) - patches%first(i) < 3) return
       do j = patches%first(i), patches%first(i + 1) - 1
-         n = side_count(mesh, patches%element(j))
-         wanted = patches%place(mod(patches%corner(j), n) + 1, patches%element(j))
+         next = patches%corner(j) + 1
+         if (next > CORNERS_OF(mesh%shape(patches%element(j)))) next = 1
+         wanted = patches%place(next, patches%element(j))
          do k = patches%first(i), patches%first(i + 1) - 1
-            n = side_count(mesh, patches%element(k))
-            if (patches%place(mod(patches%corner(k) + n - 2, n) + 1, patches%element(k)) == wanted) exit
+            before = patches%corner(k) - 1
+            if (before == 0) before = CORNERS_OF(mesh%shape(patches%element(k)))
+            if (patches%place(before, patches%element(k)) == wanted) exit
          end do
          if (k == patches%first(i + 1)) return
       end do

@@ -6,7 +6,7 @@
 !> elements or more, and an element without neighbours its best points and degree p - 1.
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t
-   use atrito_element_table, only: DEGREE_OF, BEST_OF, POINTS_OF, MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, side_count
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
@@ -261,9 +261,9 @@ contains
 
       lender = lender_to(patches, e)
       best_rank = RANK_NONE
-      do corner = 1, side_count(mesh, lender)
+      do corner = 1, CORNERS_OF(mesh%shape(lender))
          if (patches%kind(patches%place(corner, lender)) == PATCH_NONE) cycle
-         best_rank = min(best_rank, rank_for(mesh, e, lender, corner, k))
+         best_rank = min(best_rank, rank_for(mesh%shape(e), lender == e, corner, k))
       end do
    end function best_rank
 
@@ -277,13 +277,13 @@ contains
       if (patches%helper(e) > 0) lender_to = patches%helper(e)
    end function lender_to
 
-   pure integer(ip) function rank_for(mesh, e, lender, corner, k)
-      type(mesh_t), intent(in) :: mesh
-      integer(ip), intent(in) :: e, lender, corner, k
+   pure integer(ip) function rank_for(shape, is_own, corner, k)
+      integer(ip), intent(in) :: shape, corner, k
+      logical, intent(in) :: is_own                !< the corner is of the element itself
 
-      if (lender /= e) then
+      if (.not. is_own) then
          rank_for = RANK_NEIGHBOUR
-      else if (side_count(mesh, e) == 3) then
+      else if (CORNERS_OF(shape) == 3) then
          rank_for = TRIANGLE_RANK_OF(corner, k)
       else
          rank_for = RANK_OF(corner, k)
@@ -300,9 +300,9 @@ contains
       integer(ip) :: corner, i, lender
 
       lender = lender_to(work%patches, e)
-      do corner = 1, side_count(mesh, lender)
+      do corner = 1, CORNERS_OF(mesh%shape(lender))
          i = work%patches%place(corner, lender)
-         if (work%patches%kind(i) == PATCH_NONE .or. rank_for(mesh, e, lender, corner, k) /= rank) cycle
+         if (work%patches%kind(i) == PATCH_NONE .or. rank_for(mesh%shape(e), lender == e, corner, k) /= rank) cycle
          stress = stress + fitted_value(from_patch(mesh, work%patches, i, mesh%nodes(k, e)), work%polynomial(i))
          count = count + 1
       end do

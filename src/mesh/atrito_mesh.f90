@@ -1,6 +1,6 @@
 !> The mesh: nodes, elements and their topology.
 module atrito_mesh
-   use atrito_element_table, only: SHAPES, MOST_NODES
+   use atrito_element_table, only: SHAPES, CORNERS_OF, MOST_NODES
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
@@ -123,17 +123,17 @@ contains
       do j = 0, ny - 1
          do i = 0, nx - 1
             e = before + per*(j*nx + i) + 1
-            mesh%element_id(e:e + per - 1) = [(first_id + per*(j*nx + i) + k, k=0, per - 1)]
-            mesh%state(e:e + per - 1) = state
-            mesh%shape(e:e + per - 1) = shape
-            mesh%nodes(shape + 1:, e:e + per - 1) = 0
-            associate (square => nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
-               if (per == 1) then
-                  mesh%nodes(:shape, e) = nodes_of_square(shape, square)
-               else
-                  mesh%nodes(:shape, e:e + 1) = triangles_of_square(square)
-               end if
-            end associate
+            if (per == 1) then
+               mesh%nodes(:shape, e) = nodes_of_square(shape, nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
+            else
+               mesh%nodes(:shape, e:e + 1) = triangles_of_square(nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
+            end if
+            do k = 0, per - 1
+               mesh%element_id(e + k) = first_id + per*(j*nx + i) + k
+               mesh%state(e + k) = state
+               mesh%shape(e + k) = shape
+               mesh%nodes(shape + 1:, e + k) = 0
+            end do
          end do
       end do
       !$omp end parallel do
@@ -198,7 +198,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element
 
-      side_count = SHAPES(mesh%shape(element))%n_corners
+      side_count = CORNERS_OF(mesh%shape(element))
    end function side_count
 
    !> Local corner at which a face ends; it begins at the corner of its own number.
