@@ -9,7 +9,8 @@ module atrito_element_table
    implicit none (type, external)
    private
    public :: element_shape_t, element_kind_t, SHAPES, KINDS
-   public :: DEGREE_OF, BEST_OF, MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation
+   public :: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, ERROR_POINTS_OF
+   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation
 
    integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
 
@@ -21,7 +22,7 @@ module atrito_element_table
       integer(ip) :: n_best = 0                  !< points at which stresses are superconvergent
       character(len=2) :: name = ''              !< in field files
       character(len=15) :: topology = ''         !< in XDMF; its order of nodes is ours
-      real(wp) :: place(2, MOST_NODES) = 0.0_wp  !< of the nodes, in [-1,1]^2
+      real(wp) :: place(2, MOST_NODES) = 0.0_wp  !< of the nodes: in [-1,1]^2; of triangles where xi, eta and 1 - xi - eta >= 0
       logical :: hollow = .false.                !< no node in the middle of its grid of nodes
    end type element_shape_t
 
@@ -37,17 +38,27 @@ module atrito_element_table
    !> Corners, middles of the sides, centre.
    real(wp), parameter :: SQUARE(2, MOST_NODES) = reshape([real(wp) :: -1, -1, 1, -1, 1, 1, -1, 1, &
                                                                                    0, -1, 1, 0, 0, 1, -1, 0, 0, 0], [2, MOST_NODES])
+   !> Corners, middles of the sides; places 7 to 9 are not used.
+   real(wp), parameter :: TRIANGLE(2, MOST_NODES) = 0.5_wp*reshape([real(wp) :: 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 0, 0, 0, 0, &
+                                                                    0, 0], [2, MOST_NODES])
    type(element_shape_t), parameter :: SHAPES(MOST_NODES) = &
-                                       [(NO_SHAPE, i=1, 3), element_shape_t(4, 4, 1, 4, 1, 'Q1', 'Quadrilateral', SQUARE), &
-                                        (NO_SHAPE, i=5, 7), &
+                                       [(NO_SHAPE, i=1, 2), element_shape_t(3, 3, 1, 1, 1, 'T1', 'Triangle', TRIANGLE), &
+                                        element_shape_t(4, 4, 1, 4, 1, 'Q1', 'Quadrilateral', SQUARE), NO_SHAPE, &
+                                        element_shape_t(6, 3, 2, 3, 3, 'T2', 'Triangle_6', TRIANGLE), NO_SHAPE, &
                                         element_shape_t(8, 4, 2, 9, 4, 'S2', 'Quadrilateral_8', SQUARE, hollow=.true.), &
                                         element_shape_t(9, 4, 2, 9, 4, 'Q2', 'Quadrilateral_9', SQUARE)]
 
    !> Columns by themselves: of all elements of a mesh, SHAPES(shape)%degree would copy the rows.
    integer(ip), parameter :: DEGREE_OF(MOST_NODES) = SHAPES%degree, BEST_OF(MOST_NODES) = SHAPES%n_best
+   integer(ip), parameter :: POINTS_OF(MOST_NODES) = SHAPES%n_points, CORNERS_OF(MOST_NODES) = SHAPES%n_corners
+   !> Points at which the difference of two stress fields is integrated: of triangles more than the stiffness has, which lie where
+   !> that difference is least.
+   integer(ip), parameter :: ERROR_POINTS_OF(MOST_NODES) = [0_ip, 0_ip, 3_ip, 4_ip, 0_ip, 6_ip, 0_ip, 9_ip, 9_ip]
 
-   type(element_kind_t), parameter :: KINDS(6) = &
-                                      [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
+   type(element_kind_t), parameter :: KINDS(10) = &
+                                      [element_kind_t('CPE3', 3, PLANE_STRAIN), element_kind_t('CPS3', 3, PLANE_STRESS), &
+                                       element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
+                                       element_kind_t('CPE6', 6, PLANE_STRAIN), element_kind_t('CPS6', 6, PLANE_STRESS), &
                                        element_kind_t('CPE8', 8, PLANE_STRAIN), element_kind_t('CPS8', 8, PLANE_STRESS), &
                                    element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), element_kind_t('CPS9', 9, PLANE_STRESS, .true.)]
 
@@ -67,12 +78,13 @@ contains
       kind_of = findloc(KINDS%shape == shape .and. KINDS%state == state, .true., dim=1, kind=ip)
    end function kind_of
 
-   !> Whether the strains of an element may have one dilatation, its mean (B-bar): the first degree without strain across the plane.
-   !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock.
+   !> Whether the strains of an element may have one dilatation, its mean (B-bar): four nodes without strain across the plane.
+   !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock. The dilatation of three
+   !> nodes is constant anyway.
    pure logical function can_average(shape, state)
       integer(ip), intent(in) :: shape, state
 
-      can_average = SHAPES(shape)%degree == 1 .and. .not. STATES(state)%is_thin
+      can_average = shape == 4 .and. .not. STATES(state)%is_thin
    end function can_average
 
    !> Whether the strains of an element have one dilatation, the mean of the element (B-bar).

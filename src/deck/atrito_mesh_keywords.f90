@@ -123,7 +123,8 @@ contains
                           doc='Corners counter-clockwise, then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre. CPE is plane '// &
                           'strain, CPS plane stress; 4 nodes are bilinear, 9 biquadratic, '// &
                           '8 the same without a centre (serendipity). Faces: S1 = nodes 1-2, S2 = 2-3, '// &
-                          'S3 = 3-4, S4 = 4-1.')
+                          'S3 = 3-4, S4 = 4-1. Triangles: 3 nodes are linear, 6 quadratic; mid-sides 1-2, 2-3, 3-1; '// &
+                          'S3 = 3-1, and no S4.')
       call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types())
       call add_option(k, 'ELSET', KIND_NAME, 'puts these elements into an element set')
       do shape = 1, MOST_NODES
@@ -200,7 +201,7 @@ contains
                           'those of the first row, -TOP of the last row, -LEFT of the first column, -RIGHT of the last.')
       call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types())
       call add_option(k, 'ELSET!', KIND_NAME, 'name of the block')
-      call add_option(k, 'NX!', KIND_INTEGER, 'elements along BOTTOM')
+      call add_option(k, 'NX!', KIND_INTEGER, 'elements along BOTTOM; triangles: squares, of two each')
       call add_option(k, 'NY!', KIND_INTEGER, 'elements along LEFT')
       call add_option(k, 'MERGE', KIND_NAME, 'block, of as many nodes an element, with which it shares the '// &
                       'nodes that coincide within 1e-6 of an edge')

@@ -8,7 +8,7 @@
 module atrito_assembly
    use atrito_element_table, only: MOST_NODES
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t
+   use atrito_mesh, only: mesh_t, side_count
    use atrito_bodies, only: bodies_t, element_equations
    use atrito_element, only: element_stiffness
    use atrito_multifrontal, only: element_store_t, pack_matrix
@@ -331,6 +331,8 @@ contains
       call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n))
    end subroutine cached_stiffness
 
+   !> Whether an element has this form; triangles also turned by 180 degrees, as every other one of a block is: their stiffness is the
+   !> same to the last bit.
    pure logical function has_form(fem, element, form, grain)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element
@@ -338,7 +340,10 @@ contains
       real(wp), intent(in) :: grain                !< [L] 0: equal but for rounding
 
       has_form = form%section == fem%section_of(element) .and. form%state == fem%mesh%state(element)
-      if (has_form) has_form = is_like_before(fem%mesh, element, form%shape, form%x, grain)
+      if (.not. has_form) return
+      has_form = is_like_before(fem%mesh, element, form%shape, form%x, grain)
+      if (has_form .or. form%shape /= fem%mesh%shape(element)) return
+      if (side_count(fem%mesh, element) == 3) has_form = is_like_before(fem%mesh, element, form%shape, -form%x, grain)
    end function has_form
 
    pure subroutine take_form(fem, element, form)

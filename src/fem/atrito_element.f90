@@ -1,4 +1,4 @@
-!> One element: stiffness and loads of an isoparametric quadrilateral.
+!> One element: stiffness and loads of an isoparametric quadrilateral or triangle.
 !>
 !> Coordinates are taken relative to the element's first node: the derivatives of the shape functions add up to zero only but for
 !> round-off, which far from the origin would cost digits.
@@ -8,7 +8,8 @@ module atrito_element
    use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
                                      gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, &
-                                     S2_ETA_SLOPES, Q2_WEIGHTS
+                                     S2_ETA_SLOPES, Q2_WEIGHTS, T1_XI_SLOPES, T1_ETA_SLOPES, T2_XI_SLOPES, T2_ETA_SLOPES, &
+                                     T1_WEIGHT, T2_WEIGHT
    implicit none (type, external)
    private
    public :: element_stiffness, mean_gradients, pressure_load, body_load
@@ -74,6 +75,12 @@ contains
       else if (n == 8) then
          do i = 1, size(S2_XI_SLOPES, 2, kind=ip)
             call add_products(n, x, S2_XI_SLOPES(:, i), S2_ETA_SLOPES(:, i), Q2_WEIGHTS(i), products)
+         end do
+      else if (n == 3) then
+         call add_products(n, x, T1_XI_SLOPES, T1_ETA_SLOPES, T1_WEIGHT, products)
+      else if (n == 6) then
+         do i = 1, size(T2_XI_SLOPES, 2, kind=ip)
+            call add_products(n, x, T2_XI_SLOPES(:, i), T2_ETA_SLOPES(:, i), T2_WEIGHT, products)
          end do
       else
          do i = 1, size(Q2_XI_SLOPES, 2, kind=ip)

@@ -2,7 +2,7 @@
 !> J. Z. Zhu, Int. J. Numer. Methods Eng. 24, 1987).
 module atrito_error_estimate
    use atrito_assembly, only: fem_t
-   use atrito_element_table, only: MOST_NODES
+   use atrito_element_table, only: MOST_NODES, ERROR_POINTS_OF
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_plane_state, only: compliance_matrix, COMPONENTS, depth_at
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
@@ -25,7 +25,7 @@ module atrito_error_estimate
 
 contains
 
-   !> Integrates (s* - s) C (s* - s) and s C s, C the compliance, by the Gauss rule of the stiffness.
+   !> Integrates (s* - s) C (s* - s) and s C s, C the compliance, by the Gauss rule of the stiffness, of triangles by a finer one.
    subroutine measure_error(fem, u, field, energies, unit)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
@@ -40,7 +40,7 @@ contains
 
       per_unit = 1.0_wp
       if (present(unit)) per_unit = 1/unit
-      call make_point_rules(rules, best=.false.)
+      call make_point_rules(ERROR_POINTS_OF, rules)
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do chunk = 1, size(parts, kind=ip)
          call measure_chunk(fem, u, field, per_unit, rules, chunk, parts(chunk))

@@ -4,7 +4,7 @@
 !> a place of its own in every zone that it belongs to; different bodies share no node, so no zone reaches over a contact.
 module atrito_patches
    use atrito_assembly, only: fem_t
-   use atrito_element_table, only: MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: CORNERS_OF, DEGREE_OF, MOST_NODES, MOST_CORNERS
    use atrito_growth, only: resize
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip
@@ -21,8 +21,6 @@ module atrito_patches
    integer(ip), parameter :: PATCH_OUTER = 2     !< on the outline, where no interior patch is at hand; two elements or more
    integer(ip), parameter :: PATCH_SINGLE = 3    !< a corner of an element without neighbours
 
-   integer(ip), parameter :: CORNERS = MOST_CORNERS
-
    type :: patches_t
       integer(ip) :: n = 0                        !< places: pairs of a node and a zone; the first zone of node i has place i
       integer(ip), allocatable :: node(:)         !< (n) the node of a place
@@ -32,6 +30,7 @@ module atrito_patches
       integer(ip), allocatable :: element(:), corner(:)
       integer(ip), allocatable :: owner(:)        !< (n) the first element that a place belongs to; 0: none
       logical, allocatable :: lends(:)            !< (n_elements) a node of the element takes its stress from patches of other nodes
+      integer(ip), allocatable :: helper(:)       !< (n_elements, or none) triangle without a patch: a neighbour that has one; 0: none
    end type patches_t
 
 contains
@@ -46,8 +45,8 @@ contains
       call choose_patches(fem%mesh, patches)
    end subroutine build_patches
 
-   !> Number of the zone's kind for each element: alike are elements of equal elastic section, plane state and shape. (Two parts of
-   !> the mesh that do not touch may have the same number: they share no node.)
+   !> Number of the zone's kind for each element: alike are elements of equal elastic section, plane state and degree, triangles and
+   !> quadrilaterals together. (Two parts of the mesh that do not touch may have the same number: they share no node.)
    function zones_of_elements(fem) result(zone)
       type(fem_t), intent(in) :: fem
       integer(ip), allocatable :: zone(:)
@@ -62,7 +61,7 @@ contains
       allocate (zone(fem%mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_elements))
       do e = 1, fem%mesh%n_elements
-         zone(e) = (like(fem%section_of(e))*size(STATES, kind=ip) + fem%mesh%state(e))*MOST_NODES + fem%mesh%shape(e)
+         zone(e) = (like(fem%section_of(e))*size(STATES, kind=ip) + fem%mesh%state(e))*MOST_NODES + DEGREE_OF(fem%mesh%shape(e))
       end do
       !$omp end parallel do
    end function zones_of_elements
@@ -80,7 +79,7 @@ contains
       type(patches_t), intent(inout) :: patches
       integer(ip) :: e, i, most
 
-      most = maxval([mesh%shape(:mesh%n_elements), CORNERS])
+      most = maxval([mesh%shape(:mesh%n_elements), MOST_CORNERS])
       allocate (patches%place(most, mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
@@ -137,7 +136,11 @@ contains
       type(patches_t), intent(inout) :: patches
       integer(ip) :: e, k
 
-      call list_holders(patches%n, patches%place(:CORNERS, :), patches%first, patches%element, patches%corner)
+      if (any(mesh%shape(:mesh%n_elements) == 6)) then   ! their fourth node is the middle of a side
+         call list_holders(patches%n, corner_places(mesh, patches), patches%first, patches%element, patches%corner)
+      else
+         call list_holders(patches%n, patches%place(:MOST_CORNERS, :), patches%first, patches%element, patches%corner)
+      end if
       allocate (patches%owner(patches%n))
       !$omp parallel do schedule(static) if (is_shared(patches%n))
       do k = 1, patches%n
@@ -145,13 +148,26 @@ contains
          if (patches%first(k + 1) > patches%first(k)) patches%owner(k) = patches%element(patches%first(k))
       end do
       !$omp end parallel do
-      if (size(patches%place, 1) == CORNERS) return
+      if (all(DEGREE_OF(mesh%shape(:mesh%n_elements)) == 1)) return
       do e = mesh%n_elements, 1, -1
-         do k = CORNERS + 1, mesh%shape(e)
+         do k = CORNERS_OF(mesh%shape(e)) + 1, mesh%shape(e)
             patches%owner(patches%place(k, e)) = e
          end do
       end do
    end subroutine list_elements_at_corners
+
+   !> The places of the corners alone; 0 behind those of triangles.
+   pure function corner_places(mesh, patches) result(places)
+      type(mesh_t), intent(in) :: mesh
+      type(patches_t), intent(in) :: patches
+      integer(ip), allocatable :: places(:, :)
+      integer(ip) :: e
+
+      places = patches%place(:MOST_CORNERS, :)
+      do e = 1, mesh%n_elements
+         places(CORNERS_OF(mesh%shape(e)) + 1:, e) = 0
+      end do
+   end function corner_places
 
    !> Interior nodes have patches. Elements that touch none (a zone one or two elements wide) get patches at their nodes that
    !> have a neighbour; those that still have none are alone.
@@ -164,26 +180,53 @@ contains
       allocate (patches%kind(patches%n), patches%lends(mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(patches%n))
       do i = 1, patches%n
-         patches%kind(i) = merge(PATCH_INTERIOR, PATCH_NONE, is_interior(patches, i))
+         patches%kind(i) = merge(PATCH_INTERIOR, PATCH_NONE, is_interior(mesh, patches, i))
       end do
       !$omp end parallel do
+      if (any(CORNERS_OF(mesh%shape(:mesh%n_elements)) == 3)) call find_helpers(mesh, patches)
       call patch_the_bare(mesh, 2_ip, PATCH_OUTER, patches, found)
       if (found) call patch_the_bare(mesh, 1_ip, PATCH_SINGLE, patches, found)
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
-         patches%lends(e) = mesh%shape(e) > CORNERS .or. patches_at(patches, e) < CORNERS
+         patches%lends(e) = DEGREE_OF(mesh%shape(e)) > 1 .or. patches_at(mesh, patches, e) < CORNERS_OF(mesh%shape(e))
       end do
       !$omp end parallel do
+      if (.not. allocated(patches%helper)) return
+      do e = 1, mesh%n_elements
+         if (patches%helper(e) > 0) patches%lends(patches%helper(e)) = .true.
+      end do
    end subroutine choose_patches
 
+   !> A triangle in a corner of the outline has no node inside, but a neighbour that has one: the patches of that one serve both.
+   pure subroutine find_helpers(mesh, patches)
+      type(mesh_t), intent(in) :: mesh
+      type(patches_t), intent(inout) :: patches
+      integer(ip) :: e, side, j, other, from, to
+
+      allocate (patches%helper(mesh%n_elements), source=0_ip)
+      do e = 1, mesh%n_elements
+         if (CORNERS_OF(mesh%shape(e)) /= 3 .or. patches_at(mesh, patches, e) > 0) cycle
+         do side = 1, 3
+            from = patches%place(side, e)
+            to = patches%place(mod(side, 3_ip) + 1, e)
+            do j = patches%first(from), patches%first(from + 1) - 1
+               other = patches%element(j)
+               if (.not. any(patches%place(:CORNERS_OF(mesh%shape(other)), other) == to)) cycle
+               if (patches_at(mesh, patches, other) > 0) patches%helper(e) = other
+            end do
+         end do
+      end do
+   end subroutine find_helpers
+
    !> Corners of an element with a patch.
-   pure integer(ip) function patches_at(patches, e)
+   pure integer(ip) function patches_at(mesh, patches, e)
+      type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: e
       integer(ip) :: k
 
       patches_at = 0
-      do k = 1, CORNERS
+      do k = 1, CORNERS_OF(mesh%shape(e))
          if (patches%kind(patches%place(k, e)) /= PATCH_NONE) patches_at = patches_at + 1
       end do
    end function patches_at
@@ -200,13 +243,14 @@ contains
       allocate (bare(mesh%n_elements))
       !$omp parallel do schedule(static) if (is_shared(mesh%n_elements))
       do e = 1, mesh%n_elements
-         bare(e) = patches_at(patches, e) == 0
+         bare(e) = patches_at(mesh, patches, e) == 0
       end do
       !$omp end parallel do
+      if (allocated(patches%helper)) bare = bare .and. patches%helper == 0
       found = any(bare)
       do e = 1, mesh%n_elements
          if (.not. bare(e)) cycle
-         do k = 1, CORNERS
+         do k = 1, CORNERS_OF(mesh%shape(e))
             i = patches%place(k, e)
             if (patches%first(i + 1) - patches%first(i) >= least) patches%kind(i) = kind
          end do
@@ -214,17 +258,22 @@ contains
    end subroutine patch_the_bare
 
    !> Elements of the zone lie all round a corner node when each edge that leaves it has one of them on either side.
-   pure logical function is_interior(patches, i)
+   pure logical function is_interior(mesh, patches, i)
+      type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: i
-      integer(ip) :: j, k, wanted
+      integer(ip) :: j, k, next, before, wanted
 
       is_interior = .false.
       if (patches%first(i + 1) - patches%first(i) < 3) return
       do j = patches%first(i), patches%first(i + 1) - 1
-         wanted = patches%place(mod(patches%corner(j), CORNERS) + 1, patches%element(j))
+         next = patches%corner(j) + 1
+         if (next > CORNERS_OF(mesh%shape(patches%element(j)))) next = 1
+         wanted = patches%place(next, patches%element(j))
          do k = patches%first(i), patches%first(i + 1) - 1
-            if (patches%place(mod(patches%corner(k) + 2, CORNERS) + 1, patches%element(k)) == wanted) exit
+            before = patches%corner(k) - 1
+            if (before == 0) before = CORNERS_OF(mesh%shape(patches%element(k)))
+            if (patches%place(before, patches%element(k)) == wanted) exit
          end do
          if (k == patches%first(i + 1)) return
       end do

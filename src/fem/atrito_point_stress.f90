@@ -38,28 +38,28 @@ module atrito_point_stress
 
 contains
 
-   !> The rules of all shapes: the Gauss points of their stiffness, or where stresses are best.
-   pure subroutine make_point_rules(rules, best)
+   !> The rules of all shapes: the Gauss points of their stiffness, where stresses are best, or those of integrals of errors.
+   pure subroutine make_point_rules(n_of, rules)
+      integer(ip), intent(in) :: n_of(MOST_NODES)            !< points by shape: POINTS_OF, BEST_OF or ERROR_POINTS_OF
       type(point_rule_t), intent(out) :: rules(MOST_NODES)   !< by shape
-      logical, intent(in) :: best
       integer(ip) :: k
 
       do k = 1, MOST_NODES
-         if (SHAPES(k)%n_nodes > 0) call make_point_rule(k, merge(SHAPES(k)%n_best, SHAPES(k)%n_points, best), rules(k))
+         if (SHAPES(k)%n_nodes > 0) call make_point_rule(k, n_of(k), rules(k))
       end do
    end subroutine make_point_rules
 
    !> The rule of n points.
    pure subroutine make_point_rule(n_nodes, n, rule)
       integer(ip), intent(in) :: n_nodes         !< of the element: place in SHAPES
-      integer(ip), intent(in) :: n               !< 1, 4 or 9
+      integer(ip), intent(in) :: n               !< 1, 4 or 9; of triangles 1, 3 or 6
       type(point_rule_t), intent(out) :: rule
       real(wp) :: xi(2)
       integer(ip) :: k
 
       rule%n = n
       do k = 1, n
-         call rule_point(n, k, xi, rule%weight(k))
+         call rule_point(n_nodes, n, k, xi, rule%weight(k))
          rule%value(k, :n_nodes) = shape_values(n_nodes, xi)
          rule%slope(k, :, :n_nodes) = transpose(shape_gradients(n_nodes, xi))
       end do

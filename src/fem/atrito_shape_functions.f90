@@ -1,12 +1,15 @@
-!> Shape functions of the quadrilaterals on [-1,1]^2 (Lagrange's, and eight nodes) and of their faces, and Gauss points.
+!> Shape functions of the quadrilaterals on [-1,1]^2 (Lagrange's, and eight nodes), of the triangles with xi, eta and 1 - xi - eta
+!> >= 0, and of their faces, and Gauss points.
 !>
-!> Nodes: corners counter-clockwise from (-1,-1), then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre.
+!> Nodes: corners counter-clockwise from (-1,-1), of triangles from (0,0), then mid-sides (1-2, 2-3, 3-4, 4-1; 1-2, 2-3, 3-1), then
+!> the centre.
 module atrito_shape_functions
    use atrito_element_table, only: SHAPES
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
    public :: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, rule_point
+   public :: T1_XI_SLOPES, T1_ETA_SLOPES, T2_XI_SLOPES, T2_ETA_SLOPES, T1_WEIGHT, T2_WEIGHT
    public :: Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, S2_ETA_SLOPES, Q2_WEIGHTS
 
    !> Places of the nodes in the tensor grid: index along xi and along eta (1: -1, 2: 0 or +1 for Q1, 3: +1).
@@ -40,16 +43,35 @@ module atrito_shape_functions
    !> Weights of the nine points; those of the four are 1.
    real(wp), parameter :: Q2_WEIGHTS(9) = W3(Q2_POINTS(:, 1))*W3(Q2_POINTS(:, 2))
 
+   ! Triangles. xi and eta of the points of three rules, and their weights: exact up to the degrees 1, 2 and 4 (D. A. Dunavant, Int.
+   ! J. Numer. Methods Eng. 21, 1985; two triples, each a point near a corner, 1 - 2t there and t beside).
+   integer(ip), parameter :: T1_NODES = 3, T2_NODES = 6
+   real(wp), parameter :: ROOT = sqrt(38.0_wp - 44.0_wp*sqrt(0.4_wp)), SIXTH = 1.0_wp/6.0_wp
+   real(wp), parameter :: T6(2) = (8.0_wp - sqrt(10.0_wp) + [ROOT, -ROOT])/18.0_wp
+   real(wp), parameter :: W_ROOT = sqrt(213125.0_wp - 53320.0_wp*sqrt(10.0_wp))
+   real(wp), parameter :: W6(2) = [620.0_wp + W_ROOT, 620.0_wp - W_ROOT]/7440.0_wp
+   real(wp), parameter :: T1_WEIGHT = 0.5_wp, T2_WEIGHT = SIXTH
+   real(wp), parameter :: T1_XI_SLOPES(T1_NODES) = [-1.0_wp, 1.0_wp, 0.0_wp], T1_ETA_SLOPES(T1_NODES) = [-1.0_wp, 0.0_wp, 1.0_wp]
+   !> At the three points: (node, point). There L1, L2, L3 are 4/6 and twice 1/6.
+   real(wp), parameter :: T2_XI_SLOPES(T2_NODES, 3) = reshape([-5, -1, 0, 6, 2, -2, 1, 5, 0, -6, 2, -2, 1, -1, 0, 0, 8, -8]/ &
+                                                              3.0_wp, [T2_NODES, 3_ip])
+   real(wp), parameter :: T2_ETA_SLOPES(T2_NODES, 3) = reshape([-5, 0, -1, -2, 2, 6, 1, 0, -1, -8, 8, 0, 1, 0, 5, -2, 2, -6]/ &
+                                                               3.0_wp, [T2_NODES, 3_ip])
+
 contains
 
    !> Values of the shape functions at a place.
    pure function shape_values(n_nodes, xi) result(n)
       integer(ip), intent(in) :: n_nodes           !< of the element: place in SHAPES
-      real(wp), intent(in) :: xi(2)                !< in [-1,1]^2
+      real(wp), intent(in) :: xi(2)                !< in [-1,1]^2, or in the triangle
       real(wp) :: n(n_nodes)
       real(wp) :: a(3), b(3)
       integer(ip) :: i, grid(2)
 
+      if (SHAPES(n_nodes)%n_corners == 3) then
+         n = triangle_values(n_nodes, xi)
+         return
+      end if
       a = line_values(n_nodes, xi(1))
       b = line_values(n_nodes, xi(2))
       do i = 1, n_nodes
@@ -67,6 +89,10 @@ contains
       real(wp) :: a(3), b(3), da(3), db(3)
       integer(ip) :: i, grid(2)
 
+      if (SHAPES(n_nodes)%n_corners == 3) then
+         dn = triangle_gradients(n_nodes, xi)
+         return
+      end if
       a = line_values(n_nodes, xi(1))
       b = line_values(n_nodes, xi(2))
       da = line_slopes(n_nodes, xi(1))
@@ -80,6 +106,41 @@ contains
          dn(:, 2) = dn(:, 2) + OF_CENTRE*(a(2)*db(2))
       end if
    end function shape_gradients
+
+   !> Of a triangle: L1 = 1 - xi - eta, L2 = xi, L3 = eta; of six nodes L (2 L - 1) and 4 L L'.
+   pure function triangle_values(n_nodes, xi) result(n)
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(in) :: xi(2)
+      real(wp) :: n(n_nodes)
+      real(wp) :: l(3)
+
+      l = [1 - xi(1) - xi(2), xi(1), xi(2)]
+      if (n_nodes == T1_NODES) then
+         n(:3) = l
+      else
+         n(:3) = l*(2*l - 1)
+         n(4:) = 4*l*[l(2), l(3), l(1)]
+      end if
+   end function triangle_values
+
+   pure function triangle_gradients(n_nodes, xi) result(dn)
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(in) :: xi(2)
+      real(wp) :: dn(n_nodes, 2)
+      real(wp) :: l(3), dl(3)
+      integer(ip) :: k
+
+      l = [1 - xi(1) - xi(2), xi(1), xi(2)]
+      do k = 1, 2
+         dl = merge(T1_XI_SLOPES, T1_ETA_SLOPES, k == 1)
+         if (n_nodes == T1_NODES) then
+            dn(:3, k) = dl
+         else
+            dn(:3, k) = (4*l - 1)*dl
+            dn(4:, k) = 4*(l*[dl(2), dl(3), dl(1)] + dl*[l(2), l(3), l(1)])
+         end if
+      end do
+   end function triangle_gradients
 
    pure function grid_of(n_nodes, node) result(grid)
       integer(ip), intent(in) :: n_nodes, node
@@ -172,17 +233,23 @@ contains
       integer(ip), intent(in) :: k                 !< 1 .. n_points of its shape
       real(wp), intent(out) :: xi(2), weight
 
-      call rule_point(SHAPES(n_nodes)%n_points, k, xi, weight)
+      call rule_point(n_nodes, SHAPES(n_nodes)%n_points, k, xi, weight)
    end subroutine gauss_point
 
-   !> The k-th of n points of a rule over a quadrilateral, xi fastest, from the corner at node 1.
-   pure subroutine rule_point(n, k, xi, weight)
-      integer(ip), intent(in) :: n                 !< 1, 4 or 9
+   !> The k-th of n points of a rule over an element: of a quadrilateral xi fastest, from the corner at node 1, of a triangle from
+   !> node to node.
+   pure subroutine rule_point(n_nodes, n, k, xi, weight)
+      integer(ip), intent(in) :: n_nodes           !< place in SHAPES
+      integer(ip), intent(in) :: n                 !< 1, 4 or 9; 1, 3 or 6
       integer(ip), intent(in) :: k                 !< 1 .. n
       real(wp), intent(out) :: xi(2), weight
       real(wp) :: points(3), weights(3)
       integer(ip) :: order, i, j
 
+      if (SHAPES(n_nodes)%n_corners == 3) then
+         call triangle_point(n, k, xi, weight)
+         return
+      end if
       order = nint(sqrt(real(n, wp)), ip)
       call gauss_rule(order, points(:order), weights(:order))
       i = mod(k - 1, order) + 1
@@ -190,5 +257,26 @@ contains
       xi = [points(i), points(j)]
       weight = weights(i)*weights(j)
    end subroutine rule_point
+
+   pure subroutine triangle_point(n, k, xi, weight)
+      integer(ip), intent(in) :: n                 !< 1, 3 or 6
+      integer(ip), intent(in) :: k
+      real(wp), intent(out) :: xi(2), weight
+      real(wp) :: t
+
+      if (n == 1) then
+         t = 2*SIXTH
+         weight = T1_WEIGHT
+      else if (n == 3) then
+         t = SIXTH
+         weight = T2_WEIGHT
+      else
+         t = T6((k + 2)/3)
+         weight = W6((k + 2)/3)
+      end if
+      xi = t
+      if (mod(k, 3_ip) == 2) xi(1) = 1 - 2*t
+      if (mod(k, 3_ip) == 0) xi(2) = 1 - 2*t
+   end subroutine triangle_point
 
 end module atrito_shape_functions

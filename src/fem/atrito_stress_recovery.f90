@@ -1,12 +1,12 @@
 !> Continuous stresses by superconvergent patch recovery (O. C. Zienkiewicz and J. Z. Zhu, Int. J. Numer. Methods Eng. 33, 1992).
 !>
-!> A polynomial of the elements' degree p is fitted to the stresses at their best points (Q1: the centre; Q2: 2 x 2 Gauss points)
-!> round every corner node inside a zone; nodes on the outline of the zone take their values from the patches inside. Where there
-!> is none at hand, the patch of an outer node takes all Gauss points of two elements or more, and an element without neighbours
-!> its best points and degree p - 1.
+!> A polynomial of the elements' degree p is fitted to the stresses at their best points (first degree: the centre; second: 2 x 2
+!> Gauss points, of triangles the three of the stiffness) round every corner node inside a zone; nodes on the outline of the zone take
+!> their values from the patches inside. Where there is none at hand, the patch of an outer node takes all Gauss points of two
+!> elements or more, and an element without neighbours its best points and degree p - 1.
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t
-   use atrito_element_table, only: SHAPES, BEST_OF, MOST_NODES, MOST_CORNERS
+   use atrito_element_table, only: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, side_count
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
@@ -43,7 +43,10 @@ module atrito_stress_recovery
    integer(ip), parameter :: RANK_OF(MOST_CORNERS, MOST_NODES) = reshape([1, 2, 3, 2, 2, 1, 2, 3, 3, 2, 1, 2, 2, 3, 2, 1, &
                                                                           1, 1, 2, 2, 2, 1, 1, 2, 2, 2, 1, 1, 1, 2, 2, 1, &
                                                                           1, 1, 1, 1], [4, 9])
-   integer(ip), parameter :: RANK_NONE = 4
+   !> The same of triangles; there is no fourth corner.
+   integer(ip), parameter :: TRIANGLE_RANK_OF(MOST_CORNERS, 6) = reshape([1, 2, 2, 0, 2, 1, 2, 0, 2, 2, 1, 0, &
+                                                                          1, 1, 2, 0, 2, 1, 1, 0, 1, 2, 1, 0], [4, 6])
+   integer(ip), parameter :: RANK_NEIGHBOUR = 4, RANK_NONE = 5 !< 4: of an element that has the patches of its neighbour
 
 contains
 
@@ -77,8 +80,8 @@ contains
       integer(ip) :: chunk, k
 
       call build_patches(fem, work%patches)
-      call make_point_rules(work%best, best=.true.)
-      call make_point_rules(work%all, best=.false.)
+      call make_point_rules(BEST_OF, work%best)
+      call make_point_rules(POINTS_OF, work%all)
       k = max(1_ip, maxval(BEST_OF(fem%mesh%shape)))
       allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
@@ -144,7 +147,7 @@ contains
       integer(ip) :: full, k
 
       associate (patches => work%patches)
-         full = SHAPES(fem%mesh%shape(patches%element(patches%first(i))))%degree
+         full = DEGREE_OF(fem%mesh%shape(patches%element(patches%first(i))))
          if (patches%kind(i) /= PATCH_OUTER) then
             call clear_samples(fit)
             do k = patches%first(i), patches%first(i + 1) - 1
@@ -250,17 +253,42 @@ contains
    end subroutine borrow_stresses
 
    !> Rank of the best patches of an element for its node.
-   pure integer(ip) function best_rank(patches, e, k)
+   pure integer(ip) function best_rank(mesh, patches, e, k)
+      type(mesh_t), intent(in) :: mesh
       type(patches_t), intent(in) :: patches
       integer(ip), intent(in) :: e, k
-      integer(ip) :: corner
+      integer(ip) :: corner, lender
 
+      lender = lender_to(patches, e)
       best_rank = RANK_NONE
-      do corner = 1, MOST_CORNERS
-         if (patches%kind(patches%place(corner, e)) == PATCH_NONE) cycle
-         best_rank = min(best_rank, RANK_OF(corner, k))
+      do corner = 1, CORNERS_OF(mesh%shape(lender))
+         if (patches%kind(patches%place(corner, lender)) == PATCH_NONE) cycle
+         best_rank = min(best_rank, rank_for(mesh%shape(e), lender == e, corner, k))
       end do
    end function best_rank
+
+   !> The element whose patches an element takes: its own, or those of its neighbour.
+   pure integer(ip) function lender_to(patches, e)
+      type(patches_t), intent(in) :: patches
+      integer(ip), intent(in) :: e
+
+      lender_to = e
+      if (.not. allocated(patches%helper)) return
+      if (patches%helper(e) > 0) lender_to = patches%helper(e)
+   end function lender_to
+
+   pure integer(ip) function rank_for(shape, is_own, corner, k)
+      integer(ip), intent(in) :: shape, corner, k
+      logical, intent(in) :: is_own                !< the corner is of the element itself
+
+      if (.not. is_own) then
+         rank_for = RANK_NEIGHBOUR
+      else if (CORNERS_OF(shape) == 3) then
+         rank_for = TRIANGLE_RANK_OF(corner, k)
+      else
+         rank_for = RANK_OF(corner, k)
+      end if
+   end function rank_for
 
    !> Adds the values of an element's patches of a rank for its node.
    pure subroutine add_borrowed(mesh, e, k, rank, work, stress, count)
@@ -269,11 +297,12 @@ contains
       type(recovery_t), intent(in) :: work
       real(wp), intent(inout) :: stress(COMPONENTS)
       integer(ip), intent(inout) :: count
-      integer(ip) :: corner, i
+      integer(ip) :: corner, i, lender
 
-      do corner = 1, MOST_CORNERS
-         i = work%patches%place(corner, e)
-         if (work%patches%kind(i) == PATCH_NONE .or. RANK_OF(corner, k) /= rank) cycle
+      lender = lender_to(work%patches, e)
+      do corner = 1, CORNERS_OF(mesh%shape(lender))
+         i = work%patches%place(corner, lender)
+         if (work%patches%kind(i) == PATCH_NONE .or. rank_for(mesh%shape(e), lender == e, corner, k) /= rank) cycle
          stress = stress + fitted_value(from_patch(mesh, work%patches, i, mesh%nodes(k, e)), work%polynomial(i))
          count = count + 1
       end do
@@ -291,7 +320,7 @@ contains
       do k = 1, mesh%shape(e)
          at = work%patches%place(k, e)
          if (work%patches%kind(at) /= PATCH_NONE) cycle
-         if (best_rank(work%patches, e, k) > 1) then
+         if (best_rank(mesh, work%patches, e, k) > 1) then
             asks = .true.
          else if (work%patches%owner(at) == e) then
             count = 0
@@ -316,7 +345,7 @@ contains
          if (.not. asks(e)) cycle
          do k = 1, mesh%shape(e)
             at = work%patches%place(k, e)
-            own = best_rank(work%patches, e, k)
+            own = best_rank(mesh, work%patches, e, k)
             if (own == 1 .or. own > best(at) .or. work%patches%kind(at) /= PATCH_NONE) cycle
             if (own < best(at)) then
                best(at) = own

@@ -1,15 +1,16 @@
 !> The mesh: nodes, elements and their topology.
 module atrito_mesh
-   use atrito_element_table, only: SHAPES, MOST_NODES
+   use atrito_element_table, only: SHAPES, CORNERS_OF, MOST_NODES
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
    use atrito_threads, only: is_shared
+   use atrito_triangle_pieces, only: triangles_of_square
    implicit none (type, external)
    private
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
-   public :: opposite_face_count, has_side, nodes_of_square, is_hollow
+   public :: opposite_face_count, has_side, nodes_of_square, is_hollow, elements_of_square
    public :: side_count, middle_node, element_coordinates, signed_area
 
    type :: mesh_t
@@ -100,35 +101,43 @@ contains
       mesh%n_nodes = before + n
    end subroutine add_nodes
 
-   !> Adds the elements of a block, row by row, with the numbers first_id, first_id + 1, ..., none of which is there yet.
+   !> Adds the elements of a block, row by row, triangles in twos, with the numbers first_id, first_id + 1, ..., none of
+   !> which is there yet.
    subroutine add_block(mesh, first_id, state, shape, nodes)
       type(mesh_t), intent(inout) :: mesh
       integer(ip), intent(in) :: first_id           !< > 0
       integer(ip), intent(in) :: state              !< place in STATES
       integer(ip), intent(in) :: shape              !< place in SHAPES
       integer(ip), intent(in) :: nodes(0:, 0:)      !< places, in lines along the block, (degree nx + 1, degree ny + 1)
-      integer(ip) :: i, j, order, e, nx, ny, before
+      integer(ip) :: i, j, k, order, per, e, nx, ny, before
 
       order = SHAPES(shape)%degree
+      per = elements_of_square(shape)
       nx = ubound(nodes, 1, kind=ip)/order
       ny = ubound(nodes, 2, kind=ip)/order
       before = mesh%n_elements
-      call reserve_mesh(mesh, 0_ip, nx*ny)
-      call add_sequence(mesh%element_map, first_id, before + 1, nx*ny)
-      !$omp parallel do default(none) private(i, e) shared(mesh, first_id, state, shape, order, nodes, nx, ny, before) &
+      call reserve_mesh(mesh, 0_ip, per*nx*ny)
+      call add_sequence(mesh%element_map, first_id, before + 1, per*nx*ny)
+      !$omp parallel do default(none) private(i, k, e) shared(mesh, first_id, state, shape, order, per, nodes, nx, ny, before) &
       !$omp if(is_shared(nx*ny))
       do j = 0, ny - 1
          do i = 0, nx - 1
-            e = before + j*nx + i + 1
-            mesh%element_id(e) = first_id + j*nx + i
-            mesh%state(e) = state
-            mesh%shape(e) = shape
-            mesh%nodes(:shape, e) = nodes_of_square(shape, nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
-            mesh%nodes(shape + 1:, e) = 0
+            e = before + per*(j*nx + i) + 1
+            if (per == 1) then
+               mesh%nodes(:shape, e) = nodes_of_square(shape, nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
+            else
+               mesh%nodes(:shape, e:e + 1) = triangles_of_square(nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
+            end if
+            do k = 0, per - 1
+               mesh%element_id(e + k) = first_id + per*(j*nx + i) + k
+               mesh%state(e + k) = state
+               mesh%shape(e + k) = shape
+               mesh%nodes(shape + 1:, e + k) = 0
+            end do
          end do
       end do
       !$omp end parallel do
-      mesh%n_elements = before + nx*ny
+      mesh%n_elements = before + per*nx*ny
    end subroutine add_block
 
    !> Gives back the room that was kept for growing; to be called when the mesh is complete.
@@ -189,7 +198,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element
 
-      side_count = SHAPES(mesh%shape(element))%n_corners
+      side_count = CORNERS_OF(mesh%shape(element))
    end function side_count
 
    !> Local corner at which a face ends; it begins at the corner of its own number.
@@ -256,6 +265,13 @@ contains
       if (shape == 9) nodes(9) = square(2, 2)
    end function nodes_of_square
 
+   !> Elements of a block in one of its squares.
+   pure integer(ip) function elements_of_square(shape)
+      integer(ip), intent(in) :: shape              !< place in SHAPES
+
+      elements_of_square = 5 - SHAPES(shape)%n_corners
+   end function elements_of_square
+
    !> Whether a place of the grid of nodes of such elements, from 0 at a corner, has none: the middle of an element of eight nodes.
    pure logical function is_hollow(shape, i, j)
       integer(ip), intent(in) :: shape, i, j
@@ -272,14 +288,15 @@ contains
       x = mesh%x(:, mesh%nodes(:mesh%shape(element), element))
    end function element_coordinates
 
-   !> Signed area [L^2] of the quadrilateral of an element's corners, positive when they run counter-clockwise.
+   !> Signed area [L^2] of the polygon of an element's corners, positive when they run counter-clockwise.
    pure real(wp) function signed_area(mesh, element) result(area)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element
       real(wp) :: d(2), e(2)
 
       d = mesh%x(:, mesh%nodes(3, element)) - mesh%x(:, mesh%nodes(1, element))
-      e = mesh%x(:, mesh%nodes(4, element)) - mesh%x(:, mesh%nodes(2, element))
+      ! of a triangle the last corner is the third: sides 1-3 and 2-3, whose cross product is the same
+      e = mesh%x(:, mesh%nodes(side_count(mesh, element), element)) - mesh%x(:, mesh%nodes(2, element))
       area = 0.5_wp*(d(1)*e(2) - d(2)*e(1))
    end function signed_area
 

@@ -1,12 +1,13 @@
-!> Uniform refinement: every quadrilateral into pieces x pieces of the same shape or all of one shape, on the isoparametric map of
-!> its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then
+!> Uniform refinement: every element into pieces x pieces of the same shape or all of one shape with as many corners, on the isoparametric
+!> map of its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then
 !> those inside elements.
 module atrito_refinement
-   use atrito_element_table, only: SHAPES, DEGREE_OF, MOST_NODES, MOST_SIDES
+   use atrito_element_table, only: SHAPES, DEGREE_OF, CORNERS_OF, MOST_NODES, MOST_SIDES
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: add_id
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: mesh_t, side_count, face_end, middle_node, nodes_of_square, is_hollow
+   use atrito_mesh, only: mesh_t, side_count, face_end, middle_node, nodes_of_square, is_hollow, element_coordinates
+   use atrito_triangle_pieces, only: piece_of_triangle, piece_nodes, is_piece_on_side, triangle_point
    implicit none (type, external)
    private
    public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, is_refined, edge_place
@@ -22,6 +23,7 @@ module atrito_refinement
       integer(ip), allocatable :: edge_first(:)     !< (n_edges + 1): place of its first new node
       integer(ip), allocatable :: inner_first(:)    !< (n_elements + 1): place of an element's first new node inside
       integer(ip), allocatable :: face_edge(:, :)   !< (4, n_elements)
+      logical, allocatable :: is_triangle(:)        !< (n_elements)
    end type refinement_t
 
 contains
@@ -37,7 +39,8 @@ contains
       n = mesh%n_nodes
       do e = 1, mesh%n_elements
          intervals = int(SHAPES(fine_shape(mesh, shape, e))%degree, lp)*int(pieces, lp)
-         n = n + intervals**2 + 2*intervals         ! edges between two elements are counted twice, which is no matter here
+         ! edges between two elements are counted twice, which is no matter here
+         n = n + intervals**2*(side_count(mesh, e) - 2)/2 + 2*intervals
       end do
    end function count_fine_nodes
 
@@ -54,6 +57,7 @@ contains
       refinement%pieces = pieces
       refinement%n_nodes = mesh%n_nodes
       refinement%n_elements = mesh%n_elements
+      refinement%is_triangle = CORNERS_OF(mesh%shape(:mesh%n_elements)) == 3
       call list_edges(mesh, around, refinement)
       call number_nodes(mesh, refinement)
       call place_nodes(mesh, refinement, fine)
@@ -156,7 +160,11 @@ contains
       do e = 1, mesh%n_elements
          refinement%inner_first(e) = n
          intervals = element_intervals(mesh, refinement, e)
-         n = n + (intervals - 1)**2
+         if (refinement%is_triangle(e)) then
+            n = n + ((intervals - 1)*(intervals - 2))/2
+         else
+            n = n + (intervals - 1)**2
+         end if
          if (SHAPES(fine_shape(mesh, refinement%shape, e))%hollow) n = n - refinement%pieces**2
          if (has_centre(mesh, e) .and. .not. drops_centre(mesh, refinement, e)) n = n - 1
       end do
@@ -167,7 +175,7 @@ contains
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: element
 
-      has_centre = SHAPES(mesh%shape(element))%degree > 1 .and. .not. SHAPES(mesh%shape(element))%hollow
+      has_centre = mesh%shape(element) > 2*side_count(mesh, element)
    end function has_centre
 
    !> Whether the node in the middle of an element belongs to none of its pieces: nine nodes become eight.
@@ -218,6 +226,10 @@ contains
 
       call fill_grid(mesh, refinement, element, grid)
       n = ubound(grid, 1, kind=ip)
+      if (refinement%is_triangle(element)) then
+         call map_triangle(mesh, element, grid, x)
+         n = -1
+      end if
       associate (nodes => mesh%nodes(:, element))
          do j = 0, n
             t = real(j, wp)/real(n, wp)
@@ -245,6 +257,23 @@ contains
          call map_edge(mesh, refinement, refinement%face_edge(i, element), x)
       end do
    end subroutine map_element
+
+   !> Places the new nodes inside a triangle.
+   pure subroutine map_triangle(mesh, element, grid, x)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, grid(0:, 0:)
+      real(wp), intent(inout) :: x(:, :)
+      integer(ip) :: i, j, n
+
+      n = ubound(grid, 1, kind=ip)
+      associate (corners => element_coordinates(mesh, element))
+         do j = 1, n - 2
+            do i = 1, n - 1 - j
+               x(:, grid(i, j)) = triangle_point(corners, real([i, j], wp)/real(n, wp))
+            end do
+         end do
+      end associate
+   end subroutine map_triangle
 
    !> The middle of an element of the second degree [L]; of eight nodes where their shape functions have it.
    pure function centre_of(mesh, element) result(x)
@@ -302,7 +331,7 @@ contains
       if (present(middle)) x = x + 4*t*(1 - t)*((middle - a) - 0.5_wp*(b - a))
    end function along
 
-   !> The places of all nodes of a refined element, from node 1 along its sides 1-2 and 1-4, (0:n, 0:n).
+   !> The places of all nodes of a refined element, from node 1 along its sides 1-2 and 1-4, (0:n, 0:n); of a triangle 1-2 and 1-3.
    pure subroutine fill_grid(mesh, refinement, element, grid)
       type(mesh_t), intent(in) :: mesh
       type(refinement_t), intent(in) :: refinement
@@ -315,6 +344,10 @@ contains
          if (ubound(grid, 1) /= n) deallocate (grid)
       end if
       if (.not. allocated(grid)) allocate (grid(0:n, 0:n))
+      if (refinement%is_triangle(element)) then
+         call fill_triangle(mesh, refinement, element, grid)
+         return
+      end if
       call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
       call put_edge(mesh, refinement, element, 2_ip, grid(n, :))
       call put_edge(mesh, refinement, element, 3_ip, grid(n:0:-1, n))
@@ -333,6 +366,30 @@ contains
          end do
       end do
    end subroutine fill_grid
+
+   !> Of a triangle half of the grid is used.
+   pure subroutine fill_triangle(mesh, refinement, element, grid)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element
+      integer(ip), intent(inout) :: grid(0:, 0:)
+      integer(ip) :: line(0:ubound(grid, 1)), i, j, k, n
+
+      n = ubound(grid, 1, kind=ip)
+      call put_edge(mesh, refinement, element, 1_ip, grid(:, 0))
+      call put_edge(mesh, refinement, element, 3_ip, grid(0, n:0:-1))
+      call put_edge(mesh, refinement, element, 2_ip, line)
+      do i = 0, n
+         grid(n - i, i) = line(i)
+      end do
+      k = refinement%inner_first(element)
+      do j = 1, n - 2
+         do i = 1, n - 1 - j
+            grid(i, j) = k
+            k = k + 1
+         end do
+      end do
+   end subroutine fill_triangle
 
    !> The nodes of an edge in the direction in which an element travels it.
    pure subroutine put_edge(mesh, refinement, element, face, line)
@@ -367,7 +424,7 @@ contains
       type(refinement_t), intent(in) :: refinement
       type(mesh_t), intent(inout) :: fine
       integer(ip), allocatable :: grid(:, :)
-      integer(ip) :: e, i, j, k, m, n, children, shape
+      integer(ip) :: e, k, n, piece, children, shape
       logical :: known, keep
 
       children = refinement%pieces**2
@@ -380,20 +437,36 @@ contains
       do e = 1, mesh%n_elements
          call fill_grid(mesh, refinement, e, grid)
          shape = fine_shape(mesh, refinement%shape, e)
-         m = SHAPES(shape)%degree
-         do j = 0, ubound(grid, 2, kind=ip) - m, m
-            do i = 0, ubound(grid, 1, kind=ip) - m, m
-               k = k + 1
-               fine%nodes(:shape, k) = nodes_of_square(shape, grid(i:i + m, j:j + m))
-               fine%element_id(k) = k
-               if (keep) fine%element_id(k) = k + (mesh%element_id(e) - e)*children
-               fine%shape(k) = shape
-               fine%state(k) = mesh%state(e)
-               call add_id(fine%element_map, fine%element_id(k), k, known)
-            end do
+         do piece = 0, children - 1
+            k = k + 1
+            call take_piece(shape, refinement%pieces, piece, grid, fine%nodes(:shape, k))
+            fine%element_id(k) = k
+            if (keep) fine%element_id(k) = k + (mesh%element_id(e) - e)*children
+            fine%shape(k) = shape
+            fine%state(k) = mesh%state(e)
+            call add_id(fine%element_map, fine%element_id(k), k, known)
          end do
       end do
    end subroutine place_elements
+
+   !> The nodes of a piece of an element.
+   pure subroutine take_piece(shape, pieces, piece, grid, nodes)
+      integer(ip), intent(in) :: shape, pieces
+      integer(ip), intent(in) :: piece               !< 0 .. pieces^2 - 1
+      integer(ip), intent(in) :: grid(0:, 0:)
+      integer(ip), intent(out) :: nodes(shape)
+      integer(ip) :: m, place(2)
+      logical :: is_turned
+
+      m = DEGREE_OF(shape)
+      if (CORNERS_OF(shape) == 3) then
+         call piece_of_triangle(pieces, piece, place, is_turned)
+         call piece_nodes(grid, m, place, is_turned, nodes)
+      else
+         place = m*[mod(piece, pieces), piece/pieces]
+         nodes = nodes_of_square(shape, grid(place(1):place(1) + m, place(2):place(2) + m))
+      end if
+   end subroutine take_piece
 
    !> The places in the fine mesh of some elements of the coarse one.
    pure function fine_elements(refinement, members) result(pieces)
@@ -424,6 +497,12 @@ contains
       integer(ip) :: k, place(2)
 
       k = modulo(element - 1, refinement%pieces**2)
+      if (is_refined(refinement)) then
+         if (refinement%is_triangle((element - 1)/refinement%pieces**2 + 1)) then
+            is_on_side = is_piece_on_side(refinement%pieces, k, face)
+            return
+         end if
+      end if
       place = [modulo(k, refinement%pieces), k/refinement%pieces]
       select case (face)
       case (1)

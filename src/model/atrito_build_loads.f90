@@ -11,7 +11,7 @@ module atrito_build_loads
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
-   use atrito_references, only: find_nodes, find_elements, report_unknown
+   use atrito_references, only: find_nodes, find_elements, check_faces, report_unknown
    use atrito_refinement, only: is_on_side, is_refined
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
@@ -170,8 +170,11 @@ contains
       type(number_list_t) :: inside
       integer(ip) :: i, face
       integer :: outcome
+      logical :: ok
 
       call read_integer(label(2:2), face, outcome)
+      call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'DLOAD', ok)
+      if (.not. ok) return
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(context%refinement, elements(i), face)) cycle
          call add_element_load(context%model%element_loads, elements(i), LOAD_PRESSURE, face, [pressure, 0.0_wp])

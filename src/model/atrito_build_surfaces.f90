@@ -10,11 +10,12 @@ module atrito_build_surfaces
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text, option_word
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: elements_of_square
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
    use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
-   use atrito_references, only: find_elements, report_unknown
+   use atrito_references, only: find_elements, check_faces, report_unknown
    use atrito_refinement, only: fine_elements, is_on_side
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
@@ -53,11 +54,12 @@ contains
    subroutine put_block_surfaces(block, context)
       type(block_t), intent(in) :: block
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: nx, ny, i
+      integer(ip) :: nx, ny, per, i
 
       nx = ubound(block%nodes, 1, kind=ip)/block%order
       ny = ubound(block%nodes, 2, kind=ip)/block%order
-      if (block%first_element + nx*ny - 1 > context%model%mesh%n_elements) return
+      per = elements_of_square(block%shape)
+      if (block%first_element + per*nx*ny - 1 > context%model%mesh%n_elements) return
       call put_side(1_ip, [(i, i=0, nx - 1)])
       call put_side(2_ip, [(nx - 1 + nx*i, i=0, ny - 1)])
       call put_side(3_ip, [(nx*(ny - 1) + i, i=0, nx - 1)])
@@ -65,14 +67,21 @@ contains
 
    contains
 
-      subroutine put_side(face, elements)
-         integer(ip), intent(in) :: face
-         integer(ip), intent(in) :: elements(:)        !< counted from the first of the block
+      subroutine put_side(side, squares)
+         integer(ip), intent(in) :: side
+         integer(ip), intent(in) :: squares(:)         !< counted from the first of the block
          integer(ip), allocatable :: pieces(:)
+         integer(ip) :: face, k
 
-         pieces = fine_elements(context%refinement, block%first_element + elements)
-         call put_faces(block%name//trim(BLOCK_SIDES(face)), face, pieces)
-         if (block%at_side(face)) call put_faces(block%array//trim(BLOCK_SIDES(face)), face, pieces)
+         k = 0
+         face = side
+         if (per == 2 .and. side > 2) then             ! of the upper triangle: see triangles_of_square
+            k = 1
+            face = side - 2
+         end if
+         pieces = fine_elements(context%refinement, block%first_element + k + per*squares)
+         call put_faces(block%name//trim(BLOCK_SIDES(side)), face, pieces)
+         if (block%at_side(side)) call put_faces(block%array//trim(BLOCK_SIDES(side)), face, pieces)
       end subroutine put_side
 
       subroutine put_faces(name, face, pieces)
@@ -192,6 +201,8 @@ contains
          return
       end if
       call read_integer(word(2:), face, outcome)       ! S1..S4, checked by the reader
+      call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'SURFACE', ok)
+      if (.not. ok) return
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(context%refinement, elements(i), face)) cycle
          if (is_outer_face(context%model%mesh, context%around, elements(i), face)) then

@@ -16,8 +16,8 @@ module atrito_check_mesh
    private
    public :: check_mesh
 
-   !> From this ratio on fully integrated elements lock in plane strain: those with four nodes altogether, those with nine in their
-   !> pressures.
+   !> From this ratio on fully integrated elements lock in plane strain: those with three or four nodes altogether, those with more
+   !> in their pressures.
    real(wp), parameter :: LOCKING_RATIO = 0.49_wp
 
 contains
@@ -65,11 +65,12 @@ contains
    subroutine check_materials(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      logical, dimension(size(model%materials)) :: strained, locks, oscillates
+      logical, dimension(size(model%materials)) :: strained, locks, triangles, oscillates
       integer(ip) :: e, i
 
       strained = .false.
       locks = .false.
+      triangles = .false.
       oscillates = .false.
       do e = 1, model%mesh%n_elements
          if (model%section_of(e) <= 0) cycle
@@ -78,6 +79,8 @@ contains
             strained(section%material) = .true.
             if (SHAPES(model%mesh%shape(e))%degree > 1) then
                oscillates(section%material) = .true.
+            else if (model%mesh%shape(e) == 3) then
+               triangles(section%material) = .true.
             else if (section%formulation == FORMULATION_STANDARD) then
                locks(section%material) = .true.
             end if
@@ -92,29 +95,33 @@ contains
                                     expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
                end if
             else if (strained(i) .and. .not. context%elastic_invalid(i)) then
-               call check_strained(context%deck, material%poisson, locks(i), oscillates(i), context%poisson(i))
+               call check_strained(context%deck, material%poisson, locks(i), triangles(i), oscillates(i), context%poisson(i))
             end if
          end associate
       end do
    end subroutine check_materials
 
    !> Poisson's ratio of a material in plane strain.
-   subroutine check_strained(deck, poisson, locks, oscillates, place)
+   subroutine check_strained(deck, poisson, locks, triangles, oscillates, place)
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: poisson
-      logical, intent(in) :: locks, oscillates         !< STANDARD elements with four nodes; elements with more
+      logical, intent(in) :: locks, triangles, oscillates !< STANDARD elements with four nodes; with three; with six and more
       type(token_t), intent(in) :: place
 
       if (poisson >= 0.5_wp) then
          call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson, 15)//' in plane strain', &
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
+      else if (poisson >= LOCKING_RATIO .and. triangles) then
+         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: triangles with three nodes are much too stiff '// &
+                             'in plane strain', expected='CPE4 with FORMULATION=BBAR of *SOLID SECTION, '// &
+                             'or mu < 0.49 [-]', keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. locks) then
          call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: fully integrated Q1 elements are much too stiff '// &
                              'in plane strain', expected='FORMULATION=BBAR of *SOLID SECTION, or mu < 0.49 [-]', keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. oscillates) then
          call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: in plane strain the pressures of elements with '// &
-                             'eight or nine nodes oscillate, in contact too', expected='elements with four nodes and '// &
+                             'six, eight or nine nodes oscillate, in contact too', expected='elements with four nodes and '// &
                              'FORMULATION=BBAR, or mu < 0.49 [-]', keyword='ELASTIC')
       end if
    end subroutine check_strained
@@ -181,8 +188,8 @@ contains
       end do
       call report_error(context%deck, place_token(context%deck, context%elements%place(first)), 'E-EDGE', 'element '// &
                         ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
-                        expected='elements of one order and size on both sides of an edge (CPE4, or CPE8 and CPE9; so CPS), '// &
-                        'or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
+                        expected='elements of one order and size on both sides of an edge (CPE3 and CPE4, or CPE6, CPE8 and '// &
+                                 'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
 
    !> Marks the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its middle

@@ -73,23 +73,27 @@ contains
       type(token_t), intent(in) :: place
       character(len=:), allocatable :: name, at_node
       character(len=43) :: also(3)                     ! what is said of a centre, where there is one
+      integer(ip) :: corners
 
       also = [character(len=43) :: ' and centre', ', the centre', ', the centre near the middle of the element']
-      if (SHAPES(mesh%shape(e))%hollow) also = ''
+      corners = SHAPES(mesh%shape(e))%n_corners
+      if (mesh%shape(e) <= 2*corners) also = ''
       name = 'element '//to_text(mesh%element_id(e))
       at_node = 'node '//to_text(mesh%node_id(mesh%nodes(node, e)))
       select case (shape)
       case (SHAPE_CLOCKWISE)
          call report_error(deck, place, 'E-SHAPE', name//' runs clockwise', expected='corners counter-clockwise, for example '// &
-                           nodes_text(mesh, e, [1, 4, 3, 2, 8, 7, 6, 5, 9]), keyword='ELEMENT')
+                           nodes_text(mesh, e, turned(mesh%shape(e))), keyword='ELEMENT')
       case (SHAPE_DEGENERATE)
          call report_error(deck, place, 'E-SHAPE', name//' is degenerate: its angle at '//at_node// &
                            ' is not between 0 and 180 degrees', &
-                           expected='a convex quadrilateral, corners counter-clockwise', keyword='ELEMENT')
+                           expected=trim(merge('a triangle with an area ', 'a convex quadrilateral  ', corners == 3))// &
+                                    ', corners counter-clockwise', keyword='ELEMENT')
       case (SHAPE_ORDER)
          call report_error(deck, place, 'E-SHAPE', name//' folds over near '//at_node// &
                            ': its mid-side nodes'//trim(also(1))//' stand in another order', &
-                           expected='corners counter-clockwise, the middles of sides 1-2, 2-3, 3-4, 4-1'// &
+                           expected='corners counter-clockwise, the middles of sides 1-2, 2-3, '// &
+                           trim(merge('3-1     ', '3-4, 4-1', corners == 3))// &
                            trim(also(2))//': '// &
                            nodes_text(mesh, e, nearest_order(mesh%x(:, mesh%nodes(:mesh%shape(e), e)))), keyword='ELEMENT')
       case (SHAPE_FOLDED)
@@ -98,6 +102,21 @@ contains
                            trim(also(3)), keyword='ELEMENT')
       end select
    end subroutine report_shape
+
+   !> The order of the nodes of a shape that runs the other way round.
+   pure function turned(shape) result(order)
+      integer(ip), intent(in) :: shape
+      integer(ip) :: order(shape)
+
+      if (SHAPES(shape)%n_corners == 3) then
+         order(:3) = [1_ip, 3_ip, 2_ip]
+         if (shape > 3) order(4:) = [6_ip, 5_ip, 4_ip]
+      else
+         order(:4) = [1_ip, 4_ip, 3_ip, 2_ip]
+         if (shape > 4) order(5:8) = [8_ip, 7_ip, 6_ip, 5_ip]
+         if (shape > 8) order(9) = 9
+      end if
+   end function turned
 
    !> What a node of an element of the second degree is.
    pure function role_text(mesh, e, node) result(text)

@@ -3,19 +3,20 @@
 module atrito_references
    use atrito_deck, only: deck_t, token_t, token_text, is_id_token
    use atrito_diagnostics, only: report_error
-   use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors
+   use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors, ids_text
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, get_name
    use atrito_kinds, only: ip
-   use atrito_mesh, only: find_node, find_element
+   use atrito_mesh, only: find_node, find_element, side_count
    use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_name_list, only: name_list_t, names_of
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_refinement, only: fine_elements, is_refined
    use atrito_sets, only: set_list_t, find_set
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
-   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, report_unknown
+   public :: get_id, find_nodes, find_elements, find_one_node, find_one_element, check_faces, report_unknown
 
 contains
 
@@ -172,6 +173,28 @@ contains
          call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token))
       end if
    end subroutine report_unknown
+
+   !> Elements have a face of this number: triangles have no fourth. Of a refined mesh that has been asked of the deck's.
+   subroutine check_faces(context, token, elements, face, keyword, ok)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token               !< S1..S4 or P1..P4
+      integer(ip), intent(in) :: elements(:), face
+      character(len=*), intent(in) :: keyword
+      logical, intent(out) :: ok
+      type(number_list_t) :: without
+      integer(ip) :: i
+
+      ok = face <= 3 .or. is_refined(context%refinement)
+      if (ok) return
+      do i = 1, size(elements, kind=ip)
+         if (side_count(context%model%mesh, elements(i)) >= face) cycle
+         call add_number(without, context%model%mesh%element_id(elements(i)))
+      end do
+      ok = without%n == 0
+      if (ok) return
+      call report_error(context%deck, token, 'E-FACE', 'element '//ids_text(numbers_of(without))//' has no face '//to_text(face), &
+                        expected='a face that each of the elements has: triangles have 1-2, 2-3 and 3-1', keyword=keyword)
+   end subroutine check_faces
 
    pure function article(noun) result(text)
       character(len=*), intent(in) :: noun

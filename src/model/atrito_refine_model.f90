@@ -5,7 +5,7 @@ module atrito_refine_model
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_build_context, only: build_context_t, note_place
-   use atrito_element_table, only: DEGREE_OF
+   use atrito_element_table, only: CORNERS_OF, DEGREE_OF
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
@@ -22,18 +22,24 @@ contains
    !> Replaces the mesh, and the members of all sets. A mesh that would be too large is reported and left as it is. Of a nine-node
    !> element come four of four nodes, on the same nodes; of one of four nodes comes one of nine.
    subroutine refine_model(levels, shape, context)
-      integer(ip), intent(in) :: levels                !< >= 0; each quadrilateral into 4**levels
+      integer(ip), intent(in) :: levels                !< >= 0; each element into 4**levels
       integer(ip), intent(in) :: shape                 !< for all elements, place in SHAPES; 0: their own
       type(build_context_t), intent(inout) :: context
       type(mesh_t) :: coarse
       integer(ip) :: i, pieces
 
       pieces = 2**levels
+      if (shape > 0 .and. any(CORNERS_OF(context%model%mesh%shape) /= CORNERS_OF(max(shape, 1_ip)))) then
+         call report_deck_error(context%deck, 'E-REFINE', 'the deck has '// &
+                                trim(merge('quadrilaterals', 'triangles     ', CORNERS_OF(shape) == 3))// &
+                                ', of which --elements makes none', expected='elements with as many corners as those of the deck')
+         return
+      end if
       if (DEGREE_OF(max(shape, 1_ip)) == 1 .and. any(DEGREE_OF(context%model%mesh%shape) > 1)) then
          pieces = 2*pieces
          if (any(DEGREE_OF(context%model%mesh%shape) == 1)) then
             call report_deck_error(context%deck, 'E-REFINE', 'elements of four nodes and of more together cannot all get four', &
-                                   expected='a mesh of one kind')
+                                   expected='a mesh of one degree')
             return
          end if
       end if

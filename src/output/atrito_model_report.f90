@@ -1,10 +1,10 @@
 !> What was understood of a deck, for the listing and for `atrito check`.
 module atrito_model_report
-   use atrito_element_table, only: KINDS, kind_of
+   use atrito_element_table, only: KINDS, MOST_CORNERS, kind_of
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: depth_at
    use atrito_strings, only: to_text
-   use atrito_mesh, only: face_end
+   use atrito_mesh, only: face_end, side_count
    use atrito_sets, only: set_count
    use atrito_model, only: model_t, interaction_t, FORMULATION_NAME, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
                            FRICTION_NONLOCAL, LOAD_PRESSURE, SURFACE_SEGMENTS
@@ -182,7 +182,7 @@ contains
       type(model_t), intent(in) :: model
       type(force_t), intent(out) :: concentrated    !< on nodes
       type(force_t), intent(out) :: pressure        !< on element faces
-      type(force_t), intent(out) :: body            !< in elements, on the quadrilateral of the corners
+      type(force_t), intent(out) :: body            !< in elements, on the polygon of the corners
       real(wp) :: f(2)
       integer(ip) :: i
 
@@ -230,12 +230,13 @@ contains
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                  !< place in model%element_loads
       type(force_t), intent(inout) :: force
-      real(wp) :: x(2, 4), middle(2), area
-      integer(ip) :: e, k
+      real(wp) :: x(2, MOST_CORNERS), middle(2), area
+      integer(ip) :: e, k, n
 
       e = model%element_loads%element(i)
-      x = model%mesh%x(:, model%mesh%nodes(:4, e))
-      do k = 3, 4
+      n = side_count(model%mesh, e)
+      x(:, :n) = model%mesh%x(:, model%mesh%nodes(:n, e))
+      do k = 3, n
          associate (d => x(:, k - 1) - x(:, 1), g => x(:, k) - x(:, 1))
             area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
          end associate

@@ -96,16 +96,17 @@ contains
    pure logical function are_equal(fem, before, e)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: before, e
-      real(wp) :: side, apart(2)
+      real(wp) :: side, apart(2), way
       integer(ip) :: k, last
 
       are_equal = fem%mesh%shape(before) == fem%mesh%shape(e)
       if (.not. are_equal) return
       last = SHAPES(fem%mesh%shape(e))%n_corners
+      way = merge(-1.0_wp, 1.0_wp, last == 3)      ! a triangle's neighbour is often turned by 180 degrees
       associate (x => fem%mesh%x, old => fem%mesh%nodes(:, before), new => fem%mesh%nodes(:, e))
          side = maxval(abs(x(:, new(2)) - x(:, new(1)))) + maxval(abs(x(:, new(last)) - x(:, new(1))))
          do k = 2, fem%mesh%shape(e)
-            apart = (x(:, new(k)) - x(:, new(1))) - (x(:, old(k)) - x(:, old(1)))
+            apart = (x(:, new(k)) - x(:, new(1))) - way*(x(:, old(k)) - x(:, old(1)))
             are_equal = are_equal .and. maxval(abs(apart)) <= SAME*side
          end do
       end associate

@@ -8,7 +8,7 @@ module atrito_recovery
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
-   use atrito_element_table, only: SHAPES, MOST_NODES
+   use atrito_element_table, only: SHAPES, POINTS_OF, MOST_NODES
    use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
@@ -219,7 +219,7 @@ contains
          if (requests%stress) wanted = requests%element_s
          if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
       end associate
-      call make_point_rules(rules, best=.false.)
+      call make_point_rules(POINTS_OF, rules)
       call count_rows(fem, wanted, rows)
       associate (n => rows(size(rows)))
          allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), &

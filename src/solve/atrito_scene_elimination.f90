@@ -4,6 +4,7 @@ module atrito_scene_elimination
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, bodies_of_row
+   use atrito_mesh, only: side_count
    use atrito_kinds, only: ip, wp
    use atrito_multifrontal, only: dissection_t, order_elements, elimination_t
    implicit none (type, external)
@@ -149,7 +150,9 @@ contains
          if (seen(b) .or. numbering%n_motions(b) == 0) cycle
          e = e + 1
          n_nodes_of(e) = CORNERS + 1
-         nodes(:CORNERS + 1, e) = [fem%mesh%nodes(:CORNERS, fem%bodies%list(b)%elements(1)), fem%mesh%n_nodes + b]
+         j = fem%bodies%list(b)%elements(1)
+         nodes(:CORNERS, e) = fem%mesh%nodes([1_ip, 2_ip, 3_ip, side_count(fem%mesh, j)], j)
+         nodes(CORNERS + 1, e) = fem%mesh%n_nodes + b
       end do
       nodes = nodes(:, :e)
       n_nodes_of = n_nodes_of(:e)

@@ -1,5 +1,6 @@
 !> Solves a deck and prints the errors of displacements (L2 norm) and stresses (energy norm) against an exact solution, both over
-!> that of the solution itself, integrated with 5 x 5 Gauss points an element over the mesh as it is. FORMULATION=BBAR: the
+!> that of the solution itself, integrated with 5 x 5 Gauss points an element over the mesh as it is (of a
+!> triangle those of the square that is pressed together at one corner). FORMULATION=BBAR: the
 !> stresses are those of the strains with the mean dilatation of the element, the same integral.
 !>
 !>    error_norms DECK LEVELS FIELD NUMBER...        FIELD and its numbers: exact_fields.f90; LEVELS of refinement
@@ -12,7 +13,7 @@ program error_norms
    use atrito_reader, only: read_deck
    use atrito_build_model, only: build_model
    use atrito_deck, only: deck_t
-   use atrito_element_table, only: has_mean_dilatation
+   use atrito_element_table, only: SHAPES, has_mean_dilatation
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: element_coordinates
    use atrito_messages, only: count_messages, SEVERITY_ERROR
@@ -95,10 +96,11 @@ contains
       real(wp), intent(inout) :: sums(4), warp
       type(elastic_t) :: section
       real(wp) :: x(2, model%mesh%shape(e)), u(2, model%mesh%shape(e)), n(model%mesh%shape(e))
-      real(wp) :: d(3, 3), place(2), exact_u(2), exact_s(3), s(3), jacobian, weight, jacobians(25), mean
-      integer(ip) :: i, j
+      real(wp) :: d(3, 3), place(2), exact_u(2), exact_s(3), s(3), jacobian, weight, jacobians(25), mean, xi(2), xi_weight
+      integer(ip) :: i, j, corners
       logical :: averages
 
+      corners = SHAPES(model%mesh%shape(e))%n_corners
       x = element_coordinates(model%mesh, e)
       u = results%u(:, model%mesh%nodes(:model%mesh%shape(e), e))
       associate (values => model%sections(model%section_of(e)), material => &
@@ -107,16 +109,18 @@ contains
       end associate
       d = elasticity_matrix(section, model%mesh%state(e))
       averages = has_mean_dilatation(section, model%mesh%state(e), model%mesh%shape(e))
-      mean = mean_dilatation(x, u)
+      mean = 0.0_wp
+      if (averages) mean = mean_dilatation(x, u)
       do j = 1, 5
          do i = 1, 5
-            n = shape_values(model%mesh%shape(e), [POINTS(i), POINTS(j)])
+            call point_of(model%mesh%shape(e), i, j, xi, xi_weight)
+            n = shape_values(model%mesh%shape(e), xi)
             place = matmul(x, n)
-            call exact_solution(field, section, model%mesh%state(e), sum(x(:, :4), dim=2)/4, place, exact_u, exact_s)
-            call strain_at(x, u, [POINTS(i), POINTS(j)], s, jacobian)
+            call exact_solution(field, section, model%mesh%state(e), sum(x(:, :corners), dim=2)/corners, place, exact_u, exact_s)
+            call strain_at(x, u, xi, s, jacobian)
             if (averages) s(1:2) = s(1:2) + (mean - sum(s(1:2)))/2
             s = matmul(d, s)
-            weight = WEIGHTS(i)*WEIGHTS(j)*jacobian
+            weight = xi_weight*jacobian
             jacobians(5*(j - 1) + i) = jacobian
             sums(1) = sums(1) + weight*sum((matmul(u, n) - exact_u)**2)
             sums(2) = sums(2) + weight*sum(exact_u**2)
@@ -126,6 +130,18 @@ contains
       end do
       warp = max(warp, (maxval(jacobians) - minval(jacobians))/(2*sum(jacobians)/25))
    end subroutine add_element_errors
+
+   pure subroutine point_of(n_nodes, i, j, xi, weight)
+      integer(ip), intent(in) :: n_nodes, i, j
+      real(wp), intent(out) :: xi(2), weight
+
+      xi = [POINTS(i), POINTS(j)]
+      weight = WEIGHTS(i)*WEIGHTS(j)
+      if (SHAPES(n_nodes)%n_corners == 4) return
+      xi = 0.5_wp*(1 + xi)
+      weight = weight*0.25_wp*(1 - xi(1))
+      xi(2) = xi(2)*(1 - xi(1))
+   end subroutine point_of
 
    pure real(wp) function mean_dilatation(x, u)
       real(wp), intent(in) :: x(:, :), u(:, :)

@@ -1,4 +1,4 @@
-# Writes a mesh of n by m quadrilaterals in the unit square, mapped: *NODE, *ELEMENT, *NSET OUTLINE (all outer nodes) and the
+# Writes a mesh of n by m quadrilaterals, or as many pairs of triangles, in the unit square, mapped: *NODE, *ELEMENT, *NSET OUTLINE (all outer nodes) and the
 # sets and surfaces BOTTOM, RIGHT, TOP, LEFT, with the name of the element set in front.
 #    awk -v type=CPE9 -v n=4 -v m=4 -v map=square [-v elset=ALL] [-v first=0] [-v dy=0] [-v r1=1 -v r2=2 -v turn=90] -f mesh.awk
 # map: square      the unit square itself
@@ -22,7 +22,9 @@ function graded(k, of, g,   z) {
 }
 # The node at (i, j) counted in half elements for Q2.
 function node(i, j,   a, b, x, y, r, t) {
-   if (map == "trapezoids" && order == 2) {
+   if (map == "trapezoids" && triangles && i % 2 && j % 2 && order == 2) {
+      corner((i - 1)/2, (j - 1)/2); x = px/2; y = py/2; corner((i + 1)/2, (j + 1)/2); x += px/2; y += py/2
+   } else if (map == "trapezoids" && order == 2) {
       x = 0; y = 0
       for (a = 0; a <= 1; a++) for (b = 0; b <= 1; b++) {
          corner(int((i + a)/2), int((j + b)/2)); x += px/4; y += py/4
@@ -54,12 +56,21 @@ BEGIN {
    if (!gy) gy = 1
    if (!size) size = 1
    closed = (map == "ring" && turn == 360)
-   order = (type ~ /[89]/) ? 2 : 1; hollow = (type ~ /8/)
+   order = (type ~ /[689]/) ? 2 : 1; hollow = (type ~ /8/)
+   triangles = (type ~ /[36]/); per = 1 + triangles
    print "*NODE, NSET=" elset
    for (j = 0; j <= order*m - closed; j++) for (i = 0; i <= order*n; i++) if (!(hollow && i % 2 && j % 2)) { node(i, j); printf "%d, %.17g, %.17g\n", id(i, j), px, py }
    print "*ELEMENT, TYPE=" type ", ELSET=" elset
    for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
       a = order*i; b = order*j; c = a + order; d = b + order
+      if (triangles) {
+         printf "%d, %d, %d, %d", first + 2*(j*n + i) + 1, id(a, b), id(c, b), id(c, d)
+         if (order == 2) printf ", %d, %d, %d", id(a + 1, b), id(c, b + 1), id(a + 1, b + 1)
+         printf "\n%d, %d, %d, %d", first + 2*(j*n + i) + 2, id(a, b), id(c, d), id(a, d)
+         if (order == 2) printf ", %d, %d, %d", id(a + 1, b + 1), id(a + 1, d), id(a, b + 1)
+         print ""
+         continue
+      }
       printf "%d, %d, %d, %d, %d", first + j*n + i + 1, id(a, b), id(c, b), id(c, d), id(a, d)
       if (order == 2) printf ", %d, %d, %d, %d", id(a + 1, b), id(c, b + 1), id(a + 1, d), id(a, b + 1)
       if (order == 2 && !hollow) printf ", %d", id(a + 1, b + 1)
@@ -67,13 +78,13 @@ BEGIN {
    }
    print "*NSET, NSET=" elset "-RIGHT"; for (j = 0; j <= order*m; j++) print id(order*n, j)
    print "*NSET, NSET=" elset "-LEFT"; for (j = 0; j <= order*m; j++) print id(0, j)
-   print "*SURFACE, NAME=" elset "-RIGHT, TYPE=ELEMENT"; for (j = 1; j <= m; j++) print first + j*n ", S2"
-   print "*SURFACE, NAME=" elset "-LEFT, TYPE=ELEMENT"; for (j = 1; j <= m; j++) print first + (j - 1)*n + 1 ", S4"
+   print "*SURFACE, NAME=" elset "-RIGHT, TYPE=ELEMENT"; for (j = 1; j <= m; j++) print first + per*(j*n - 1) + 1 ", S2"
+   print "*SURFACE, NAME=" elset "-LEFT, TYPE=ELEMENT"; for (j = 1; j <= m; j++) print first + per*((j - 1)*n + 1) ", S" (5 - per)
    if (closed) exit
    print "*NSET, NSET=" elset "-BOTTOM"; for (i = 0; i <= order*n; i++) print id(i, 0)
    print "*NSET, NSET=" elset "-TOP"; for (i = 0; i <= order*n; i++) print id(i, order*m)
    print "*NSET, NSET=" elset "-OUTLINE\n" elset "-BOTTOM, " elset "-RIGHT, " elset "-TOP, " elset "-LEFT"
-   print "*SURFACE, NAME=" elset "-BOTTOM, TYPE=ELEMENT"; for (i = 1; i <= n; i++) print first + i ", S1"
-   print "*SURFACE, NAME=" elset "-TOP, TYPE=ELEMENT"; for (i = 1; i <= n; i++) print first + (m - 1)*n + i ", S3"
+   print "*SURFACE, NAME=" elset "-BOTTOM, TYPE=ELEMENT"; for (i = 1; i <= n; i++) print first + per*(i - 1) + 1 ", S1"
+   print "*SURFACE, NAME=" elset "-TOP, TYPE=ELEMENT"; for (i = 1; i <= n; i++) print first + per*((m - 1)*n + i) ", S" (4 - per)
    exit
 }

@@ -2,17 +2,19 @@
 module fem_cases
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: find_bodies, number_equations
+   use atrito_element_table, only: TABLE => SHAPES, DEGREE_OF, CORNERS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: add_element, add_node, nodes_of_square, trim_mesh
    use atrito_plane_state, only: elastic_t, PLANE_STRAIN
+   use atrito_triangle_pieces, only: triangles_of_square
    implicit none (type, external)
    private
    public :: SHAPES, PLACES, node_places, distorted, linear_field, row_of_elements, dense_stiffness, grid_of_elements
 
-   integer(ip), parameter :: SHAPES(3) = [4_ip, 9_ip, 8_ip]
+   integer(ip), parameter :: SHAPES(5) = [4_ip, 9_ip, 8_ip, 3_ip, 6_ip]
    !> Places in the parent element where functions are tried.
    real(wp), parameter :: PLACES(2, 4) = reshape([0.0_wp, 0.0_wp, 0.3_wp, -0.7_wp, -1.0_wp, 0.45_wp, 0.9_wp, 1.0_wp], [2, 4])
-   !> Places of the nodes: corners, mid-sides, centre.
+   !> Places of the nodes: corners, mid-sides, centre; of triangles those of the table.
    real(wp), parameter :: GRID(2, 9_ip) = reshape([-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, &
                                                    0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, &
                                                    0.0_wp, 0.0_wp], [2, 9])
@@ -25,9 +27,10 @@ contains
       real(wp) :: xi(2, n_nodes)
 
       xi = GRID(:, :n_nodes)
+      if (CORNERS_OF(n_nodes) == 3) xi = TABLE(n_nodes)%place(:, :n_nodes)
    end function node_places
 
-   !> A quadrilateral of no symmetry, straight-sided, its corners far from the origin by `shift`; nodes between the corners are
+   !> A quadrilateral or triangle of no symmetry, straight-sided, its corners far from the origin by `shift`; nodes between the corners are
    !> where the bilinear map puts them.
    pure function distorted(n_nodes, shift) result(x)
       integer(ip), intent(in) :: n_nodes
@@ -36,6 +39,12 @@ contains
       real(wp), parameter :: CORNERS(2, 4) = reshape([0.0_wp, 0.0_wp, 2.0_wp, 0.3_wp, 2.5_wp, 1.9_wp, -0.2_wp, 1.4_wp], [2, 4])
       integer(ip) :: i, k
 
+      if (CORNERS_OF(n_nodes) == 3) then
+         do i = 1, n_nodes
+            x(:, i) = shift + matmul(CORNERS(:, 2:3), TABLE(n_nodes)%place(:, i))
+         end do
+         return
+      end if
       do i = 1, n_nodes
          x(:, i) = shift
          do k = 1, 4
@@ -78,17 +87,17 @@ contains
       call number_equations(fem%mesh, fem%bodies, 1_ip, held, [2*n + 1, 2*n + 2], .true.)
    end subroutine row_of_elements
 
-   !> nx x ny elements of one section on [0, nx] x [0, ny], nodes row by row; no bodies, no equations.
+   !> nx x ny elements, or as many pairs of triangles, of one section on [0, nx] x [0, ny], nodes row by row; no bodies, no equations.
    subroutine grid_of_elements(n_nodes, nx, ny, fem)
-      integer(ip), intent(in) :: n_nodes               !< 4_ip or 9_ip
+      integer(ip), intent(in) :: n_nodes               !< 3, 4, 6 or 9
       integer(ip), intent(in) :: nx, ny
       type(fem_t), intent(out) :: fem
       integer(ip), parameter :: SOME(3) = [1, 2, 3]
-      integer(ip) :: square(3, 3), p, i, j, k, row
+      integer(ip) :: square(3, 3), pair(n_nodes, 2), p, i, j, k, row
       logical :: known
 
       allocate (fem%mesh)
-      p = merge(1_ip, 2_ip, n_nodes == 4_ip)
+      p = DEGREE_OF(n_nodes)
       row = p*nx + 1
       do j = 0, p*ny
          do i = 0, p*nx
@@ -100,12 +109,19 @@ contains
             do k = 0, p
                square(:p + 1, k + 1) = row*(p*(j - 1) + k) + p*(i - 1) + SOME(:p + 1)
             end do
-            call add_element(fem%mesh, nx*(j - 1) + i, PLANE_STRAIN, nodes_of_square((p + 1)**2, square(:p + 1, :p + 1)), known)
+            if (CORNERS_OF(n_nodes) == 3) then
+               pair = triangles_of_square(square(:p + 1, :p + 1))
+               do k = 1, 2
+                  call add_element(fem%mesh, 2*(nx*(j - 1) + i) + k - 2, PLANE_STRAIN, pair(:, k), known)
+               end do
+            else
+               call add_element(fem%mesh, nx*(j - 1) + i, PLANE_STRAIN, nodes_of_square((p + 1)**2, square(:p + 1, :p + 1)), known)
+            end if
          end do
       end do
       call trim_mesh(fem%mesh)
       fem%sections = [elastic_t(200.0_wp, 0.3_wp, 0.5_wp, 0.0_wp), elastic_t(90.0_wp, 0.2_wp, 1.0_wp, 0.0_wp)]
-      allocate (fem%section_of(nx*ny), source=1_ip)
+      allocate (fem%section_of(fem%mesh%n_elements), source=1_ip)
    end subroutine grid_of_elements
 
    !> The full matrix of some element stiffnesses, in the order u1, u2 of node 1, of node 2, ...

@@ -4,15 +4,17 @@
 !> s22 - s11 + 2 i s12 = 2 conj(z) phi''. No body force.
 module exact_cases
    use atrito_body_cache, only: body_cache_t
+   use atrito_element_table, only: CORNERS_OF, DEGREE_OF, ERROR_POINTS_OF
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: add_element, add_node, element_coordinates, nodes_of_square, trim_mesh
    use atrito_model, only: model_t, FORMULATION_BBAR
    use atrito_plane_state, only: compliance_matrix, elastic_t, elasticity_matrix, PLANE_STRAIN
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t
-   use atrito_shape_functions, only: gauss_point, shape_gradients, shape_values
+   use atrito_shape_functions, only: gauss_point, rule_point, shape_gradients, shape_values
    use atrito_solve, only: solve_options_t, solve_static
    use atrito_status, only: status_t
+   use atrito_triangle_pieces, only: triangles_of_square
    implicit none (type, external)
    private
    public :: errors_t, solve_exact_case, make_exact_model, DOMAIN_SQUARE, DOMAIN_RING
@@ -67,12 +69,13 @@ contains
       end if
    end function place
 
-   !> Solves with n x n elements and measures. ok: the run went well.
-   subroutine solve_exact_case(domain, n_nodes, n, errors, ok, formulation)
+   !> Solves with n x n elements, or as many pairs of triangles, and measures. ok: the run went well.
+   subroutine solve_exact_case(domain, n_nodes, n, errors, ok, formulation, beside)
       integer(ip), intent(in) :: domain, n_nodes, n
       type(errors_t), intent(out) :: errors
       logical, intent(out) :: ok
       integer(ip), intent(in), optional :: formulation !< STANDARD when left out
+      integer(ip), intent(in), optional :: beside  !< nodes of every fifth square's elements, of the same degree; left out: n_nodes
       type(model_t) :: model
       type(results_t) :: results
       type(body_cache_t) :: store
@@ -81,21 +84,23 @@ contains
       type(solve_options_t) :: options
 
       reporter%quiet = .true.
-      call make_exact_model(domain, n_nodes, n, model)
+      call make_exact_model(domain, n_nodes, n, model, beside)
       if (present(formulation)) model%sections(1)%formulation = formulation
       call solve_static(model, options, reporter, results, status, store)
       ok = results%converged .and. results%law_holds
       if (ok) call measure(model, results, errors)
    end subroutine solve_exact_case
 
-   subroutine make_exact_model(domain, n_nodes, n, model)
+   subroutine make_exact_model(domain, n_nodes, n, model, beside)
       integer(ip), intent(in) :: domain, n_nodes, n
       type(model_t), intent(out) :: model
-      integer(ip) :: square(3, 3), p, i, j, k, l, m
+      integer(ip), intent(in), optional :: beside
+      integer(ip) :: square(3, 3), p, i, j, k, l, m, shape
       logical :: known
 
-      p = merge(1_ip, 2_ip, n_nodes == 4_ip)
+      p = DEGREE_OF(n_nodes)
       m = p*n + 1
+      shape = n_nodes
       do j = 0, m - 1
          do i = 0, m - 1
             call add_node(model%mesh, m*j + i + 1, place(domain, real([i, j], wp)/(m - 1)), known)
@@ -106,7 +111,8 @@ contains
             do k = 0, p
                square(:p + 1, k + 1) = [(m*(p*(j - 1) + k) + p*(i - 1) + 1 + l, l=0, p)]
             end do
-            call add_element(model%mesh, n*(j - 1) + i, PLANE_STRAIN, nodes_of_square((p + 1)**2, square(:p + 1, :p + 1)), known)
+            if (present(beside)) shape = merge(beside, n_nodes, mod(i + 2*j, 5_ip) == 0)
+            call add_square(shape, square(:p + 1, :p + 1), model)
          end do
       end do
       call trim_mesh(model%mesh)
@@ -115,9 +121,25 @@ contains
       model%materials(1)%poisson = POISSON
       model%sections(1)%elset = 'ALL'
       model%sections(1)%material = 1
-      allocate (model%section_of(n*n), source=1_ip)
+      allocate (model%section_of(model%mesh%n_elements), source=1_ip)
       call prescribe_outline(m, model)
    end subroutine make_exact_model
+
+   subroutine add_square(shape, square, model)
+      integer(ip), intent(in) :: shape, square(:, :)
+      type(model_t), intent(inout) :: model
+      integer(ip) :: nodes(shape, 2), k
+      logical :: known
+
+      if (CORNERS_OF(shape) == 3) then
+         nodes = triangles_of_square(square)
+      else
+         nodes(:, 1) = nodes_of_square(shape, square)
+      end if
+      do k = 1, 5 - CORNERS_OF(shape)
+         call add_element(model%mesh, model%mesh%n_elements + 1, PLANE_STRAIN, nodes(:, k), known)
+      end do
+   end subroutine add_square
 
    subroutine prescribe_outline(m, model)
       integer(ip), intent(in) :: m                  !< nodes along a side
@@ -156,8 +178,8 @@ contains
       do e = 1, model%mesh%n_elements
          n = model%mesh%shape(e)
          nodal = results%nodal_stress([1, 2, 4], model%mesh%nodes(:n, e))
-         do k = 1, n
-            call gauss_point(n, k, xi, weight)
+         do k = 1, ERROR_POINTS_OF(n)
+            call rule_point(n, ERROR_POINTS_OF(n), k, xi, weight)
             weight = weight*jacobian(element_coordinates(model%mesh, e), xi)
             x = matmul(element_coordinates(model%mesh, e), shape_values(n, xi))
             strain = strain_at(model, results%u, e, xi)

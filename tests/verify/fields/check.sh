@@ -87,8 +87,8 @@ done
 area() {
    { rows "$1" /mesh/coordinates | sed 's/^/x /'; rows "$1" "/mesh/$2/nodes" | sed 's/^/e /'; } | awk '
       $1 == "x" { x[n + 0] = $2; y[n + 0] = $3; n++ }
-      $1 == "e" { for (k = 0; k < 4; k++) { a = $(2 + k) + 0; b = $(2 + (k + 1)%4) + 0; area += (x[a]*y[b] - x[b]*y[a])/2
-                     if (NF > 5) { m = $(6 + k) + 0; off(x[m] - (x[a] + x[b])/2); off(y[m] - (y[a] + y[b])/2) } }
+      $1 == "e" { c = (NF == 4 || NF == 7) ? 3 : 4; for (k = 0; k < c; k++) { a = $(2 + k) + 0; b = $(2 + (k + 1)%c) + 0; area += (x[a]*y[b] - x[b]*y[a])/2
+                     if (NF > 5) { m = $(2 + c + k) + 0; off(x[m] - (x[a] + x[b])/2); off(y[m] - (y[a] + y[b])/2) } }
                   if (NF > 9) { a = $2 + 0; b = $4 + 0; m = $10 + 0; off(x[m] - (x[a] + x[b])/2); off(y[m] - (y[a] + y[b])/2) } }
       function off(d) { if (d < 0) d = -d; if (!(d <= 1e-13)) bad = 1 }
       END { if (bad) print "none"; else printf "%.17g", area }'
@@ -99,6 +99,12 @@ sed 's/CPE4/CPE8/' ex1.inp >eight.inp
 run 0 eight.inp eight --quiet
 near 'area of example 1 of eight nodes' "$(area eight S2)" 1.11 1e-13
 says 'XDMF of eight nodes' eight/eight.xdmf 'TopologyType="Quadrilateral_8"'
+for nodes in 3 6; do
+   sed "s/CPE4/CPE$nodes/" ex1.inp >triangles.inp
+   run 0 triangles.inp triangles --quiet
+   near "area of example 1 of $nodes nodes" "$(area triangles T$((nodes/3)))" 1.11 1e-13
+done
+says 'XDMF of six nodes' triangles/triangles.xdmf 'TopologyType="Triangle_6"'
 
 # equal runs, equal files
 run 0 ex1.inp again --quiet

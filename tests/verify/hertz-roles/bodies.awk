@@ -40,6 +40,19 @@ function make_body(name, r, sign, elements,    nx, ny, i, j, q, c, b, a, surface
       c = nodes + (j - 1)*nx + i                   # lower left
       b = sign > 0 ? c : c + q*nx                  # the side that comes first, counter-clockwise in the plane
       a = sign > 0 ? c + q*nx : c
+      if (triangles) {
+         # cut from b + q to a
+         printf "%d, %d, %d, %d", ++cells, b, b + q, a
+         if (middle) printf ", %d, %d, %d", b + 1, c + nx + 1, c + nx
+         if (j == 1 && sign > 0) surface = surface cells ", S1\n"
+         if (j + q == ny && sign < 0) far = far cells ", S1\n"
+         printf "\n%d, %d, %d, %d", ++cells, b + q, a + q, a
+         if (middle) printf ", %d, %d, %d", c + nx + 2, a + 1, c + nx + 1
+         if (j == 1 && sign < 0) surface = surface cells ", S2\n"
+         if (j + q == ny && sign > 0) far = far cells ", S2\n"
+         printf "\n"
+         continue
+      }
       printf "%d, %d, %d, %d, %d", ++cells, b, b + q, a + q, a
       if (middle) printf ", %d, %d, %d, %d", b + 1, c + nx + 2, a + 1, c + nx
       if (middle && !hollow) printf ", %d", c + nx + 1
@@ -55,8 +68,9 @@ function make_body(name, r, sign, elements,    nx, ny, i, j, q, c, b, a, surface
    nodes += nx*ny
 }
 BEGIN {
-   middle = type ~ /[89]/
+   middle = type ~ /[689]/
    hollow = type ~ /8/
+   triangles = type ~ /[36]/
    print "*HEADING\ntwo bodies that touch in a point"
    if (rigid != "A") make_body("A", 10, 1, n)
    if (rigid != "B") make_body("B", radius, -1, m)

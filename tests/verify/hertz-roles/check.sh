@@ -18,8 +18,10 @@ pair() {
 # 0.1 % of the closed form; 0.02 % between the roles, where the meshes are the same
 pair flat4 1e-3 2e-4 0.1 CPE4 32 32 0 3.9
 pair flat9 1e-3 2e-4 0.1 CPE9 32 32 0 3.9
+pair flat6 1e-3 2e-4 0.1 CPE6 64 64 0 3.9
 # R = 6: sides that do not match, so MORTAR; the discretisations of the roles differ
 pair mortar9 1e-3 5e-4 0.16666666666666667 CPE9 40 31 15 6
+pair mortar6 1e-3 5e-4 0.16666666666666667 CPE6 80 62 15 6
 # a cylinder in a bore of radius 11: the half plane is good to (a/R)^2, 0.0025
 pair bore9 2.5e-3 2e-4 0.0090909090909090912 CPE9 40 40 -11 1
 

@@ -54,7 +54,8 @@ joints() {
 
 # 1. Patch tests
 two='CPE4:3_CPE4:2 CPE9:7_CPE9:5 CPE9:1_CPE4:10 CPE4:10_CPE9:1 CPE4:20:1_CPE4:23:2'
-three='CPE4:2_CPE9:3_CPE4:5 CPE9:7:3_CPE4:5:11_CPE9:9:4'
+two="$two CPE3:3_CPE3:2 CPE6:3_CPE6:2 CPE3:1_CPE3:10 CPE6:10_CPE6:1 CPE6:20:1_CPE3:23:2"
+three='CPE4:2_CPE9:3_CPE4:5 CPE9:7:3_CPE4:5:11_CPE9:9:4 CPE9:7:3_CPE6:5:11_CPE3:9:4'
 for layers in $two $three; do
    for roles in 0 1; do
       for law in HARD PENALTY LINEAR; do
@@ -74,7 +75,7 @@ awk -v w="$(worst_stress nodal 30 0)" 'BEGIN { exit !(w > 1) }' </dev/null || co
 balanced nodal 30
 
 # 2. Friction: a uniform shear stress, stuck, or sliding with all the friction there is
-for layers in CPE4:3_CPE4:2 CPE9:1_CPE4:10 CPE9:7:3_CPE4:5:11_CPE9:9:4; do
+for layers in CPE4:3_CPE4:2 CPE9:1_CPE4:10 CPE9:7:3_CPE4:5:11_CPE9:9:4 CPE6:3_CPE3:2; do
    for roles in 0 1; do
       for rho in 0 0.5; do
          for form in dense sparse; do
@@ -120,7 +121,7 @@ noise() {
 wave="load=wave len=4"
 stack fine auto $wave layers='CPE9:160 CPE9:160' rows=20
 stack coarse4 auto $wave layers='CPE4:16 CPE4:16' rows=20 quadrature=NODAL
-for order in 4 9; do
+for order in 4 9 6; do
    for roles in 0 1; do
       stack "low-$order-$roles" auto $wave layers="CPE$order:16 CPE$order:160" rows=20 roles=$roles
       stack "up-$order-$roles" auto $wave layers="CPE$order:160 CPE$order:16" rows=20 roles=$roles
@@ -128,6 +129,7 @@ for order in 4 9; do
    noise "CPE$order, the finer side is the slave and above" low-$order-0 fine 0.02
    noise "CPE$order, the finer side is the slave and below" up-$order-1 fine 0.02
 done
+noise 'CPE6, the coarser side is the slave and below' low-6-1 fine 0.02
 noise 'CPE9, the coarser side is the slave and below' low-9-1 fine 0.02
 noise 'CPE9, the coarser side is the slave and above' up-9-0 fine 0.02
 # 16 elements with four nodes are off by 2 % at their ends also where they match

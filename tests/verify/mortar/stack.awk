@@ -1,7 +1,7 @@
 # Writes a deck: layers of height 1 and length `len` one on the other, turned by `angle` degrees, meshed each in its own way.
 #    awk -v layers="CPE4:3 CPE9:2:7" -v angle=30 [-v roles=0 -v law=HARD -v nu=0 -v rho=0 -v len=2 -v rows=2 -v load=uniform
 #        -v p=10 -v shear=0 -v sides=0 -v slide=0 -v mu=0 -v quadrature=MORTAR] -f stack.awk
-# layers: TYPE:N, or TYPE:N:SEED for N elements whose ends lie at random, 0.4 to 1.6 of a mean element apart; the lowest first
+# layers (triangles: two to a square): TYPE:N, or TYPE:N:SEED for N elements whose ends lie at random, 0.4 to 1.6 of a mean element apart; the lowest first
 # roles: 0: the upper side of each joint is the slave, 1: the lower one
 # law: HARD, PENALTY or LINEAR with a compliance of 1e-5
 # load: uniform  the pressure p on the upper side of the stack
@@ -26,14 +26,22 @@ function write_layer(k,   i, j, a, c) {
    print "*ELEMENT, TYPE=" type ", ELSET=L" k
    for (j = 0; j < rows; j++) for (i = 0; i < n; i++) {
       a = order*i; c = order*j
+      if (triangles) {
+         printf "%d, %d, %d, %d", k*1000000 + 2*(j*n + i) + 1, node(k, a, c), node(k, a + order, c), node(k, a + order, c + order)
+         if (order == 2) printf ", %d, %d, %d", node(k, a + 1, c), node(k, a + 2, c + 1), node(k, a + 1, c + 1)
+         printf "\n%d, %d, %d, %d", k*1000000 + 2*(j*n + i) + 2, node(k, a, c), node(k, a + order, c + order), node(k, a, c + order)
+         if (order == 2) printf ", %d, %d, %d", node(k, a + 1, c + 1), node(k, a + 1, c + 2), node(k, a, c + 1)
+         print ""
+         continue
+      }
       printf "%d, %d, %d, %d, %d", k*1000000 + j*n + i + 1, node(k, a, c), node(k, a + order, c), node(k, a + order, c + order), \
          node(k, a, c + order)
       if (order == 2) printf ", %d, %d, %d, %d, %d", node(k, a + 1, c), node(k, a + 2, c + 1), node(k, a + 1, c + 2), \
          node(k, a, c + 1), node(k, a + 1, c + 1)
       print ""
    }
-   print "*SURFACE, NAME=B" k; for (i = 1; i <= n; i++) print k*1000000 + i ", S1"
-   print "*SURFACE, NAME=T" k; for (i = 1; i <= n; i++) print k*1000000 + (rows - 1)*n + i ", S3"
+   print "*SURFACE, NAME=B" k; for (i = 1; i <= n; i++) print k*1000000 + per*(i - 1) + 1 ", S1"
+   print "*SURFACE, NAME=T" k; for (i = 1; i <= n; i++) print k*1000000 + per*((rows - 1)*n + i) ", S" (4 - per)
    print "*NSET, NSET=T" k; for (i = 0; i <= order*n; i++) print node(k, i, order*rows)
    if (k == 1) { print "*NSET, NSET=BASE"; for (i = 0; i <= order*n; i++) print node(k, i, 0) }
    print "*SOLID SECTION, ELSET=L" k ", MATERIAL=M"
@@ -77,7 +85,7 @@ BEGIN {
    n_layers = split(layers, list, " ")
    for (k = 1; k <= n_layers; k++) {
       seeded = (split(list[k], what, ":") == 3); type = what[1]; n = what[2]; seed = what[3]
-      order = (type ~ /9/) ? 2 : 1
+      order = (type ~ /[69]/) ? 2 : 1; triangles = (type ~ /[36]/); per = 1 + triangles
       cut_layer(); write_layer(k)
    }
    k = n_layers

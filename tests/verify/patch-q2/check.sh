@@ -6,7 +6,18 @@ material() {
    printf '*MATERIAL, NAME=%s\n*ELASTIC\n%s, %s\n*DENSITY\n2.\n*SOLID SECTION, ELSET=%s, MATERIAL=%s\n%s\n' "$1" "$2" "$3" "$4" "$1" "${5:-1}"
 }
 
-for type in CPE9 CPS9 CPE8 CPS8; do
+for type in CPE9 CPS9 CPE8 CPS8 CPE6 CPS6; do
+   press='*DLOAD
+ALL, P1, 3
+ALL, P2, 3
+ALL, P3, 3
+ALL, P4, 3'
+   # two triangles; the square's side 3 is face 2 of the upper one
+   case $type in *6) press='*DLOAD
+1, P1, 3
+1, P2, 3
+2, P2, 3
+2, P3, 3' ;; esac
    { echo "*HEADING
 One curved element under pressure from all sides"
    awk -v type=$type -v n=1 -v m=1 -v map=arched -f "$mesh"
@@ -16,11 +27,7 @@ One curved element under pressure from all sides"
 3, 2
 *STEP
 *STATIC
-*DLOAD
-ALL, P1, 3
-ALL, P2, 3
-ALL, P3, 3
-ALL, P4, 3
+$press
 *NODE PRINT
 RF
 *EL PRINT
@@ -123,7 +130,7 @@ exact() {
 }
 for delta in 0 1e-8; do
    for slave in up low; do
-      for type in CPE4 CPE9 CPS9 CPE8 CPS8; do
+      for type in CPE4 CPE9 CPS9 CPE8 CPS8 CPE3 CPS3 CPE6 CPS6; do
          blocks $type-$slave-$delta $type 4 $type 4 $slave $delta ""
          exact $type-$slave-$delta $delta
       done
@@ -139,6 +146,13 @@ blocks eight-on-nine CPE9 4 CPE8 4 up 0 ""
 exact eight-on-nine 0
 blocks eight-under-nine CPE8 4 CPE9 4 low 0 ", QUADRATURE=NODAL"
 exact eight-under-nine 0
+# So are those of triangles.
+for slave in up low; do
+   blocks six-on-nine-$slave CPE9 4 CPE6 4 $slave 0 ""
+   exact six-on-nine-$slave 0
+   blocks three-under-four-$slave CPE3 4 CPE4 4 $slave 0 ""
+   exact three-under-four-$slave 0
+done
 # Sides that do not match, segment by segment.
 for slave in up low; do
    blocks eight-mortar-$slave CPE8 4 CPE8 6 $slave 0 ", QUADRATURE=MORTAR"
@@ -160,7 +174,7 @@ measure nine-slave-on-four-node-by-node CPE9 2 CPE4 4 low
 measure four-slave-on-nine-equal-elements CPE9 2 CPE4 2 up
 
 # hill TYPE N SLAVE
-for type in CPE9 CPS9 CPE8 CPS8; do
+for type in CPE9 CPS9 CPE8 CPS8 CPE6 CPS6; do
    for n in 1 2 5; do
       for slave in up low; do
          name=hill-$type-$n-$slave

@@ -89,7 +89,7 @@ for type in CPS4 CPE9 CPE8; do
    done
 done
 # example 2: finer by --refine and by NX, NY
-for type in CPS4 CPS9 CPS8; do
+for type in CPS4 CPS9 CPS8 CPS3 CPS6; do
    sed "s/CPS4/$type/" "$input/ex2-two-plates.inp" >"beams-$type.inp"
    sed "s/CPS4/$type/; s/NX=20, NY=4/NX=40, NY=8/" "$input/ex2-two-plates.inp" >"finer-$type.inp"
    run 0 "beams-$type.inp" "refined-$type" --refine 1 --digits 17 --quiet

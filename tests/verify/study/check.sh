@@ -123,6 +123,12 @@ near 'smooth field, cpe4: order' "$(value_of 4 cpe4 strain_energy_order)" 2 0.1
 near 'smooth field, cpe8: order' "$(value_of 4 cpe8 strain_energy_order)" 4 0.1
 near 'smooth field, cpe9: order' "$(value_of 4 cpe9 strain_energy_order)" 4 0.1
 says 'smooth field' out/study.tab '2 (cpe9) at the last level, as for a smooth solution'
+sed 's/TYPE=CP\(.\)[0-9]/TYPE=CP\16/' "$input/studies/smooth-field.inp" >triangles.inp
+"$atrito" study triangles.inp --levels 5 --elements cpe3,cpe6 --reference strain_energy=0.439428879465916 \
+   -o out --digits 17 --quiet || complain 'smooth field of triangles'
+near 'smooth field, cpe3: order' "$(value_of 4 cpe3 strain_energy_order)" 2 0.1
+near 'smooth field, cpe6: order' "$(value_of 4 cpe6 strain_energy_order)" 4 0.1
+says 'smooth field of triangles' out/study.tab '2 (cpe6) at the last level, as for a smooth solution'
 
 # A quantity that the load prescribes tells nothing, and has no panel.
 "$atrito" study "$input/ex1-plate-on-support.inp" --levels 3 -o out --quiet --plot || complain 'held'
