@@ -82,7 +82,7 @@ contains
       logical, intent(out) :: ok
       character(len=:), allocatable :: other
       integer(ip), allocatable :: outline(:), match(:), shared(:, :)
-      integer(ip) :: i_set, k, b, width
+      integer(ip) :: i_set, k, b, n, width
 
       other = token_text(context%deck, place)
       i_set = find_set(context%model%node_sets, other)
@@ -100,7 +100,11 @@ contains
             if (match(k) > 0) shared(1 + modulo(outline(k) - 1, width), 1 + (outline(k) - 1)/width) = members(match(k))
          end do
       end associate
-      block%nodes = merge(shared, block%nodes, shared > 0)
+      n = count(shared > 0 .and. block%nodes > 0 .and. block%nodes /= shared, kind=ip)
+      if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '//other// &
+                                     ' and of an earlier name that are not shared by these', &
+                                     expected='blocks that are merged with each other', keyword='BLOCK')
+      block%nodes = merge(shared, block%nodes, shared > 0 .and. block%nodes == 0)
       ok = any(match > 0)
       if (.not. ok) then
          call report_error(context%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
