@@ -1,6 +1,6 @@
 !> *CLEARANCE: initial gaps that are given, whatever the coordinates say; negative ones are a press fit.
 module atrito_clearance
-   use atrito_build_context, only: build_context_t, has_errors, place_text
+   use atrito_build_context, only: build_context_t, place_text
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_faces, only: face_list_t
@@ -106,7 +106,7 @@ contains
          do i = 1, size(pairs, kind=ip)
             if (pairs(i)%slave == surface(1) .and. pairs(i)%master == surface(2)) one%pair = i
          end do
-         if (one%pair > 0 .or. has_errors()) return
+         if (one%pair > 0 .or. .not. has_all_pairs(context)) return
          if (any(pairs%slave == surface(2) .and. pairs%master == surface(1))) then
             call report_error(context%deck, places(1), 'E-PAIR', slave//' is the master of this pair, '//master//' the slave', &
                               expected='SLAVE='//master//', MASTER='//slave, keyword='CLEARANCE')
@@ -116,6 +116,18 @@ contains
          end if
       end associate
    end subroutine find_pair
+
+   !> Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
+   pure logical function has_all_pairs(context)
+      type(build_context_t), intent(in) :: context
+      integer(ip) :: i, n
+
+      n = 0
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') n = n + context%deck%cards(i)%n_lines
+      end do
+      has_all_pairs = size(context%model%pairs) == n
+   end function has_all_pairs
 
    !> node or set, gap.
    subroutine read_line(line, context, one, ok)
