@@ -49,7 +49,7 @@ contains
       if (scan(text(1:1), '0123456789+-.<') > 0) then
          call get_real(context%deck, option%value, WHAT, pair%adjust, ok, keyword='CONTACT PAIR')
          if (ok .and. pair%adjust < 0.0_wp) call report_error(context%deck, option%value, 'E-VALUE', 'ADJUST = '// &
-                                                             to_text(pair%adjust), expected=WHAT, keyword='CONTACT PAIR')
+                                                              to_text(pair%adjust), expected=WHAT, keyword='CONTACT PAIR')
       else
          pair%adjust_set = find_set(context%model%node_sets, text)
          if (pair%adjust_set == 0) call report_unknown(context, option%value, 'node set', 'E-SET', &

@@ -69,7 +69,7 @@ contains
       if (ok .and. (has_table .eqv. one%is_uniform)) then
          ok = .false.
          call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE with '//trim(merge('both VALUE and TABULAR      ', &
-                           'neither VALUE nor TABULAR   ', has_table)), &
+                                                                                      'neither VALUE nor TABULAR   ', has_table)), &
                            expected='VALUE=, or TABULAR and data lines node, gap', keyword='CLEARANCE')
       end if
       if (.not. ok .or. one%pair == 0) then
