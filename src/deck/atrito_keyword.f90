@@ -12,7 +12,7 @@ module atrito_keyword
    public :: define_keyword, finish_keyword, add_option, add_form, add_item, add_word_item, add_example
    public :: LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER
    public :: KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, &
-             KIND_TEXT
+             KIND_TEXT, KIND_REAL_OR_NAME
 
    !> Where a keyword may stand.
    integer, parameter :: LEVEL_MODEL = 1     !< before *STEP
@@ -30,6 +30,7 @@ module atrito_keyword
    integer, parameter :: KIND_ID = 8             !< number of a node or element
    integer, parameter :: KIND_ID_OR_NAME = 9     !< such a number, or a set
    integer, parameter :: KIND_TEXT = 10          !< the whole line
+   integer, parameter :: KIND_REAL_OR_NAME = 11  !< a number, or a set
 
    integer, parameter :: MOST_KEYWORDS = 80, MOST_PARTS = 50
    integer, parameter :: ANY_NUMBER = huge(1)    !< no upper limit of lines or items

@@ -2,6 +2,7 @@
 module atrito_keyword_text
    use atrito_keyword, only: option_spec_t, choice_t, form_t, item_t, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, &
                              KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT, &
+                             KIND_REAL_OR_NAME, &
                              LEVEL_MODEL, LEVEL_STEP
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -72,6 +73,8 @@ contains
          text = text//'=integer'
       case (KIND_FILE)
          text = text//'=file'
+      case (KIND_REAL_OR_NAME)
+         text = text//'=real or name'
       end select
       if (option%own) text = text//' +'
    end function option_text_of
@@ -166,6 +169,8 @@ contains
          text = 'an integer or a name'
       case (KIND_TEXT)
          text = 'text'
+      case (KIND_REAL_OR_NAME)
+         text = 'a real or a name'
       end select
    end function kind_words
 

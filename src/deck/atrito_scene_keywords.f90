@@ -1,7 +1,8 @@
 !> Definitions of the keywords of materials, sections, contact and supports.
 module atrito_scene_keywords
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_example, LEVEL_MODEL, LEVEL_BOTH, &
-                             ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
+                             ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT, &
+                             KIND_REAL_OR_NAME
    implicit none (type, external)
    private
    public :: define_scene_keywords
@@ -100,11 +101,28 @@ contains
                       'master is rigid, else MORTAR', choices='NODAL MORTAR')
       call add_option(k, 'TYPE', KIND_WORD, 'the same in the words of other programs: NODAL or MORTAR', &
                       choices='NODE_TO_SURFACE SURFACE_TO_SURFACE')
+      call add_option(k, 'ADJUST', KIND_REAL_OR_NAME, 'slave nodes that overlap the master, or are not farther from it than '// &
+                      'this value, or all of a node set, are moved onto it before anything is computed, without strain', &
+                      dimension='L')
       call add_option(k, '(SMALL SLIDING)', KIND_FLAG, 'sliding is always small')
       call add_form(k, 'one pair a line', 1, ANY_NUMBER)
       call add_item(k, 'slave', KIND_NAME, 'surface of elements, one connected chain')
       call add_item(k, 'master', KIND_NAME, 'surface of elements, or of a rigid body')
       call add_example(k, '*CONTACT PAIR, INTERACTION=rough|plate-BOTTOM, support-TOP')
+
+      call define_keyword(k, 'CLEARANCE', LEVEL_MODEL, 'gives the initial gaps of a contact pair', &
+                          doc='Whatever the coordinates say; a negative gap is an overlap that contact pushes apart, as of a '// &
+                          'press fit. Points that no line names keep the gap of their coordinates.')
+      call add_option(k, 'SLAVE!', KIND_NAME, 'the slave of a *CONTACT PAIR')
+      call add_option(k, 'MASTER!', KIND_NAME, 'its master')
+      call add_option(k, 'VALUE', KIND_REAL, 'gap of all points', dimension='L')
+      call add_option(k, 'TABULAR', KIND_FLAG, 'the data lines have the gaps')
+      call add_form(k, 'gaps by nodes of the slave', 1, ANY_NUMBER, when='TABULAR')
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
+      call add_item(k, 'gap', KIND_REAL, 'initial gap', dimension='L')
+      call add_item(k, '(normal)...', KIND_REAL, 'the normal is that of the surfaces')
+      call add_example(k, '*CONTACT PAIR, INTERACTION=fit|hub-INSIDE, shaft-OUTSIDE|'// &
+                       '*CLEARANCE, SLAVE=hub-INSIDE, MASTER=shaft-OUTSIDE, VALUE=-2e-5')
 
       call define_keyword(k, 'CONTACT', LEVEL_MODEL, 'begins contact that is found by itself', &
                           doc='*CONTACT INCLUSIONS, *CONTACT EXCLUSIONS and *CONTACT PROPERTY ASSIGNMENT follow. Faces of '// &

@@ -1,10 +1,11 @@
-!> A four-sided block of elements, mapped bilinearly from the unit square.
+!> A four-sided block of elements: lines of nodes in the unit square, and where they lie.
 module atrito_block
+   use atrito_block_map, only: block_map_t, map_point
    use atrito_kinds, only: ip, wp
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
-   public :: graded_lines, block_nodes
+   public :: graded_lines, block_nodes, curved_nodes
 
 contains
 
@@ -50,6 +51,23 @@ contains
       end do
       !$omp end parallel do
    end subroutine block_nodes
+
+   !> The same for a block whose sides are arcs.
+   subroutine curved_nodes(map, tx, ty, x)
+      type(block_map_t), intent(in) :: map
+      real(wp), intent(in) :: tx(0:), ty(0:)         !< lines 0..1 along and across
+      real(wp), intent(out) :: x(:, :)               !< (2, size(tx)*size(ty)) [L]
+      integer(ip) :: i, j, n
+
+      n = size(tx, kind=ip)
+      !$omp parallel do default(none) shared(n, map, tx, ty, x) if(is_shared(n*size(ty, kind=ip)))
+      do j = 0, size(ty, kind=ip) - 1
+         do i = 0, n - 1
+            x(:, j*n + i + 1) = map_point(map, tx(i), ty(j))
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine curved_nodes
 
    !> a at t = 0, b at t = 1, and a all the way where a = b: sides that lie on each other must not be apart by round-off, which is
    !> no less a gap than any other.

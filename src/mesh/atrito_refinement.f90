@@ -11,6 +11,7 @@ module atrito_refinement
    implicit none (type, external)
    private
    public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, is_refined, edge_place
+   public :: map_element
 
    !> How a fine mesh came from a coarse one.
    type :: refinement_t

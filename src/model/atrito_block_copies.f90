@@ -92,7 +92,12 @@ contains
       type(card_t), intent(in) :: card
       type(data_line_t), intent(in) :: line
 
+      integer(ip) :: i
+
       may_copy = .not. has_option(deck, card, 'MERGE')
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         if (same_name(token_text(deck, line_item(deck, deck%lines(i), 1_ip)), 'MERGE')) may_copy = .false.
+      end do
       if (.not. may_copy) call report_error(deck, line_item(deck, line, 1_ip), 'E-CONFLICT', 'COPY and MERGE= in one *BLOCK', &
                                             expected='one of them: each copy is a body of its own', keyword='BLOCK')
    end function may_copy

@@ -1,6 +1,8 @@
 !> What a *BLOCK says: its corners, how it is divided, and its copies.
 module atrito_block_spec
+   use atrito_block_arcs, only: read_arcs, is_unfolded
    use atrito_block_copies, only: copies_t, read_copies
+   use atrito_block_map, only: block_map_t, has_arcs
    use atrito_build_elements, only: read_element_type
    use atrito_build_nodes, only: MOST_NODES
    use atrito_coordinates, only: get_coordinate
@@ -22,6 +24,8 @@ module atrito_block_spec
 
    !> Words of the lines that divide a direction.
    character(len=5), parameter :: DIVISIONS(3) = ['GRADE', 'X    ', 'Y    ']
+   !> Of the other lines that are no corners.
+   character(len=5), parameter :: OTHERS(3) = ['COPY ', 'ARC  ', 'MERGE']
 
    !> What a *BLOCK says.
    type :: block_spec_t
@@ -29,7 +33,7 @@ module atrito_block_spec
       integer(ip) :: state = 0
       integer(ip) :: order = 1                         !< 1 for Q1, 2 for Q2: node intervals of an element along each direction
       integer(ip) :: n(2) = 0                          !< elements along and across
-      real(wp) :: corners(2, CORNERS) = 0.0_wp         !< [L]
+      type(block_map_t) :: map                         !< its corners and sides
       real(wp) :: grade(2) = 1.0_wp
       real(wp), allocatable :: along(:), across(:)     !< inner break points, 0..1; not allocated: graded
       type(copies_t) :: copies
@@ -108,19 +112,25 @@ contains
       ok = .true.
       n = 0
       do i = card%first_line, card%first_line + card%n_lines - 1
-         if (has_word(deck, deck%lines(i), [DIVISIONS, 'COPY ']) .or. n == CORNERS) cycle
+         if (has_word(deck, deck%lines(i), [DIVISIONS, OTHERS]) .or. n == CORNERS) cycle
          n = n + 1
          lines(n) = i
          ok = ok .and. deck%lines(i)%ok
          if (.not. deck%lines(i)%ok) cycle
          do k = 1, 2
             call get_coordinate(deck, line_item(deck, deck%lines(i), k), 'coordinate of a corner, a real [L]', &
-                                spec%corners(k, n), good, 'BLOCK')
+                                spec%map%corners(k, n), good, 'BLOCK')
             ok = ok .and. good
          end do
       end do
       ok = ok .and. n == CORNERS
-      if (ok) ok = is_convex(deck, lines, spec%corners)
+      if (ok) call read_arcs(deck, card, spec%map, ok)
+      if (.not. ok) return
+      if (has_arcs(spec%map)) then
+         ok = is_unfolded(deck, card, spec%map)
+      else
+         ok = is_convex(deck, lines, spec%map%corners)
+      end if
    end subroutine read_corners
 
    subroutine read_divisions(deck, card, counted, spec, ok)

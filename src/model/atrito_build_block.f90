@@ -3,28 +3,23 @@
 !> Its nodes are made with those of *NODE, in the order of the deck, its elements with those of *ELEMENT, its surfaces with
 !> those of *SURFACE; a context keeps the block in between.
 module atrito_build_block
-   use atrito_block, only: graded_lines, block_nodes
+   use atrito_block, only: graded_lines, block_nodes, curved_nodes
    use atrito_block_copies, only: copy_offset, name_copy
+   use atrito_block_joints, only: share_nodes, side_nodes
+   use atrito_block_map, only: has_arcs
    use atrito_block_spec, only: block_spec_t, read_block_spec, count_nodes, CORNERS
    use atrito_build_nodes, only: put_node_set
-   use atrito_coincidence, only: match_points
-   use atrito_deck, only: deck_t, token_t
-   use atrito_diagnostics, only: report_error, report_warning
+   use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, add_context_block, note_places, invalidate_block
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_nodes, add_block, reserve_mesh, is_hollow, elements_of_square
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_numbers, numbers_of
-   use atrito_references, only: report_unknown
-   use atrito_sets, only: find_set, grow_set
-   use atrito_strings, only: to_text
+   use atrito_sets, only: grow_set
    implicit none (type, external)
    private
    public :: read_block_card, place_block_elements
-
-   !> Nodes nearer than this part of the shortest element edge coincide.
-   real(wp), parameter :: MERGE_TOLERANCE = 1.0e-6_wp
 
 contains
 
@@ -74,7 +69,8 @@ contains
 
       shifted = spec
       do k = 1, CORNERS
-         shifted%corners(:, k) = spec%corners(:, k) + copy_offset(spec%copies, i, j)
+         shifted%map%corners(:, k) = spec%map%corners(:, k) + copy_offset(spec%copies, i, j)
+         shifted%map%centre(:, k) = spec%map%centre(:, k) + copy_offset(spec%copies, i, j)
       end do
       call name_copy(spec%copies, name, i, j, block)
       block%card = i_card
@@ -99,11 +95,18 @@ contains
 
       n = spec%order*spec%n
       allocate (x(2, (n(1) + 1)*(n(2) + 1)))
-      call block_nodes(spec%corners, node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order), &
-                       node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order), x)
-      if (block%order == 2 .and. elements_of_square(block%shape) == 2) call straighten_diagonals(n(1) + 1, x)
+      block%map = spec%map
+      allocate (block%along(0:n(1)), block%across(0:n(2)))
+      block%along(:) = node_lines(lines_of(spec%n(1), spec%grade(1), spec%along), spec%order)
+      block%across(:) = node_lines(lines_of(spec%n(2), spec%grade(2), spec%across), spec%order)
+      if (has_arcs(spec%map)) then
+         call curved_nodes(block%map, block%along, block%across, x)
+      else
+         call block_nodes(spec%map%corners, block%along, block%across, x)
+         if (block%order == 2 .and. elements_of_square(block%shape) == 2) call straighten_diagonals(n(1) + 1, x)
+      end if
       allocate (block%nodes(0:n(1), 0:n(2)), source=0_ip)
-      call share_nodes(i_card, x, context, block%nodes, ok)
+      call share_nodes(i_card, x, context, block, ok)
       if (.not. ok) return
       k = 0
       n_new = 0
@@ -167,87 +170,6 @@ contains
       end if
    end function lines_of
 
-   subroutine share_nodes(i_card, x, context, nodes, ok)
-      integer(ip), intent(in) :: i_card
-      real(wp), intent(in) :: x(:, :)                  !< of the block, row by row [L]
-      type(build_context_t), intent(in) :: context
-      integer(ip), intent(inout) :: nodes(0:, 0:)      !< 0 so far
-      logical, intent(out) :: ok
-      type(token_t) :: place
-      character(len=:), allocatable :: other
-      integer(ip), allocatable :: outline(:), match(:)
-      integer(ip) :: i_set, k, width
-      logical :: found
-
-      ok = .true.
-      call option_text(context%deck, context%deck%cards(i_card), 'MERGE', other, found, place)
-      if (.not. found) return
-      i_set = find_set(context%model%node_sets, other)
-      ok = i_set > 0
-      if (.not. ok) then
-         call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names, 'BLOCK')
-         return
-      end if
-      width = size(nodes, 1, kind=ip)
-      outline = outline_of(width, size(nodes, 2, kind=ip))
-      associate (members => context%model%node_sets%sets(i_set)%members)
-         match = match_points(x(:, outline), context%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
-         do k = 1, size(outline, kind=ip)
-            if (match(k) > 0) nodes(modulo(outline(k) - 1, width), (outline(k) - 1)/width) = members(match(k))
-         end do
-      end associate
-      ok = any(match > 0)
-      if (.not. ok) call report_error(context%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
-                               expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
-      if (ok) call warn_of_hanging_nodes(context%deck, place, nodes)
-   end subroutine share_nodes
-
-   pure function outline_of(width, height) result(outline)
-      integer(ip), intent(in) :: width, height         !< nodes
-      integer(ip) :: outline(2*(width + height) - 4)
-      integer(ip) :: i, n
-
-      n = width*height
-      outline = [(i, i=1, width), (i, i=n - width + 1, n), &
-                 (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
-   end function outline_of
-
-   pure real(wp) function shortest_edge(x, width) result(shortest)
-      real(wp), intent(in) :: x(:, :)
-      integer(ip), intent(in) :: width                 !< nodes in a row
-      integer(ip) :: k
-
-      shortest = huge(shortest)
-      do k = 1, size(x, 2, kind=ip)
-         if (modulo(k, width) /= 0) shortest = min(shortest, norm2(x(:, k + 1) - x(:, k)))
-         if (k + width <= size(x, 2)) shortest = min(shortest, norm2(x(:, k + width) - x(:, k)))
-      end do
-   end function shortest_edge
-
-   subroutine warn_of_hanging_nodes(deck, place, nodes)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: nodes(0:, 0:)
-      integer(ip) :: nx, ny, n
-
-      nx = ubound(nodes, 1, kind=ip)
-      ny = ubound(nodes, 2, kind=ip)
-      n = between(nodes(:, 0)) + between(nodes(:, ny)) + between(nodes(0, :)) + between(nodes(nx, :))
-      if (n > 0) call report_warning(deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie between shared nodes but '// &
-                                     'on none of the other block: they leave a crack', &
-                                     expected='as many elements on both sides, with the same grading', keyword='BLOCK')
-   end subroutine warn_of_hanging_nodes
-
-   pure integer(ip) function between(side) result(n)
-      integer(ip), intent(in) :: side(:)               !< 0: not shared
-      integer(ip) :: first, last
-
-      first = findloc(side > 0, .true., dim=1, kind=ip)
-      last = findloc(side > 0, .true., dim=1, kind=ip, back=.true.)
-      n = 0
-      if (first > 0) n = count(side(first:last) == 0, kind=ip)
-   end function between
-
    subroutine put_block_sets(context, block)
       type(build_context_t), intent(inout) :: context
       type(block_t), intent(in) :: block
@@ -258,23 +180,6 @@ contains
          call put_node_set(context, block%card, block%name//trim(BLOCK_SIDES(k)), side_nodes(block, k))
       end do
    end subroutine put_block_sets
-
-   pure function side_nodes(block, side) result(nodes)
-      type(block_t), intent(in) :: block
-      integer(ip), intent(in) :: side                  !< 1..4, as in BLOCK_SIDES
-      integer(ip), allocatable :: nodes(:)
-
-      select case (side)
-      case (1)
-         nodes = block%nodes(:, 0)
-      case (2)
-         nodes = block%nodes(ubound(block%nodes, 1), :)
-      case (3)
-         nodes = block%nodes(:, ubound(block%nodes, 2))
-      case default
-         nodes = block%nodes(0, :)
-      end select
-   end function side_nodes
 
    subroutine put_array_sets(i_card, name, context)
       integer(ip), intent(in) :: i_card
@@ -322,6 +227,7 @@ contains
       associate (block => context%blocks(b), i_card => context%blocks(b)%card)
          n = count_elements(block)
          block%first_element = context%model%mesh%n_elements + 1
+         block%n_elements = n
          ok = context%elements%greatest <= huge(1_ip) - n
          if (ok) then
             call reserve_mesh(context%model%mesh, 0_ip, context%elements_to_come)   ! with those of the blocks that follow

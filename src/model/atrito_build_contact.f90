@@ -1,6 +1,7 @@
 !> *SURFACE INTERACTION with *SURFACE BEHAVIOR and *FRICTION, and *CONTACT PAIR.
 module atrito_build_contact
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, token_text, line_item, is_empty_token, keyword_name
+   use atrito_adjustment, only: read_adjustment
    use atrito_contact_rules, only: quadrature_of
    use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, keep_token, define_name, count_cards
@@ -173,6 +174,7 @@ contains
       if (found .and. pair%interaction == 0) call report_unknown(context, place, 'surface interaction', 'E-INTERACTION', &
                                                                  context%interaction_names, 'CONTACT PAIR')
       call read_quadrature(context%deck, card, pair%quadrature)
+      call read_adjustment(context, card, pair)
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (.not. context%deck%lines(i)%ok) cycle
          call find_surface(context%deck%lines(i), 1_ip, context, pair%slave)

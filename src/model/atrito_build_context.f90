@@ -4,13 +4,14 @@
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_build_context
+   use atrito_block_map, only: block_map_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_faces, only: node_elements_t
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
@@ -36,8 +37,12 @@ module atrito_build_context
       integer(ip) :: order = 1                         !< node intervals along an edge of an element
       integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places; 0: none
       integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
+      integer(ip) :: n_elements = 0
+      integer(ip) :: body = 0                          !< the same for blocks that MERGE joins
       character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
       logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
+      type(block_map_t) :: map                         !< of its unit square
+      real(wp), allocatable :: along(:), across(:)     !< places of its nodes in the unit square, (0:order*nx), (0:order*ny)
    end type block_t
 
    !> What is known of the nodes or the elements by their numbers.

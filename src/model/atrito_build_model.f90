@@ -1,5 +1,6 @@
 !> The deck's meaning: all cards to one model.
 module atrito_build_model
+   use atrito_adjustment, only: adjusted_t, adjust_pairs, close_adjusted
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
@@ -13,6 +14,7 @@ module atrito_build_model
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
    use atrito_check_mesh, only: check_mesh
+   use atrito_clearance, only: clearance_t, read_clearances, set_clearances
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
@@ -76,6 +78,9 @@ contains
       type(contact_rules_t) :: rules
       type(chain_report_t), allocatable :: chains(:)
       type(contact_points_t), allocatable :: points(:)
+      type(clearance_t), allocatable :: clearances(:)
+      type(adjusted_t), allocatable :: adjusted(:)
+      integer(ip) :: i
 
       call prepare_context(deck, context)
       context%model => model
@@ -90,6 +95,7 @@ contains
       call build_surfaces(context)
       call build_materials(context)
       call build_contact(context)
+      call read_clearances(context, clearances)
       call read_contact_rules(context, rules)
       call build_supports(context)
       call build_loads(context)
@@ -100,7 +106,13 @@ contains
       if (has_errors()) return
       call find_contact(rules, context)
       call note_unused_interactions(model, context)
+      call adjust_pairs(context, adjusted)
+      if (has_errors()) return
       call pair_all(model, points)
+      do i = 1, size(points, kind=ip)
+         call close_adjusted(adjusted(i), points(i))
+      end do
+      call set_clearances(clearances, model%mesh%n_nodes, points)
       call move_alloc(points, model%points)
       call check_points_of_pairs(model, context)
    end subroutine build_once

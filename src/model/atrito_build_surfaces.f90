@@ -1,5 +1,6 @@
 !> *SURFACE and *RIGID BODY, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
+   use atrito_arcs, only: centre_arc
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error
@@ -21,9 +22,6 @@ module atrito_build_surfaces
    implicit none (type, external)
    private
    public :: build_surfaces
-
-   !> Coordinates of a deck have a few digits: the centre of an arc lies as far from both ends within this part of the radius.
-   real(wp), parameter :: RADIUS_TOLERANCE = 1.0e-4_wp
 
 contains
 
@@ -241,7 +239,8 @@ contains
          if (n == 1) cycle
          surface%is_arc(n - 1) = is_arc
          ok = has_length(deck, deck%lines(i), surface%points(:, n - 1), x)
-         if (ok .and. is_arc) call centre_arc(deck, deck%lines(i), surface%points(:, n - 1), x, centre, ok)
+         if (ok .and. is_arc) call centre_arc(deck, [line_item(deck, deck%lines(i), 4_ip), line_item(deck, deck%lines(i), 2_ip)], &
+                                              surface%points(:, n - 1), x, centre, ok, 'SURFACE')
          surface%centre(:, n - 1) = centre
       end do
       surface%points = surface%points(:, :n)
@@ -280,32 +279,6 @@ contains
       good(5) = follows(deck, card, i)
       ok = all(good)
    end subroutine read_segment
-
-   !> The centre is as far from both ends, within the digits of a deck, and moved so that it is exactly; the arc is less than a half
-   !> circle, else it could run on either side.
-   subroutine centre_arc(deck, line, a, b, centre, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      real(wp), intent(in) :: a(2), b(2)               !< ends [L]
-      real(wp), intent(inout) :: centre(2)             !< [L]
-      logical, intent(out) :: ok
-      real(wp) :: chord(2), middle(2), radius(2)
-
-      radius = [norm2(a - centre), norm2(b - centre)]
-      ok = abs(radius(1) - radius(2)) <= RADIUS_TOLERANCE*maxval(radius)
-      if (.not. ok) then
-         call report_error(deck, line_item(deck, line, 4_ip), 'E-VALUE', 'the centre is '//to_text(radius(1))// &
-                           ' from the start of the arc and '//to_text(radius(2))//' from its end', &
-                           expected='a centre as far from both ends, within 1e-4 [L]', keyword='SURFACE')
-         return
-      end if
-      chord = (b - a)/norm2(b - a)
-      middle = 0.5_wp*a + 0.5_wp*b
-      centre = centre - dot_product(centre - middle, chord)*chord
-      ok = norm2(centre - middle) > RADIUS_TOLERANCE*maxval(radius)
-      if (.not. ok) call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'the arc is a half circle, which could '// &
-                                      'run on either side', expected='arcs of less than 180 degrees', keyword='SURFACE')
-   end subroutine centre_arc
 
    !> START comes first; that it is there once is checked by the reader.
    logical function follows(deck, card, i)

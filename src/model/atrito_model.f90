@@ -66,6 +66,10 @@ module atrito_model
    type :: pair_t
       integer(ip) :: interaction = 0, slave = 0, master = 0   !< places in the model's lists
       integer(ip) :: quadrature = QUADRATURE_AUTO             !< as the deck asks for
+      logical :: is_adjusted = .false.                        !< ADJUST: slave nodes are moved onto the master
+      real(wp) :: adjust = 0.0_wp                             !< up to this gap [L] ...
+      integer(ip) :: adjust_set = 0                           !< ... or those of this node set; 0: none
+      logical :: gap_is_given = .false.                       !< *CLEARANCE gives its initial gaps
       integer(ip) :: outline = 0    !< of *CONTACT: the same for slaves that continue each other, which S_rho does not cut; 0: none
    end type pair_t
 

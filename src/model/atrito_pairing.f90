@@ -10,7 +10,7 @@ module atrito_pairing
    use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
-   public :: order_slaves, pair_all, element_thickness
+   public :: order_slaves, pair_all, element_thickness, make_master
 
 contains
 
@@ -48,14 +48,7 @@ contains
       is_master = .false.
       is_master(model%pairs%master) = .true.
       do i = 1, size(masters, kind=ip)
-         associate (surface => model%surfaces(i))
-            if (.not. is_master(i)) cycle
-            if (surface%kind == SURFACE_SEGMENTS) then
-               call master_of_segments(surface%points, masters(i), surface%is_arc, surface%centre)
-            else
-               call master_of_faces(model%mesh, surface%faces, masters(i))
-            end if
-         end associate
+         if (is_master(i)) call make_master(model, i, masters(i))
       end do
       do i = 1, size(points, kind=ip)
          associate (slave => model%surfaces(model%pairs(i)%slave)%faces, surface => model%surfaces(model%pairs(i)%master), &
@@ -64,6 +57,20 @@ contains
          end associate
       end do
    end subroutine pair_all
+
+   subroutine make_master(model, i, master)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< the surface
+      type(master_t), intent(out) :: master
+
+      associate (surface => model%surfaces(i))
+         if (surface%kind == SURFACE_SEGMENTS) then
+            call master_of_segments(surface%points, master, surface%is_arc, surface%centre)
+         else
+            call master_of_faces(model%mesh, surface%faces, master)
+         end if
+      end associate
+   end subroutine make_master
 
    !> By the quadrature that is asked for; else MORTAR where the sides do not match.
    subroutine make_points(model, thickness, quadrature, slave, master_faces, master, points)

@@ -10,6 +10,7 @@ module atrito_refine_model
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
    use atrito_model_memory, only: fits_memory
+   use atrito_refine_arcs, only: place_on_arcs
    use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
    use atrito_sets, only: set_count
    use atrito_strings, only: to_text
@@ -46,6 +47,7 @@ contains
       if (.not. is_possible(levels, pieces, shape, context)) return
       coarse = context%model%mesh
       call refine_mesh(coarse, context%around, pieces, shape, context%model%mesh, context%refinement)
+      call place_on_arcs(coarse, context)
       context%model%levels = levels
       do i = 1, set_count(context%model%node_sets)
          associate (set => context%model%node_sets%sets(i))

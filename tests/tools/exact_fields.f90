@@ -12,7 +12,8 @@ module exact_fields
    private
    public :: field_t, make_field, exact_solution
 
-   !> numbers: of `waves` k, a, b; of `ring` inner radius, outer radius, inside pressure, outside pressure; of `rings` inner and
+   !> numbers: of `waves` k, a, b; of `ring` inner radius, outer radius, inside pressure, outside pressure; of `hole` its
+   !> radius and the tension; of `rings` inner and
    !> outer radius of the inner ring, of the outer one, pressure on the inner ring (on the outer one times the radii of the joint).
    type :: field_t
       character(len=:), allocatable :: name
@@ -48,6 +49,8 @@ contains
          call waves(field%numbers(1), field%numbers(2), field%numbers(3), z, phi, psi)
       case ('ring')
          call ring(field%numbers(1), field%numbers(2), field%numbers(3), field%numbers(4), z, phi, psi)
+      case ('hole')
+         call hole(field%numbers(1), field%numbers(2), z, phi, psi)
       case ('rings')
          associate (a => field%numbers)
             if (norm2(middle) < a(2)) then
@@ -78,6 +81,19 @@ contains
       phi = a*exp(k*z)*[1.0_wp, k, k**2]
       psi = b*exp(k*z)*[1.0_wp, k]
    end subroutine waves
+
+   !> A plate with a hole under tension along x (Kirsch).
+   pure subroutine hole(radius, tension, z, phi, psi)
+      real(wp), intent(in) :: radius, tension      !< [L], [F/L^2]
+      complex(wp), intent(in) :: z
+      complex(wp), intent(out) :: phi(0:2), psi(0:1)
+      real(wp) :: a, s
+
+      a = radius**2
+      s = 0.25_wp*tension
+      phi = [s*(z + 2*a/z), s*(1 - 2*a/z**2), 4*s*a/z**3]
+      psi = [-2*s*(z + a/z - a**2/z**3), -2*s*(1 - a/z**2 + 3*a**2/z**4)]
+   end subroutine hole
 
    !> A ring under pressure from inside and outside (positive pushes).
    pure subroutine ring(inner, outer, inside, outside, z, phi, psi)

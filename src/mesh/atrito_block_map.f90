@@ -1,0 +1,129 @@
+!> The map of a block from the unit square: sides that are straight or arcs of circles, blended between them (Coons).
+module atrito_block_map
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: block_map_t, side_point, map_point, map_jacobian, has_arcs
+
+   !> The four sides in the order of the faces, BOTTOM from corner 1 to 2, RIGHT from 2 to 3, TOP from 4 to 3, LEFT from 1 to 4.
+   type :: block_map_t
+      real(wp) :: corners(2, 4) = 0.0_wp             !< [L], counter-clockwise
+      logical :: is_arc(4) = .false.                 !< sides that run the shorter way round their centre
+      real(wp) :: centre(2, 4) = 0.0_wp              !< [L], as far from both ends
+   end type block_map_t
+
+   integer(ip), parameter :: FROM(4) = [1_ip, 2_ip, 4_ip, 1_ip], TO(4) = [2_ip, 3_ip, 3_ip, 4_ip]
+
+contains
+
+   pure logical function has_arcs(map)
+      type(block_map_t), intent(in) :: map
+
+      has_arcs = any(map%is_arc)
+   end function has_arcs
+
+   !> The point t = 0..1 of a side; along an arc t is in proportion to the angle.
+   pure function side_point(map, side, t) result(x)
+      type(block_map_t), intent(in) :: map
+      integer(ip), intent(in) :: side                !< 1..4
+      real(wp), intent(in) :: t
+      real(wp) :: x(2)
+
+      associate (a => map%corners(:, FROM(side)), b => map%corners(:, TO(side)))
+         if (t <= 0.0_wp) then
+            x = a
+         else if (t >= 1.0_wp) then
+            x = b
+         else if (map%is_arc(side)) then
+            x = arc_point(a, b, map%centre(:, side), t)
+         else
+            x = a + t*(b - a)
+            if (t > 0.5_wp) x = b - (1 - t)*(b - a)
+         end if
+      end associate
+   end function side_point
+
+   !> The derivative of side_point [L].
+   pure function side_tangent(map, side, t) result(d)
+      type(block_map_t), intent(in) :: map
+      integer(ip), intent(in) :: side
+      real(wp), intent(in) :: t
+      real(wp) :: d(2), away(2), angle
+
+      associate (a => map%corners(:, FROM(side)), b => map%corners(:, TO(side)), c => map%centre(:, side))
+         if (map%is_arc(side)) then
+            angle = arc_angle(a, b, c)
+            away = arc_point(a, b, c, t) - c
+            d = sign(angle, cross(a - c, b - c))*[-away(2), away(1)]
+         else
+            d = b - a
+         end if
+      end associate
+   end function side_tangent
+
+   !> The point t of an arc, from the middle of it: the same from both ends, and on the axis of a circle where it lies on one.
+   pure function arc_point(a, b, centre, t) result(x)
+      real(wp), intent(in) :: a(2), b(2), centre(2)  !< [L]
+      real(wp), intent(in) :: t
+      real(wp) :: x(2), middle(2), chord(2), radius, angle
+
+      radius = norm2(a - centre)
+      middle = 0.5_wp*((a - centre) + (b - centre))
+      chord = b - a
+      angle = (t - 0.5_wp)*arc_angle(a, b, centre)
+      x = centre + (radius*cos(angle)/norm2(middle))*middle + (radius*sin(angle)/norm2(chord))*chord
+   end function arc_point
+
+   !> The angle of an arc, 0..pi.
+   pure real(wp) function arc_angle(a, b, centre)
+      real(wp), intent(in) :: a(2), b(2), centre(2)
+
+      arc_angle = 2*atan2(norm2(b - a), norm2((a - centre) + (b - centre)))
+   end function arc_angle
+
+   pure real(wp) function cross(a, b)
+      real(wp), intent(in) :: a(2), b(2)
+
+      cross = a(1)*b(2) - a(2)*b(1)
+   end function cross
+
+   !> The point (u, v) of the unit square: on the sides exactly theirs, inside the sum of what each pair of sides gives less what
+   !> the corners alone would give.
+   pure function map_point(map, u, v) result(x)
+      type(block_map_t), intent(in) :: map
+      real(wp), intent(in) :: u, v
+      real(wp) :: x(2)
+
+      if (v <= 0.0_wp) then
+         x = side_point(map, 1_ip, u)
+      else if (v >= 1.0_wp) then
+         x = side_point(map, 3_ip, u)
+      else if (u <= 0.0_wp) then
+         x = side_point(map, 4_ip, v)
+      else if (u >= 1.0_wp) then
+         x = side_point(map, 2_ip, v)
+      else
+         associate (c => map%corners)
+            x = (1 - v)*side_point(map, 1_ip, u) + v*side_point(map, 3_ip, u) + &
+                (1 - u)*side_point(map, 4_ip, v) + u*side_point(map, 2_ip, v) - &
+                ((1 - v)*((1 - u)*c(:, 1) + u*c(:, 2)) + v*((1 - u)*c(:, 4) + u*c(:, 3)))
+         end associate
+      end if
+   end function map_point
+
+   !> The Jacobian of the map [L^2]; not positive where the block is folded.
+   pure real(wp) function map_jacobian(map, u, v)
+      type(block_map_t), intent(in) :: map
+      real(wp), intent(in) :: u, v
+      real(wp) :: along(2), across(2)
+
+      associate (c => map%corners)
+         along = (1 - v)*side_tangent(map, 1_ip, u) + v*side_tangent(map, 3_ip, u) + side_point(map, 2_ip, v) - &
+                 side_point(map, 4_ip, v) - ((1 - v)*(c(:, 2) - c(:, 1)) + v*(c(:, 3) - c(:, 4)))
+         across = (1 - u)*side_tangent(map, 4_ip, v) + u*side_tangent(map, 2_ip, v) + side_point(map, 3_ip, u) - &
+                  side_point(map, 1_ip, u) - ((1 - u)*(c(:, 4) - c(:, 1)) + u*(c(:, 3) - c(:, 2)))
+      end associate
+      map_jacobian = cross(along, across)
+   end function map_jacobian
+
+end module atrito_block_map

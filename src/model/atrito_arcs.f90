@@ -1,0 +1,43 @@
+!> Arcs that a deck gives by their ends and their centre.
+module atrito_arcs
+   use atrito_deck, only: deck_t, token_t
+   use atrito_diagnostics, only: report_error
+   use atrito_kinds, only: wp
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: centre_arc
+
+   !> Coordinates of a deck have a few digits: the centre of an arc lies as far from both ends within this part of the radius.
+   real(wp), parameter :: RADIUS_TOLERANCE = 1.0e-4_wp
+
+contains
+
+   !> The centre is as far from both ends, within the digits of a deck, and moved so that it is exactly; the arc is less than a half
+   !> circle, else it could run on either side.
+   subroutine centre_arc(deck, tokens, a, b, centre, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: tokens(2)           !< of the centre, and of the arc
+      real(wp), intent(in) :: a(2), b(2)               !< ends [L]
+      real(wp), intent(inout) :: centre(2)             !< [L]
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      real(wp) :: chord(2), middle(2), radius(2)
+
+      radius = [norm2(a - centre), norm2(b - centre)]
+      ok = abs(radius(1) - radius(2)) <= RADIUS_TOLERANCE*maxval(radius)
+      if (.not. ok) then
+         call report_error(deck, tokens(1), 'E-VALUE', 'the centre is '//to_text(radius(1))// &
+                           ' from the start of the arc and '//to_text(radius(2))//' from its end', &
+                           expected='a centre as far from both ends, within 1e-4 [L]', keyword=keyword)
+         return
+      end if
+      chord = (b - a)/norm2(b - a)
+      middle = 0.5_wp*a + 0.5_wp*b
+      centre = centre - dot_product(centre - middle, chord)*chord
+      ok = norm2(centre - middle) > RADIUS_TOLERANCE*maxval(radius)
+      if (.not. ok) call report_error(deck, tokens(2), 'E-VALUE', 'the arc is a half circle, which could '// &
+                                      'run on either side', expected='arcs of less than 180 degrees', keyword=keyword)
+   end subroutine centre_arc
+
+end module atrito_arcs

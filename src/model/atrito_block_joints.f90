@@ -1,0 +1,283 @@
+!> MERGE of *BLOCK: which nodes of a block are those of earlier ones.
+!>
+!> Only what is named is merged: blocks that touch and do not name each other are two bodies.
+module atrito_block_joints
+   use atrito_block_map, only: side_point
+   use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES
+   use atrito_coincidence, only: match_points
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, line_item
+   use atrito_diagnostics, only: report_error, report_warning
+   use atrito_items, only: option_text
+   use atrito_kinds, only: ip, wp
+   use atrito_references, only: report_unknown
+   use atrito_sets, only: find_set
+   use atrito_strings, only: same_name, to_text
+   implicit none (type, external)
+   private
+   public :: share_nodes, side_nodes
+
+   !> Nodes nearer than this part of the shortest element edge coincide.
+   real(wp), parameter :: MERGE_TOLERANCE = 1.0e-6_wp
+   !> The middles of two sides between the same corners, in parts of their distance: farther apart they are two curves.
+   real(wp), parameter :: SAME_CURVE = 1.0e-3_wp
+
+contains
+
+   !> Sets the nodes of a block that are those of the blocks it names; the others stay 0.
+   subroutine share_nodes(i_card, x, context, block, ok)
+      integer(ip), intent(in) :: i_card
+      real(wp), intent(in) :: x(:, :)                  !< of the block, row by row [L]
+      type(build_context_t), intent(inout) :: context
+      type(block_t), intent(inout) :: block
+      logical, intent(out) :: ok
+      type(token_t), allocatable :: names(:)
+      logical :: named(context%n_blocks), good
+      integer(ip) :: i, b
+
+      ok = .true.
+      named = .false.
+      block%body = context%n_blocks + 1
+      names = merge_names(context%deck, context%deck%cards(i_card))
+      do i = 1, size(names, kind=ip)
+         call share_with(names(i), x, context, block, named, good)
+         ok = ok .and. good
+      end do
+      if (.not. ok .or. size(names) == 0) return
+      do b = 1, context%n_blocks
+         if (named(b)) call join_bodies(context, block, context%blocks(b)%body)
+      end do
+      do b = 1, context%n_blocks
+         if (.not. named(b) .and. context%blocks(b)%body == block%body) call warn_of_crack(names(1), x, context, &
+                                                                                           context%blocks(b), block%nodes)
+      end do
+   end subroutine share_nodes
+
+   !> The value of MERGE= and the items of MERGE lines.
+   function merge_names(deck, card) result(names)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(token_t), allocatable :: names(:)
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      integer(ip) :: i, k
+      logical :: found
+
+      allocate (names(0))
+      call option_text(deck, card, 'MERGE', name, found, place)
+      if (found) names = [place]
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         if (.not. same_name(token_text(deck, line_item(deck, deck%lines(i), 1_ip)), 'MERGE')) cycle
+         do k = 2, deck%lines(i)%n_tokens
+            names = [names, line_item(deck, deck%lines(i), k)]
+         end do
+      end do
+   end function merge_names
+
+   subroutine share_with(place, x, context, block, named, ok)
+      type(token_t), intent(in) :: place               !< of the name
+      real(wp), intent(in) :: x(:, :)
+      type(build_context_t), intent(in) :: context
+      type(block_t), intent(inout) :: block
+      logical, intent(inout) :: named(:)               !< of the blocks so far
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: other
+      integer(ip), allocatable :: outline(:), match(:), shared(:, :)
+      integer(ip) :: i_set, k, b, n, width
+
+      other = token_text(context%deck, place)
+      i_set = find_set(context%model%node_sets, other)
+      ok = i_set > 0
+      if (.not. ok) then
+         call report_unknown(context, place, 'earlier node set', 'E-SET', context%model%node_sets%names, 'BLOCK')
+         return
+      end if
+      width = size(block%nodes, 1, kind=ip)
+      outline = outline_of(width, size(block%nodes, 2, kind=ip))
+      allocate (shared, source=0*block%nodes)
+      associate (members => context%model%node_sets%sets(i_set)%members)
+         match = match_points(x(:, outline), context%model%mesh%x(:, members), MERGE_TOLERANCE*shortest_edge(x, width))
+         do k = 1, size(outline, kind=ip)
+            if (match(k) > 0) shared(1 + modulo(outline(k) - 1, width), 1 + (outline(k) - 1)/width) = members(match(k))
+         end do
+      end associate
+      n = count(shared > 0 .and. block%nodes > 0 .and. block%nodes /= shared, kind=ip)
+      if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '//other// &
+                                     ' and of an earlier name that are not shared by these', &
+                                     expected='blocks that are merged with each other', keyword='BLOCK')
+      block%nodes = merge(shared, block%nodes, shared > 0 .and. block%nodes == 0)
+      ok = any(match > 0)
+      if (.not. ok) then
+         call report_error(context%deck, place, 'E-BLOCK', 'no node of this block lies on a node of '//other, &
+                           expected='blocks whose nodes coincide along a side, within 1e-6 of an element edge', keyword='BLOCK')
+         return
+      end if
+      k = 0
+      do b = 1, context%n_blocks
+         if (.not. same_name(context%blocks(b)%name, other)) cycle
+         named(b) = .true.
+         k = b
+      end do
+      if (k > 0) ok = are_joined(place, context, block, shared, context%blocks(k))
+      if (ok) call warn_of_hanging_nodes(context%deck, place, shared)
+   end subroutine share_with
+
+   !> Sides of both blocks that run from the same corner to the same corner are one side: the same curve, and as many elements on
+   !> the same places.
+   logical function are_joined(place, context, block, shared, other)
+      type(token_t), intent(in) :: place
+      type(build_context_t), intent(in) :: context
+      type(block_t), intent(in) :: block, other
+      integer(ip), intent(in) :: shared(:, :)
+      integer(ip), allocatable :: own(:), theirs(:)
+      integer(ip) :: i, k, n, m
+
+      are_joined = .true.
+      do i = 1, size(BLOCK_SIDES, kind=ip)
+         own = side_of(shared, i)
+         n = size(own, kind=ip)
+         do k = 1, merge(size(BLOCK_SIDES, kind=ip), 0_ip, min(own(1), own(n)) > 0)
+            theirs = side_nodes(other, k)
+            m = size(theirs, kind=ip)
+            if (.not. (own(1) == theirs(1) .and. own(n) == theirs(m) .or. own(1) == theirs(m) .and. own(n) == theirs(1))) cycle
+            if (block%order /= other%order .or. (n == m .and. all(own > 0))) cycle
+            are_joined = .false.
+            call report_side(context%deck, place, block, other, i, k)
+         end do
+      end do
+   end function are_joined
+
+   subroutine report_side(deck, place, block, other, i, k)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      type(block_t), intent(in) :: block, other
+      integer(ip), intent(in) :: i, k                  !< sides of the two
+      character(len=:), allocatable :: own, theirs, text, expected
+      real(wp) :: ends(2, 2)
+      integer(ip) :: n, m
+
+      own = block%name//trim(BLOCK_SIDES(i))
+      theirs = other%name//trim(BLOCK_SIDES(k))
+      n = (size(side_of(block%nodes, i), kind=ip) - 1)/block%order
+      m = (size(side_nodes(other, k), kind=ip) - 1)/other%order
+      ends = reshape([side_point(block%map, i, 0.0_wp), side_point(block%map, i, 1.0_wp)], [2, 2])
+      if (norm2(side_point(block%map, i, 0.5_wp) - side_point(other%map, k, 0.5_wp)) > &
+          SAME_CURVE*norm2(ends(:, 2) - ends(:, 1))) then
+         text = own//' and '//theirs//' join the same corners by different curves'
+         expected = 'the same ARC for both sides, or none'
+      else if (n /= m) then
+         text = own//' has '//to_text(n)//' elements, '//theirs//' beside it '//to_text(m)
+         expected = 'as many elements on both sides'
+      else
+         text = own//' and '//theirs//' have as many elements, but their nodes lie elsewhere'
+         expected = 'the same grading or break points on both sides'
+      end if
+      call report_error(deck, place, 'E-BLOCK', text, expected=expected, keyword='BLOCK')
+   end subroutine report_side
+
+   pure function outline_of(width, height) result(outline)
+      integer(ip), intent(in) :: width, height         !< nodes
+      integer(ip) :: outline(2*(width + height) - 4)
+      integer(ip) :: i, n
+
+      n = width*height
+      outline = [(i, i=1, width), (i, i=n - width + 1, n), &
+                 (1 + i*width, i=1, height - 2), ((i + 1)*width, i=1, height - 2)]
+   end function outline_of
+
+   pure real(wp) function shortest_edge(x, width) result(shortest)
+      real(wp), intent(in) :: x(:, :)
+      integer(ip), intent(in) :: width                 !< nodes in a row
+      integer(ip) :: k
+
+      shortest = huge(shortest)
+      do k = 1, size(x, 2, kind=ip)
+         if (modulo(k, width) /= 0) shortest = min(shortest, norm2(x(:, k + 1) - x(:, k)))
+         if (k + width <= size(x, 2)) shortest = min(shortest, norm2(x(:, k + width) - x(:, k)))
+      end do
+   end function shortest_edge
+
+   subroutine warn_of_hanging_nodes(deck, place, nodes)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: nodes(:, :)           !< shared with one other
+      integer(ip) :: i, n
+
+      n = sum([(between(side_of(nodes, i)), i=1, size(BLOCK_SIDES))])
+      if (n > 0) call report_warning(deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie between shared nodes but '// &
+                                     'on none of the other block: they leave a crack', &
+                                     expected='as many elements on both sides, with the same grading', keyword='BLOCK')
+   end subroutine warn_of_hanging_nodes
+
+   pure integer(ip) function between(side) result(n)
+      integer(ip), intent(in) :: side(:)               !< 0: not shared
+      integer(ip) :: first, last
+
+      first = findloc(side > 0, .true., dim=1, kind=ip)
+      last = findloc(side > 0, .true., dim=1, kind=ip, back=.true.)
+      n = 0
+      if (first > 0) n = count(side(first:last) == 0, kind=ip)
+   end function between
+
+   !> A block that is merged with two bodies makes them one.
+   pure subroutine join_bodies(context, block, body)
+      type(build_context_t), intent(inout) :: context
+      type(block_t), intent(inout) :: block
+      integer(ip), intent(in) :: body
+      integer(ip) :: b, old
+
+      old = body
+      if (block%body > context%n_blocks) block%body = old
+      do b = 1, context%n_blocks
+         if (context%blocks(b)%body == old) context%blocks(b)%body = block%body
+      end do
+   end subroutine join_bodies
+
+   !> Nodes that lie on those of a block of the same body that is not named are apart from them.
+   subroutine warn_of_crack(place, x, context, other, nodes)
+      type(token_t), intent(in) :: place
+      real(wp), intent(in) :: x(:, :)
+      type(build_context_t), intent(in) :: context
+      type(block_t), intent(in) :: other
+      integer(ip), intent(in) :: nodes(:, :)           !< of the block; 0: not shared
+      integer(ip), allocatable :: outline(:), theirs(:), match(:)
+      integer(ip) :: i, n, width
+
+      width = size(nodes, 1, kind=ip)
+      outline = outline_of(width, size(nodes, 2, kind=ip))
+      outline = pack(outline, [(nodes(1 + modulo(outline(i) - 1, width), 1 + (outline(i) - 1)/width) == 0, &
+                                i=1, size(outline, kind=ip))])
+      theirs = [(side_nodes(other, i), i=1, size(BLOCK_SIDES, kind=ip))]
+      match = match_points(x(:, outline), context%model%mesh%x(:, theirs), MERGE_TOLERANCE*shortest_edge(x, width))
+      n = count(match > 0, kind=ip)
+      if (n > 0) call report_warning(context%deck, place, 'W-BLOCK', to_text(n)//' nodes of this block lie on nodes of '// &
+                                     other%name//', a part of the same body, but are not shared: a crack', &
+                                     expected='the data line MERGE, '//token_text(context%deck, place)//', '//other%name// &
+                                     ' to close it', keyword='BLOCK')
+   end subroutine warn_of_crack
+
+   !> The nodes of a side of a block, in the direction in which its map travels it.
+   pure function side_nodes(block, side) result(nodes)
+      type(block_t), intent(in) :: block
+      integer(ip), intent(in) :: side                  !< 1..4, as in BLOCK_SIDES
+      integer(ip), allocatable :: nodes(:)
+
+      nodes = side_of(block%nodes, side)
+   end function side_nodes
+
+   pure function side_of(grid, side) result(nodes)
+      integer(ip), intent(in) :: grid(:, :), side
+      integer(ip), allocatable :: nodes(:)
+
+      select case (side)
+      case (1)
+         nodes = grid(:, 1)
+      case (2)
+         nodes = grid(size(grid, 1), :)
+      case (3)
+         nodes = grid(:, size(grid, 2))
+      case default
+         nodes = grid(1, :)
+      end select
+   end function side_of
+
+end module atrito_block_joints

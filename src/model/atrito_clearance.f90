@@ -1,0 +1,222 @@
+!> *CLEARANCE: initial gaps that are given, whatever the coordinates say; negative ones are a press fit.
+module atrito_clearance
+   use atrito_build_context, only: build_context_t, place_text
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_faces, only: face_list_t
+   use atrito_items, only: get_real, has_option, option_real, option_text
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_name_list, only: find_name
+   use atrito_points, only: contact_points_t
+   use atrito_references, only: find_nodes, report_unknown
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: clearance_t, read_clearances, set_clearances
+
+   character(len=*), parameter :: WHAT = 'initial gap, a real, negative for an overlap [L]'
+
+   !> The gaps of a pair: one for all its points, or some by the slave's nodes.
+   type :: clearance_t
+      integer(ip) :: pair = 0                          !< place in model%pairs
+      type(token_t) :: place
+      logical :: is_uniform = .false.
+      real(wp) :: value = 0.0_wp                       !< [L]
+      integer(ip), allocatable :: node(:)
+      real(wp), allocatable :: values(:)               !< of the nodes [L]
+   end type clearance_t
+
+contains
+
+   !> All *CLEARANCE of a deck. The surfaces of its pairs are known.
+   subroutine read_clearances(context, list)
+      type(build_context_t), intent(inout) :: context
+      type(clearance_t), allocatable, intent(out) :: list(:)
+      type(clearance_t) :: one
+      integer(ip) :: i, k
+      logical :: ok
+
+      allocate (list(0))
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'CLEARANCE') cycle
+         call read_card(context%deck%cards(i), context, one, ok)
+         if (.not. ok) cycle
+         k = findloc(list%pair, one%pair, dim=1, kind=ip)
+         if (k > 0) then
+            call report_error(context%deck, one%place, 'E-TWICE', 'this pair has its clearance already, in '// &
+                              place_text(context%deck, list(k)%place, one%place), expected='one *CLEARANCE a pair', &
+                              keyword='CLEARANCE')
+            cycle
+         end if
+         list = [list, one]
+         context%model%pairs(one%pair)%gap_is_given = .true.
+      end do
+   end subroutine read_clearances
+
+   subroutine read_card(card, context, one, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      type(clearance_t), intent(out) :: one
+      logical, intent(out) :: ok
+      integer(ip) :: i
+      logical :: has_table
+
+      call find_pair(card, context, one)
+      has_table = has_option(context%deck, card, 'TABULAR')
+      call option_real(context%deck, card, 'VALUE', WHAT, one%value, one%is_uniform)
+      ok = card%ok
+      if (ok .and. (has_table .eqv. one%is_uniform)) then
+         ok = .false.
+         call report_error(context%deck, card%place, 'E-CONFLICT', '*CLEARANCE with '//trim(merge('both VALUE and TABULAR      ', &
+                                                                                      'neither VALUE nor TABULAR   ', has_table)), &
+                           expected='VALUE=, or TABULAR and data lines node, gap', keyword='CLEARANCE')
+      end if
+      if (.not. ok .or. one%pair == 0) then
+         ok = .false.
+         return
+      end if
+      allocate (one%node(0), one%values(0))
+      if (one%is_uniform) return
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         call read_line(context%deck%lines(i), context, one, ok)
+      end do
+   end subroutine read_card
+
+   !> The pair of the surfaces MASTER and SLAVE.
+   subroutine find_pair(card, context, one)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      type(clearance_t), intent(inout) :: one
+      character(len=:), allocatable :: slave, master
+      type(token_t) :: places(2)
+      integer(ip) :: surface(2), i
+      logical :: found(2)
+
+      call option_text(context%deck, card, 'SLAVE', slave, found(1), places(1))
+      call option_text(context%deck, card, 'MASTER', master, found(2), places(2))
+      if (.not. all(found)) return
+      one%place = places(1)
+      surface = [find_name(context%surface_names, slave), find_name(context%surface_names, master)]
+      do i = 1, 2
+         if (surface(i) == 0) call report_unknown(context, places(i), 'surface', 'E-SURFACE', context%surface_names, 'CLEARANCE')
+      end do
+      if (any(surface == 0)) return
+      associate (pairs => context%model%pairs)
+         do i = 1, size(pairs, kind=ip)
+            if (pairs(i)%slave == surface(1) .and. pairs(i)%master == surface(2)) one%pair = i
+         end do
+         if (one%pair > 0 .or. .not. has_all_pairs(context)) return
+         if (any(pairs%slave == surface(2) .and. pairs%master == surface(1))) then
+            call report_error(context%deck, places(1), 'E-PAIR', slave//' is the master of this pair, '//master//' the slave', &
+                              expected='SLAVE='//master//', MASTER='//slave, keyword='CLEARANCE')
+         else
+            call report_error(context%deck, places(1), 'E-PAIR', 'no *CONTACT PAIR has the slave '//slave//' and the master '// &
+                              master, expected='the surfaces of one *CONTACT PAIR', keyword='CLEARANCE')
+         end if
+      end associate
+   end subroutine find_pair
+
+   !> Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
+   pure logical function has_all_pairs(context)
+      type(build_context_t), intent(in) :: context
+      integer(ip) :: i, n
+
+      n = 0
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') n = n + context%deck%cards(i)%n_lines
+      end do
+      has_all_pairs = size(context%model%pairs) == n
+   end function has_all_pairs
+
+   !> node or set, gap.
+   subroutine read_line(line, context, one, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      type(clearance_t), intent(inout) :: one
+      logical, intent(inout) :: ok
+      integer(ip), allocatable :: nodes(:)
+      real(wp) :: gap
+      integer(ip) :: i
+      logical :: good(2)
+
+      ok = ok .and. line%ok
+      if (.not. line%ok) return
+      call find_nodes(context, line_item(context%deck, line, 1_ip), nodes, good(1), 'CLEARANCE')
+      call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, gap, good(2), keyword='CLEARANCE')
+      ok = ok .and. all(good)
+      if (.not. all(good)) return
+      associate (slave => context%model%surfaces(context%model%pairs(one%pair)%slave)%faces)
+         nodes = pack(nodes, is_of_faces(context%model%mesh, slave, nodes))
+      end associate
+      if (size(nodes) == 0) then
+         ok = .false.
+         call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'no node of the slave is meant', &
+                           expected='a node of the slave, or a set with nodes of it', keyword='CLEARANCE')
+      end if
+      one%node = [one%node, nodes]
+      one%values = [one%values, [(gap, i=1, size(nodes))]]
+   end subroutine read_line
+
+   !> Which nodes belong to some faces.
+   pure function is_of_faces(mesh, faces, nodes) result(is_there)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: faces
+      integer(ip), intent(in) :: nodes(:)
+      logical :: is_there(size(nodes)), mark(mesh%n_nodes)
+      integer(ip) :: i
+
+      mark = .false.
+      do i = 1, faces%n
+         mark(face_nodes(mesh, faces%element(i), faces%face(i))) = .true.
+      end do
+      is_there = mark(nodes)
+   end function is_of_faces
+
+   !> Gives the points of the pairs their gaps.
+   subroutine set_clearances(list, n_nodes, points)
+      type(clearance_t), intent(in) :: list(:)
+      integer(ip), intent(in) :: n_nodes               !< of the mesh
+      type(contact_points_t), intent(inout) :: points(:) !< of each pair
+      real(wp), allocatable :: value(:)
+      logical, allocatable :: is_given(:)
+      integer(ip) :: i, k
+
+      do i = 1, size(list, kind=ip)
+         if (list(i)%is_uniform) then
+            points(list(i)%pair)%gap = list(i)%value
+            cycle
+         end if
+         if (.not. allocated(value)) allocate (value(n_nodes), is_given(n_nodes))
+         is_given = .false.
+         do k = 1, size(list(i)%node, kind=ip)
+            value(list(i)%node(k)) = list(i)%values(k)
+            is_given(list(i)%node(k)) = .true.
+         end do
+         call set_by_nodes(value, is_given, points(list(i)%pair))
+      end do
+   end subroutine set_clearances
+
+   !> The gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their displacements
+   !> are.
+   pure subroutine set_by_nodes(value, is_given, points)
+      real(wp), intent(in) :: value(:)
+      logical, intent(in) :: is_given(:)
+      type(contact_points_t), intent(inout) :: points
+      real(wp) :: total, weight
+      integer(ip) :: j, k
+
+      do j = 1, points%n
+         if (.not. is_given(points%node(j))) cycle
+         total = 0.0_wp
+         weight = 0.0_wp
+         do k = points%first(j), points%first(j + 1) - 1
+            if (points%coefficient(k) <= 0.0_wp .or. .not. is_given(points%entry(k))) cycle
+            total = total + points%coefficient(k)*value(points%entry(k))
+            weight = weight + points%coefficient(k)
+         end do
+         points%gap(j) = total/weight
+      end do
+   end subroutine set_by_nodes
+
+end module atrito_clearance

@@ -1,0 +1,41 @@
+# fit SLAVE TYPE N M [OPTION]: ring 1..2 in ring 2..3, quarters of N and M elements, an overlap of 0.01 that *CLEARANCE gives.
+fit() {
+   if [ "$1" = in ]; then slave=IN-RIGHT master=OUT-LEFT; else slave=OUT-LEFT master=IN-RIGHT; fi
+   cat <<END
+*HEADING
+Press fit
+*BLOCK, TYPE=$2, ELSET=IN, NX=3, NY=$3
+1, 0
+2, 0
+0, 2
+0, 1
+ARC, LEFT, 0, 0
+ARC, RIGHT, 0, 0
+*BLOCK, TYPE=$2, ELSET=OUT, NX=3, NY=$4
+2, 0
+3, 0
+0, 3
+0, 2
+ARC, LEFT, 0, 0
+ARC, RIGHT, 0, 0
+*MATERIAL, NAME=M
+*ELASTIC
+1000, 0.3
+*ELSET, ELSET=ALL
+IN, OUT
+*SOLID SECTION, ELSET=ALL, MATERIAL=M
+*BOUNDARY
+IN-BOTTOM, 2
+OUT-BOTTOM, 2
+IN-TOP, 1
+OUT-TOP, 1
+*SURFACE INTERACTION, NAME=F
+*CONTACT PAIR, INTERACTION=F${5:-}
+$slave, $master
+*CLEARANCE, SLAVE=$slave, MASTER=$master, VALUE=-0.01
+*STEP
+*STATIC
+*CONTACT PRINT
+*END STEP
+END
+}
