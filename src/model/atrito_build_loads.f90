@@ -25,12 +25,13 @@ contains
    !> All loads of the step.
    subroutine build_loads(context)
       type(build_context_t), intent(in) :: context
-      integer(ip) :: i, k
+      integer(ip) :: i, k, n
 
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i))
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
+               n = context%model%element_loads%n
                select case (keyword_name(card))
                case ('CLOAD')
                   call read_cload_line(context%deck%lines(k), context)
@@ -41,6 +42,9 @@ contains
                case default
                   exit
                end select
+               associate (loads => context%model%element_loads)
+                  if (loads%n > n) loads%line(n + 1:loads%n) = k
+               end associate
             end do
          end associate
       end do

@@ -44,12 +44,14 @@ contains
       call make_room(list%element, list%n, list%n + 1)
       call make_room(list%kind, list%n, list%n + 1)
       call make_room(list%face, list%n, list%n + 1)
+      call make_room(list%line, list%n, list%n + 1)
       if (.not. allocated(list%value)) allocate (list%value(2, size(list%element)))
       if (list%n == size(list%value, 2)) call resize(list%value, list%n, size(list%element, kind=ip))
       list%n = list%n + 1
       list%element(list%n) = element
       list%kind(list%n) = kind
       list%face(list%n) = face
+      list%line(list%n) = 0
       list%value(:, list%n) = value
    end subroutine add_element_load
 
@@ -59,6 +61,7 @@ contains
       call resize(list%element, list%n, list%n)
       call resize(list%kind, list%n, list%n)
       call resize(list%face, list%n, list%n)
+      call resize(list%line, list%n, list%n)
       if (.not. allocated(list%value)) allocate (list%value(2, 0))
       call resize(list%value, list%n, list%n)
    end subroutine trim_element_loads

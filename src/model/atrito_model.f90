@@ -82,6 +82,7 @@ module atrito_model
       integer(ip), allocatable :: element(:)
       integer(ip), allocatable :: kind(:)           !< LOAD_PRESSURE or LOAD_BODY
       integer(ip), allocatable :: face(:)           !< LOAD_PRESSURE: 1..4
+      integer(ip), allocatable :: line(:)           !< of the deck, that gives it
       real(wp), allocatable :: value(:, :)          !< (2, n): pressure [F/L^2] in value(1), or force per volume [F/L^3]
    end type element_load_t
 
