@@ -94,8 +94,8 @@ contains
       associate (place => line_item(context%deck, context%deck%lines(line), 1_ip), p => model%pairs(pair))
          call report_warning(context%deck, place, 'W-LOADED-CONTACT', 'the load acts on faces of the contact pair ' &
                              //model%surfaces(p%slave)%name//' / '//model%surfaces(p%master)%name//', at element ' &
-                             //ids_text(each_once(numbers_of(elements)))//': it acts there besides the contact pressure, also ' &
-                             //'where the pair is closed', expected='faces that nothing touches', keyword='DSLOAD')
+                             //ids_text(each_once(numbers_of(elements)))//': it acts there besides the contact pressure', &
+                             expected='faces that nothing touches', keyword='DSLOAD')
       end associate
    end subroutine report_loaded
 
