@@ -74,24 +74,31 @@ contains
 
       call define_keyword(k, 'DLOAD', LEVEL_STEP, 'pressure on faces, force per volume, weight', &
                           doc='P1 to P4: pressure on that face, positive pushes on the element. BX, BY: force per volume. '// &
-                          'GRAV: acceleration times *DENSITY along a direction. All are multiplied by the thickness.')
+                          'GRAV: acceleration times *DENSITY along a direction. HP1 to HP4 and TRVEC1 to TRVEC4: hydrostatic '// &
+                          'pressure and traction on that face, as HP and TRVEC of *DSLOAD. All are multiplied by the thickness.')
       call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
       call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
-      call add_word_item(k, 'label', 'P1 P2 P3 P4 BX BY GRAV', 'kind of load')
-      call add_item(k, 'magnitude', KIND_REAL, 'P [F/L^2], B [F/L^3], GRAV [L/T^2]')
-      call add_item(k, '[gx]', KIND_REAL, 'direction of GRAV', dimension='-')
-      call add_item(k, '[gy]', KIND_REAL, 'direction of GRAV', dimension='-')
-      call add_item(k, '[gz]', KIND_REAL, 'direction of GRAV, must be 0', dimension='-')
+      call add_word_item(k, 'label', 'P1 P2 P3 P4 BX BY GRAV HP1 HP2 HP3 HP4 TRVEC1 TRVEC2 TRVEC3 TRVEC4', 'kind of load')
+      call add_item(k, 'magnitude', KIND_REAL, 'P, HP, TRVEC [F/L^2], B [F/L^3], GRAV [L/T^2]')
+      call add_item(k, '[gx]', KIND_REAL, 'direction of GRAV and TRVEC; of HP the level of zero pressure [L]', dimension='-')
+      call add_item(k, '[gy]', KIND_REAL, 'direction of GRAV and TRVEC; of HP the level of the magnitude [L]', dimension='-')
+      call add_item(k, '[gz]', KIND_REAL, 'direction of GRAV and TRVEC, must be 0', dimension='-')
       call add_example(k, '*DLOAD|plate, P3, 10.|plate, GRAV, 9.81, 0., -1.')
 
-      call define_keyword(k, 'DSLOAD', LEVEL_STEP, 'pressure on surfaces')
+      call define_keyword(k, 'DSLOAD', LEVEL_STEP, 'pressure and traction on surfaces', &
+                          doc='P: pressure, positive pushes on the body. TRVEC: traction of this size along a direction of '// &
+                          'any length. HP: hydrostatic pressure, 0 at one level x2, the magnitude at another, linear between '// &
+                          'and beyond; on the other side of the first level it is 0. All are multiplied by the thickness.')
       call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
       call add_item(k, 'surface', KIND_NAME, 'a surface of elements')
-      call add_word_item(k, 'label', 'P', 'kind of load')
-      call add_item(k, 'magnitude', KIND_REAL, 'pressure, positive pushes on the body', dimension='F/L^2')
-      call add_example(k, '*DSLOAD|plate-TOP, P, 10.')
+      call add_word_item(k, 'label', 'P TRVEC HP', 'kind of load')
+      call add_item(k, 'magnitude', KIND_REAL, 'pressure, positive pushes; TRVEC: along the direction', dimension='F/L^2')
+      call add_item(k, '[t1]', KIND_REAL, 'direction of TRVEC; of HP the level of zero pressure [L]', dimension='-')
+      call add_item(k, '[t2]', KIND_REAL, 'direction of TRVEC; of HP the level of the magnitude [L]', dimension='-')
+      call add_item(k, '[t3]', KIND_REAL, 'direction of TRVEC, must be 0', dimension='-')
+      call add_example(k, '*DSLOAD|plate-TOP, P, 10.|plate-TOP, TRVEC, 2., 1., 0.|plate-LEFT, HP, 9.81, 1., 0.')
    end subroutine define_loads
 
    subroutine define_controls(k)

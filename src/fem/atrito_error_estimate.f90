@@ -17,6 +17,7 @@ module atrito_error_estimate
       real(wp) :: solution = 0.0_wp        !< ||u||^2, twice the strain energy
       real(wp) :: error = 0.0_wp           !< ||e||^2
       real(wp) :: round_off = 0.0_wp       !< ||.||^2 of the stresses that displacements rounded once make
+      real(wp) :: strain = 0.0_wp          !< no strain at a point is larger than this; a bound, found by the stresses
    end type energies_t
 
    !> Errors below this many roundings of the displacements are none. Patch tests have 0.1 to 3, a bar of 1000:1 that loses ten
@@ -49,6 +50,7 @@ contains
       energies%solution = sum(parts%solution)
       energies%error = sum(parts%error)
       energies%round_off = sum(parts%round_off)
+      energies%strain = maxval([parts%strain, 0.0_wp])/per_unit
    end subroutine measure_error
 
    pure subroutine measure_chunk(fem, u, field, per_unit, rules, chunk, energies)
@@ -88,6 +90,7 @@ contains
       c = compliance_matrix(fem%sections(geometry%section), geometry%state)
       call point_stresses(fem, e, u, rule, geometry, s)
       s(:n, :) = s(:n, :)*per_unit
+      energies%strain = max(energies%strain, largest_strain(n, 0.5_wp/(geometry%d(3, 3) + min(geometry%d(1, 2), 0.0_wp)), s))
       d(:n, :) = -s(:n, :)
       largest = 0.0_wp
       do k = 1, geometry%shape
@@ -108,6 +111,21 @@ contains
       energies%round_off = energies%round_off + (geometry%d(1, 1)*(EPS_MACH*(largest*per_unit))**2) &
                            *sum(weight(:n)*geometry%steepness(:n))
    end subroutine add_element
+
+   !> A bound of the strains at the points: the root of s11^2 + s22^2 + 2 s12^2 over the least of 2G and 2(G + lambda).
+   pure real(wp) function largest_strain(n, compliance, s)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: compliance           !< 1 over that least one [L^2/F]
+      real(wp), intent(in) :: s(MOST_POINTS, COMPONENTS)
+      real(wp) :: square
+      integer(ip) :: i
+
+      square = 0.0_wp
+      do i = 1, n
+         square = max(square, (s(i, 1)*compliance)**2 + (s(i, 2)*compliance)**2 + 2*(s(i, 3)*compliance)**2)
+      end do
+      largest_strain = sqrt(square)
+   end function largest_strain
 
    !> Sum over the points of weight s C s [F L].
    pure real(wp) function integral(n, c, s, weight)

@@ -4,7 +4,9 @@ module atrito_face_geometry
    use atrito_shape_functions, only: face_shape_slopes
    implicit none (type, external)
    private
-   public :: face_direction, outward_normal, face_arc_length, has_quarter_node
+   public :: face_direction, outward_normal, face_arc_length, has_quarter_node, line_rule, RULE_POINTS
+
+   integer(ip), parameter :: RULE_POINTS = 5
 
    !> Five Gauss points on [-1,1]: the positive ones with their weights, and the weight of the middle.
    real(wp), parameter :: POINTS(2) = [0.53846931010568309104_wp, 0.90617984593866399280_wp]
@@ -45,6 +47,14 @@ contains
       has_quarter_node = min(norm2(face_direction(x, -1.0_wp)), norm2(face_direction(x, 1.0_wp))) &
                          <= VANISHED*norm2(x(:, 2) - x(:, 1))
    end function has_quarter_node
+
+   !> Five Gauss points on [-1,1] and their weights: exact to degree 9.
+   pure subroutine line_rule(place, weight)
+      real(wp), intent(out) :: place(RULE_POINTS), weight(RULE_POINTS)
+
+      place = [-POINTS(2), -POINTS(1), 0.0_wp, POINTS]
+      weight = [WEIGHTS(2), WEIGHTS(1), MIDDLE_WEIGHT, WEIGHTS]
+   end subroutine line_rule
 
    !> Arc length [L] from the face's first node to t.
    pure real(wp) function face_arc_length(x, t) result(s)

@@ -1,16 +1,17 @@
 !> *CLOAD, *DLOAD and *DSLOAD.
 module atrito_build_loads
-   use atrito_deck, only: deck_t, data_line_t, token_t, token_text, line_item, keyword_name
+   use atrito_deck, only: data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, is_invalid
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, add_element_load, trim_nodal_values, trim_element_loads
-   use atrito_model, only: model_t, LOAD_PRESSURE, LOAD_BODY, SURFACE_ELEMENTS
+   use atrito_model, only: model_t, LOAD_BODY, LOAD_TRACTION, SURFACE_ELEMENTS
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
+   use atrito_read_face_load, only: read_face_load, read_direction, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, check_faces, report_unknown
    use atrito_refinement, only: is_on_side, is_refined
    use atrito_strings, only: to_text, upper_case
@@ -25,12 +26,13 @@ contains
    !> All loads of the step.
    subroutine build_loads(context)
       type(build_context_t), intent(in) :: context
-      integer(ip) :: i, k
+      integer(ip) :: i, k, n
 
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i))
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
+               n = context%model%element_loads%n
                select case (keyword_name(card))
                case ('CLOAD')
                   call read_cload_line(context%deck%lines(k), context)
@@ -41,6 +43,9 @@ contains
                case default
                   exit
                end select
+               associate (loads => context%model%element_loads)
+                  if (loads%n > n) loads%line(n + 1:loads%n) = k
+               end associate
             end do
          end associate
       end do
@@ -110,22 +115,26 @@ contains
                                       keyword='CLOAD')
    end subroutine note_supported
 
-   !> Element or set, label, magnitude[, direction].
+   !> Element or set, label, magnitude[, direction or levels].
    subroutine read_dload_line(line, context)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
       character(len=:), allocatable :: label
       integer(ip), allocatable :: elements(:)
-      real(wp) :: magnitude
+      integer(ip) :: kind
+      real(wp) :: magnitude, value(3)
       logical :: ok, good
 
       call find_elements(context, context%deck%tokens(line%first_token), elements, ok, 'DLOAD')
       label = upper_case(token_text(context%deck, line_item(context%deck, line, 2_ip)))
+      if (label(1:1) /= 'B' .and. label /= 'GRAV') then
+         call read_face_load(line, context, label, 'DLOAD', kind, value, good)
+         if (ok .and. good) call load_faces(line, context, elements, label, kind, value)
+         return
+      end if
       call get_real(context%deck, line_item(context%deck, line, 3_ip), magnitude_of(label), magnitude, good, keyword='DLOAD')
-      ok = ok .and. good .and. has_no_rest(context%deck, line, label)
+      ok = ok .and. good .and. has_no_rest(line, context, label, 'DLOAD')
       select case (label)
-      case ('P1', 'P2', 'P3', 'P4')
-         if (ok) call press_elements(line, context, elements, label, magnitude)
       case ('BX')
          if (ok) call pull_elements(context%model, elements, [magnitude, 0.0_wp])
       case ('BY')
@@ -135,57 +144,34 @@ contains
       end select
    end subroutine read_dload_line
 
-   !> Only gravity has a direction: 1,5 is no pressure of 1.5.
-   logical function has_no_rest(deck, line, label)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      character(len=*), intent(in) :: label
-
-      has_no_rest = line%n_tokens <= 3 .or. label == 'GRAV'
-      if (has_no_rest) return
-      call report_error(deck, line_item(deck, line, 4_ip), 'E-ITEMS', to_text(line%n_tokens)//' items, where 3 belong', &
-                        expected='element, '//label//', '//magnitude_of(label), keyword='DLOAD')
-   end function has_no_rest
-
-   pure function magnitude_of(label) result(what)
-      character(len=*), intent(in) :: label
-      character(len=:), allocatable :: what
-
-      select case (label(1:1))
-      case ('P')
-         what = 'pressure, positive pushes on the element, a real [F/L^2]'
-      case ('B')
-         what = 'force per volume, a real [F/L^3]'
-      case default
-         what = 'acceleration, a real [L/T^2]'
-      end select
-   end function magnitude_of
-
-   subroutine press_elements(line, context, elements, label, pressure)
+   !> A load on the face of each element that the label ends with.
+   subroutine load_faces(line, context, elements, label, kind, value)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:)
       character(len=*), intent(in) :: label
-      real(wp), intent(in) :: pressure
+      integer(ip), intent(in) :: kind
+      real(wp), intent(in) :: value(3)
       type(number_list_t) :: inside
       integer(ip) :: i, face
       integer :: outcome
       logical :: ok
 
-      call read_integer(label(2:2), face, outcome)
+      call read_integer(label(len(label):), face, outcome)
       call check_faces(context, line_item(context%deck, line, 2_ip), elements, face, 'DLOAD', ok)
       if (.not. ok) return
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(context%refinement, elements(i), face)) cycle
-         call add_element_load(context%model%element_loads, elements(i), LOAD_PRESSURE, face, [pressure, 0.0_wp])
+         call add_element_load(context%model%element_loads, elements(i), kind, face, value)
          if (.not. is_outer_face(context%model%mesh, context%around, elements(i), face)) then
             call add_number(inside, context%model%mesh%element_id(elements(i)))
          end if
       end do
-      if (inside%n > 0) call report_warning(context%deck, line_item(context%deck, line, 2_ip), 'W-FACE', &
-                 'the pressure acts inside the mesh, '//'too, on face '//label(2:2)//' of element '//ids_text(numbers_of(inside)), &
+      if (inside%n > 0) call report_warning(context%deck, line_item(context%deck, line, 2_ip), 'W-FACE', 'the ' &
+                         //trim(merge('traction', 'pressure', kind == LOAD_TRACTION))//' acts inside the mesh, too, on face ' &
+                                            //label(len(label):)//' of element '//ids_text(numbers_of(inside)), &
                                             expected='elements on the outline of the body', keyword='DLOAD')
-   end subroutine press_elements
+   end subroutine load_faces
 
    pure subroutine pull_elements(model, elements, force)
       type(model_t), intent(inout) :: model
@@ -205,30 +191,17 @@ contains
       integer(ip), intent(in) :: elements(:)
       real(wp), intent(in) :: acceleration             !< [L/T^2]
       logical, intent(in) :: good                      !< elements and acceleration are known
-      character(len=*), parameter :: WHAT = 'direction of gravity, gx, gy, not both 0 [-]'
-      real(wp) :: direction(3), density
+      real(wp) :: direction(2), density
       integer(ip) :: i
-      logical :: ok(3)
+      logical :: ok
 
-      do i = 1, 3
-         call get_real(context%deck, line_item(context%deck, line, 3 + i), WHAT, direction(i), ok(i), 0.0_wp, 'DLOAD')
+      call read_direction(line, context, 'gravity', 'DLOAD', direction, ok)
+      if (.not. (ok .and. good)) return
+      call need_density(line, context, elements)
+      do i = 1, size(elements, kind=ip)
+         density = density_of(context%model, elements(i))
+         call add_element_load(context%model%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction)
       end do
-      if (.not. all(ok)) return
-      if (abs(direction(3)) > 0.0_wp) then
-         call report_error(context%deck, line_item(context%deck, line, 6_ip), 'E-VALUE', 'the scene is plane: gz is not 0', &
-                           expected='gz = 0', keyword='DLOAD')
-      else if (.not. maxval(abs(direction)) > 0.0_wp) then
-         call report_error(context%deck, line_item(context%deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', &
-                           'gravity has no direction', expected=WHAT, keyword='DLOAD')
-      else if (good) then
-         direction = direction/maxval(abs(direction))
-         direction = direction/norm2(direction)
-         call need_density(line, context, elements)
-         do i = 1, size(elements, kind=ip)
-            density = density_of(context%model, elements(i))
-            call add_element_load(context%model%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction(:2))
-         end do
-      end if
    end subroutine weigh_elements
 
    pure real(wp) function density_of(model, element) result(density)
@@ -257,17 +230,19 @@ contains
       end do
    end subroutine need_density
 
-   !> Surface, P, pressure.
+   !> Surface, label, magnitude[, direction or levels].
    subroutine read_dsload_line(line, context)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
       type(token_t) :: token
-      real(wp) :: pressure
-      integer(ip) :: i, s
+      character(len=:), allocatable :: label
+      real(wp) :: value(3)
+      integer(ip) :: i, kind, s
       logical :: ok
 
       token = context%deck%tokens(line%first_token)
-      call get_real(context%deck, line_item(context%deck, line, 3_ip), magnitude_of('P'), pressure, ok, keyword='DSLOAD')
+      label = upper_case(token_text(context%deck, line_item(context%deck, line, 2_ip)))
+      call read_face_load(line, context, label, 'DSLOAD', kind, value, ok)
       s = find_name(context%surface_names, token_text(context%deck, token))
       if (s == 0) then
          call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, 'DSLOAD')
@@ -285,8 +260,7 @@ contains
          end if
          if (.not. ok) return
          do i = 1, surface%faces%n
-            call add_element_load(context%model%element_loads, surface%faces%element(i), LOAD_PRESSURE, surface%faces%face(i), &
-                                  [pressure, 0.0_wp])
+            call add_element_load(context%model%element_loads, surface%faces%element(i), kind, surface%faces%face(i), value)
          end do
       end associate
    end subroutine read_dsload_line

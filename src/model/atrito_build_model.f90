@@ -13,6 +13,7 @@ module atrito_build_model
    use atrito_build_supports, only: build_supports
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
+   use atrito_check_contact_sense, only: warn_of_overlap, warn_of_loaded_contact
    use atrito_check_mesh, only: check_mesh
    use atrito_clearance, only: clearance_t, read_clearances, set_clearances
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
@@ -115,6 +116,8 @@ contains
       call set_clearances(clearances, model%mesh%n_nodes, points)
       call move_alloc(points, model%points)
       call check_points_of_pairs(model, context)
+      call warn_of_overlap(model, context)
+      call warn_of_loaded_contact(model, context)
    end subroutine build_once
 
    subroutine take_titles(deck, model)

@@ -37,20 +37,23 @@ contains
    pure subroutine add_element_load(list, element, kind, face, value)
       type(element_load_t), intent(inout) :: list
       integer(ip), intent(in) :: element               !< place
-      integer(ip), intent(in) :: kind                  !< LOAD_PRESSURE or LOAD_BODY
-      integer(ip), intent(in) :: face                  !< LOAD_PRESSURE: 1..4
-      real(wp), intent(in) :: value(2)                 !< pressure, 0 [F/L^2] or force per volume [F/L^3]
+      integer(ip), intent(in) :: kind                  !< LOAD_*
+      integer(ip), intent(in) :: face                  !< 1..4; LOAD_BODY: 0
+      real(wp), intent(in) :: value(:)                 !< as element_load_t has it; what is not given is 0
 
       call make_room(list%element, list%n, list%n + 1)
       call make_room(list%kind, list%n, list%n + 1)
       call make_room(list%face, list%n, list%n + 1)
-      if (.not. allocated(list%value)) allocate (list%value(2, size(list%element)))
+      call make_room(list%line, list%n, list%n + 1)
+      if (.not. allocated(list%value)) allocate (list%value(3, size(list%element)))
       if (list%n == size(list%value, 2)) call resize(list%value, list%n, size(list%element, kind=ip))
       list%n = list%n + 1
       list%element(list%n) = element
       list%kind(list%n) = kind
       list%face(list%n) = face
-      list%value(:, list%n) = value
+      list%line(list%n) = 0
+      list%value(:, list%n) = 0.0_wp
+      list%value(:size(value), list%n) = value
    end subroutine add_element_load
 
    pure subroutine trim_element_loads(list)
@@ -59,7 +62,8 @@ contains
       call resize(list%element, list%n, list%n)
       call resize(list%kind, list%n, list%n)
       call resize(list%face, list%n, list%n)
-      if (.not. allocated(list%value)) allocate (list%value(2, 0))
+      call resize(list%line, list%n, list%n)
+      if (.not. allocated(list%value)) allocate (list%value(3, 0))
       call resize(list%value, list%n, list%n)
    end subroutine trim_element_loads
 

@@ -16,7 +16,7 @@ module atrito_model
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    public :: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
-   public :: LOAD_PRESSURE, LOAD_BODY
+   public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
    character(len=8), parameter :: FORMULATION_NAME(2) = ['STANDARD', 'BBAR    ']
@@ -25,7 +25,7 @@ module atrito_model
    character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
    character(len=8), parameter :: FRICTION_NAME(0:2) = ['none    ', 'LOCAL   ', 'NONLOCAL']
    character(len=6), parameter :: KERNEL_NAME(2) = ['POINTS', 'LINE  ']
-   integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2
+   integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2, LOAD_TRACTION = 3, LOAD_HYDROSTATIC = 4
 
    type :: material_t
       character(len=:), allocatable :: name
@@ -84,9 +84,11 @@ module atrito_model
    type :: element_load_t
       integer(ip) :: n = 0
       integer(ip), allocatable :: element(:)
-      integer(ip), allocatable :: kind(:)           !< LOAD_PRESSURE or LOAD_BODY
-      integer(ip), allocatable :: face(:)           !< LOAD_PRESSURE: 1..4
-      real(wp), allocatable :: value(:, :)          !< (2, n): pressure [F/L^2] in value(1), or force per volume [F/L^3]
+      integer(ip), allocatable :: kind(:)           !< LOAD_*
+      integer(ip), allocatable :: face(:)           !< 1..4; LOAD_BODY: 0
+      integer(ip), allocatable :: line(:)           !< of the deck, that gives it
+      real(wp), allocatable :: value(:, :)          !< (3, n): pressure [F/L^2] in the first; force per volume [F/L^3] or traction
+      !< [F/L^2] in two; LOAD_HYDROSTATIC: pressure at a level x2, the level where it is 0, and that level [F/L^2], [L]
    end type element_load_t
 
    !> Of the outer iteration. A deck gives the first four.

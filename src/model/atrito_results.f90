@@ -6,7 +6,7 @@ module atrito_results
    implicit none (type, external)
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
-   public :: body_motion_t, joint_t
+   public :: body_motion_t, joint_t, extreme_t
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -62,7 +62,9 @@ module atrito_results
       character(len=:), allocatable :: slave, master, interaction
       integer(ip) :: n_points = 0, n_left_out = 0   !< candidate points; slave faces without a master
       logical :: matching = .false., master_is_rigid = .false.
-      real(wp) :: least_gap = 0.0_wp, greatest_gap = 0.0_wp   !< initial [L]
+      real(wp) :: least_gap = 0.0_wp, greatest_gap = 0.0_wp   !< initial [L]; negative: overlap
+      integer(ip) :: least_node = 0, greatest_node = 0        !< of the slave, where: the user's numbers
+      real(wp) :: least_x(2) = 0.0_wp, greatest_x(2) = 0.0_wp !< [L]
    end type pair_scene_t
 
    !> What the scene needs, and what was left out: printed by `check` and in the listing.
@@ -114,6 +116,13 @@ module atrito_results
       real(wp) :: u(2) = 0.0_wp                     !< displacement of the slave at the place [L]
    end type joint_t
 
+   !> The largest of a field, and where.
+   type :: extreme_t
+      real(wp) :: value = 0.0_wp
+      integer(ip) :: id = 0                         !< the user's number of the element or node
+      real(wp) :: x(2) = 0.0_wp                     !< [L]
+   end type extreme_t
+
    type :: results_t
       integer(ip) :: step = 1
       logical :: converged = .false.
@@ -137,6 +146,7 @@ module atrito_results
       real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions
       real(wp) :: equilibrium_residual = 0.0_wp
       real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
+      type(extreme_t) :: large_strain, large_rotation, large_slip  !< where they pass what a linear theory knows; 0: they do not
       type(balance_t) :: balance
       type(body_motion_t), allocatable :: bodies(:) !< when asked for
       type(joint_t), allocatable :: joints(:)       !< by pair, then along s

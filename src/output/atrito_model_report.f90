@@ -4,10 +4,11 @@ module atrito_model_report
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: depth_at
    use atrito_strings, only: to_text
-   use atrito_mesh, only: face_end, side_count
+   use atrito_face_loads, only: traction_load, hydrostatic_load
+   use atrito_mesh, only: face_end, face_nodes, side_count
    use atrito_sets, only: set_count
    use atrito_model, only: model_t, interaction_t, FORMULATION_NAME, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
-                           FRICTION_NONLOCAL, LOAD_PRESSURE, SURFACE_SEGMENTS
+                           FRICTION_NONLOCAL, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
    implicit none (type, external)
    private
@@ -162,7 +163,8 @@ contains
       call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
                     right('moment about 0,0', 18))
       call add_force(page, 'on nodes', concentrated)
-      call add_force(page, 'pressure on faces', pressure)
+      call add_force(page, trim(merge('loads on faces   ', 'pressure on faces', &
+                                     any(model%element_loads%kind == LOAD_TRACTION))), pressure)
       call add_force(page, 'in elements', body)
       call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
                                           concentrated%moment + pressure%moment + body%moment))
@@ -194,11 +196,14 @@ contains
          end do
       end associate
       do i = 1, model%element_loads%n
-         if (model%element_loads%kind(i) == LOAD_PRESSURE) then
+         select case (model%element_loads%kind(i))
+         case (LOAD_PRESSURE)
             call add_pressure(model, i, pressure)
-         else
+         case (LOAD_BODY)
             call add_body_force(model, i, body)
-         end if
+         case default
+            call add_face_load(model, i, pressure)
+         end select
       end do
    end subroutine load_resultants
 
@@ -226,6 +231,31 @@ contains
       call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
    end subroutine add_pressure
 
+   !> A load that is not uniform, or whose length counts: shape functions add up to 1, and times the nodes to the place.
+   pure subroutine add_face_load(model, i, force)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                  !< place in model%element_loads
+      type(force_t), intent(inout) :: force
+      integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: f(:, :)
+      integer(ip) :: e, k
+
+      e = model%element_loads%element(i)
+      nodes = face_nodes(model%mesh, e, model%element_loads%face(i))
+      allocate (f(2, size(nodes)))
+      associate (value => model%element_loads%value(:, i), x => model%mesh%x(:, nodes), &
+                 thickness => model%sections(model%section_of(e))%thickness)
+         if (model%element_loads%kind(i) == LOAD_TRACTION) then
+            call traction_load(x, value(:2), thickness, model%mesh%state(e), f)
+         else
+            call hydrostatic_load(x, value(1), value(2:3), thickness, model%mesh%state(e), f)
+         end if
+         do k = 1, size(nodes, kind=ip)
+            call add_to(force, f(:, k), x(:, k))
+         end do
+      end associate
+   end subroutine add_face_load
+
    pure subroutine add_body_force(model, i, force)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                  !< place in model%element_loads
@@ -241,7 +271,7 @@ contains
             area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
          end associate
          middle = (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp
-         call add_to(force, area*depth_of(model, e, middle(1))*model%element_loads%value(:, i), middle)
+         call add_to(force, area*depth_of(model, e, middle(1))*model%element_loads%value(:2, i), middle)
       end do
    end subroutine add_body_force
 

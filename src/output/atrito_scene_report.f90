@@ -1,6 +1,6 @@
 !> What a scene needs and what it does without, for the listing and for `atrito check`.
 module atrito_scene_report
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
    use atrito_strings, only: to_text
    use atrito_summary, only: body_count
    use atrito_results, only: scene_t, body_result_t, pair_scene_t
@@ -11,6 +11,9 @@ module atrito_scene_report
 
    !> With more bodies or pairs than this the screen shows the first ones only; the listing has all of them.
    integer(ip), parameter :: MOST_ROWS = 20_ip
+
+   !> Gaps that differ by less than this part of the coordinates are the same: that is how far ten printed digits go.
+   real(wp), parameter :: SAME_GAP = 1.0e-9_wp
 
 contains
 
@@ -159,6 +162,31 @@ contains
       end if
       if (pair%n_left_out > 0) text = text//', '//plural(pair%n_left_out, 'slave face', 'slave faces')// &
                                       ' without a master left out'
+      text = text//places_text(pair)
    end function pair_text
+
+   !> Where the gap is least and greatest; a gap that is the same everywhere has no such place.
+   pure function places_text(pair) result(text)
+      type(pair_scene_t), intent(in) :: pair
+      character(len=:), allocatable :: text
+      real(wp) :: size
+
+      text = ''
+      if (pair%least_node == 0) return              ! no points
+      size = max(maxval(abs(pair%least_x)), maxval(abs(pair%greatest_x)))
+      if (pair%greatest_gap - pair%least_gap <= SAME_GAP*size) return
+      text = '; least gap at '//place_text(pair%least_node, pair%least_x)//', greatest at '// &
+             place_text(pair%greatest_node, pair%greatest_x)
+      if (pair%least_gap < 0.0_wp) text = text//'; a negative gap is overlap'
+   end function places_text
+
+   !> `node 12 (0.5, 1)`
+   pure function place_text(node, x) result(text)
+      integer(ip), intent(in) :: node               !< the user's number
+      real(wp), intent(in) :: x(2)                  !< [L]
+      character(len=:), allocatable :: text
+
+      text = 'node '//to_text(node)//' ('//number(x(1), 5)//', '//number(x(2), 5)//')'
+   end function place_text
 
 end module atrito_scene_report

@@ -137,8 +137,20 @@ contains
               quantity_t('equilibrium_residual', '-', results%equilibrium_residual, 0.0_wp), &
               quantity_t('strain_energy', 'F L', results%strain_energy, 0.0_wp), &
               quantity_t('external_work', 'F L', results%external_work, 0.0_wp), &
-              quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp)]
+              quantity_t('error_estimate_percent', '-', results%error_estimate, 0.0_wp), &
+              large_quantities(results)]
    end function step_quantities
+
+   !> What passes the bounds of a linear theory (W-LARGE), and only that.
+   pure function large_quantities(results) result(list)
+      type(results_t), intent(in) :: results
+      type(quantity_t), allocatable :: list(:)
+
+      list = [quantity_t('large_strain', '-', results%large_strain%value, 0.0_wp), &
+              quantity_t('large_rotation', '-', results%large_rotation%value, 0.0_wp), &
+              quantity_t('large_slip', 'L', results%large_slip%value, 0.0_wp)]
+      list = pack(list, list%value > 0.0_wp)
+   end function large_quantities
 
    !> Every quantity that summary.tab can have.
    pure function quantity_names() result(names)

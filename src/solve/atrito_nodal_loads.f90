@@ -3,7 +3,8 @@ module atrito_nodal_loads
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: face_nodes, element_coordinates
    use atrito_element, only: pressure_load, body_load
-   use atrito_model, only: model_t, LOAD_PRESSURE
+   use atrito_face_loads, only: traction_load, hydrostatic_load
+   use atrito_model, only: model_t, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC
    implicit none (type, external)
    private
    public :: nodal_loads
@@ -23,15 +24,15 @@ contains
          end do
       end associate
       do i = 1, model%element_loads%n
-         if (model%element_loads%kind(i) == LOAD_PRESSURE) then
-            call add_pressure(model, i, f)
-         else
+         if (model%element_loads%kind(i) == LOAD_BODY) then
             call add_body_force(model, i, f)
+         else
+            call add_face_load(model, i, f)
          end if
       end do
    end subroutine nodal_loads
 
-   pure subroutine add_pressure(model, i, f)
+   pure subroutine add_face_load(model, i, f)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i
       real(wp), intent(inout) :: f(:, :)
@@ -41,11 +42,20 @@ contains
       associate (loads => model%element_loads)
          nodes = face_nodes(model%mesh, loads%element(i), loads%face(i))
          allocate (fe(2, size(nodes)))
-         call pressure_load(model%mesh%x(:, nodes), loads%value(1, i), thickness_of(model, loads%element(i)), &
-                            model%mesh%state(loads%element(i)), fe)
+         select case (loads%kind(i))
+         case (LOAD_TRACTION)
+            call traction_load(model%mesh%x(:, nodes), loads%value(:2, i), thickness_of(model, loads%element(i)), &
+                               model%mesh%state(loads%element(i)), fe)
+         case (LOAD_HYDROSTATIC)
+            call hydrostatic_load(model%mesh%x(:, nodes), loads%value(1, i), loads%value(2:3, i), &
+                                  thickness_of(model, loads%element(i)), model%mesh%state(loads%element(i)), fe)
+         case default
+            call pressure_load(model%mesh%x(:, nodes), loads%value(1, i), thickness_of(model, loads%element(i)), &
+                               model%mesh%state(loads%element(i)), fe)
+         end select
       end associate
       f(:, nodes) = f(:, nodes) + fe
-   end subroutine add_pressure
+   end subroutine add_face_load
 
    pure subroutine add_body_force(model, i, f)
       type(model_t), intent(in) :: model
@@ -58,7 +68,7 @@ contains
       e = model%element_loads%element(i)
       nodes = model%mesh%nodes(:model%mesh%shape(e), e)
       allocate (fe(2, size(nodes)))
-      call body_load(element_coordinates(model%mesh, e), model%element_loads%value(:, i), thickness_of(model, e), &
+      call body_load(element_coordinates(model%mesh, e), model%element_loads%value(:2, i), thickness_of(model, e), &
                      model%mesh%state(e), fe)
       f(:, nodes) = f(:, nodes) + fe
    end subroutine add_body_force

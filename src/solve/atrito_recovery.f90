@@ -295,9 +295,10 @@ contains
    end subroutine add_element
 
    !> Continuous stresses at the nodes, and the error in the energy norm that they tell. Both want the displacements.
-   subroutine estimate_error(fem, results)
+   subroutine estimate_error(fem, results, strain_bound)
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
+      real(wp), intent(out) :: strain_bound          !< no strain is larger than this
       type(stress_field_t) :: field
       type(energies_t) :: energies
 
@@ -305,6 +306,7 @@ contains
       call nodal_stresses(fem, field, results%nodal_stress)
       call measure_error(fem, results%u, field, energies, unit_of(results%u))   ! the error is relative
       results%error_estimate = relative_error(energies)
+      strain_bound = energies%strain
    end subroutine estimate_error
 
 end module atrito_recovery

@@ -8,7 +8,8 @@ module atrito_scene_survey
    use atrito_memory, only: available_memory, resident_memory
    use atrito_model, only: model_t
    use atrito_profile, only: profile_t
-   use atrito_results, only: scene_t, body_result_t
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: scene_t, body_result_t, pair_scene_t
    use atrito_scene_data, only: scene_data_t
    use atrito_scene_forecast, only: forecast_memory, share_of
    use atrito_scene_memory, only: check_memory
@@ -124,11 +125,27 @@ contains
             pair%n_left_out = points%n_left_out
             pair%matching = points%matching
             pair%master_is_rigid = points%rigid
-            if (points%n > 0) pair%least_gap = minval(points%gap)
-            if (points%n > 0) pair%greatest_gap = maxval(points%gap)
+            if (points%n > 0) call find_gaps(data%model%mesh%node_id, points, pair)
          end associate
       end do
    end subroutine describe_pairs
+
+   !> The least and the greatest initial gap, and where.
+   pure subroutine find_gaps(node_id, points, pair)
+      integer(ip), intent(in) :: node_id(:)                 !< the user's numbers of the nodes
+      type(contact_points_t), intent(in) :: points          !< one or more
+      type(pair_scene_t), intent(inout) :: pair
+      integer(ip) :: least, greatest
+
+      least = minloc(points%gap, 1, kind=ip)
+      greatest = maxloc(points%gap, 1, kind=ip)
+      pair%least_gap = points%gap(least)
+      pair%greatest_gap = points%gap(greatest)
+      pair%least_node = node_id(points%node(least))
+      pair%greatest_node = node_id(points%node(greatest))
+      pair%least_x = points%x(:, least)
+      pair%greatest_x = points%x(:, greatest)
+   end subroutine find_gaps
 
    !> What the scene does not need, in sentences.
    subroutine list_left_out(data, scene)

@@ -15,6 +15,7 @@ module atrito_solve
    use atrito_friction_law, only: FRICTION_NONE
    use atrito_joint_sums, only: sum_joints
    use atrito_kinds, only: ip, wp
+   use atrito_linear_limits, only: find_large, warn_of_large
    use atrito_messages, only: add_note, add_warning
    use atrito_model, only: controls_t, model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_outer_loop, only: FREE_MOTION
@@ -179,6 +180,7 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
+      real(wp) :: strain_bound
 
       if (form == CONTACT_SPARSE) then
          call solve_sparse_form(data, controls, results, solution, u, status)
@@ -193,7 +195,8 @@ contains
       call recover(data, solution, u, results)
       call stop_phase('recover')
       call start_phase('estimate')
-      call estimate_error(data%fem, results)
+      call estimate_error(data%fem, results, strain_bound)
+      call find_large(data%model, data%fem, strain_bound, results)
       call stop_phase('estimate')
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
@@ -411,6 +414,7 @@ contains
                                                                  //' that are almost one')
       call note_shared_points(data%fem%mesh, data%rows, data%line, solution)
       call warn_of_others(data%model, results)
+      call warn_of_large(results)
    end subroutine warn
 
    !> Whether there may be other solutions.

@@ -1,0 +1,184 @@
+!> Where a displacement field is larger than a linear theory knows: strains and rotations at the points of the elements where they
+!> are most accurate (four nodes: the middle; more: 2 x 2 Gauss points).
+!>
+!> What is small everywhere is found small by much less than that: strains by a bound that the error estimate has at hand, rotations
+!> by the diagonals of the elements.
+module atrito_large_deformation
+   use atrito_assembly, only: fem_t
+   use atrito_element_table, only: SHAPES, DEGREE_OF, MOST_NODES
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, make_point_rules, fetch_geometry
+   use atrito_threads, only: is_shared
+   implicit none (type, external)
+   private
+   public :: deformation_t, may_rotate, measure_deformation
+
+   !> The largest strain and rotation, and where.
+   type :: deformation_t
+      real(wp) :: strain = 0.0_wp                  !< largest absolute principal strain in the plane
+      real(wp) :: rotation = 0.0_wp                !< largest |du2/dx1 - du1/dx2|/2 [rad]
+      integer(ip) :: strain_element = 0, rotation_element = 0
+      real(wp) :: strain_x(2) = 0.0_wp, rotation_x(2) = 0.0_wp !< [L]
+   end type deformation_t
+
+   !> By itself: of an element, SHAPES(shape)%n_corners would copy the row.
+   integer(ip), parameter :: CORNERS_OF(MOST_NODES) = SHAPES%n_corners
+
+contains
+
+   !> Whether a point may rotate by more than a bound. The gradient that maps the diagonals d, e of the corners to how their ends
+   !> move apart, a and b, rotates by (a.e - b.d)/2(d x e), four nodes in their middle exactly so. With more nodes a side whose
+   !> middle leaves the chord by m rotates at its ends by 4 |m| over its length besides.
+   logical function may_rotate(mesh, u, bound)
+      type(mesh_t), intent(in) :: mesh
+      real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
+      real(wp), intent(in) :: bound                !< [rad]
+      integer(ip) :: e
+
+      may_rotate = .false.
+      !$omp parallel do reduction(.or.:may_rotate) if (is_shared(mesh%n_elements))
+      do e = 1, mesh%n_elements
+         may_rotate = may_rotate .or. rotates(mesh%nodes(:, e), mesh%shape(e), mesh%x, u, bound)
+      end do
+      !$omp end parallel do
+   end function may_rotate
+
+   pure logical function rotates(nodes, shape, x, u, bound)
+      integer(ip), intent(in) :: nodes(:), shape
+      real(wp), intent(in) :: x(:, :), u(:, :), bound
+      integer(ip) :: from(2), to(2)
+      real(wp), dimension(2) :: a, b, d, e
+      real(wp) :: least
+
+      from = nodes([1, 2])
+      to = nodes([3, 4])
+      if (CORNERS_OF(shape) == 3) then       ! two sides in place of the diagonals
+         from = nodes([1, 1])
+         to = nodes([2, 3])
+      end if
+      a = u(:, to(1)) - u(:, from(1))
+      b = u(:, to(2)) - u(:, from(2))
+      d = x(:, to(1)) - x(:, from(1))
+      e = x(:, to(2)) - x(:, from(2))
+      least = bound
+      if (DEGREE_OF(shape) > 1) least = bound - bending(nodes, CORNERS_OF(shape), x, u)
+      rotates = abs(a(1)*e(1) + a(2)*e(2) - b(1)*d(1) - b(2)*d(2)) > 2*least*(d(1)*e(2) - d(2)*e(1))
+   end function rotates
+
+   !> By how much the ends of sides with a node in their middle rotate against the chord, at the most [rad].
+   pure real(wp) function bending(nodes, n_corners, x, u)
+      integer(ip), intent(in) :: nodes(:), n_corners
+      real(wp), intent(in) :: x(:, :), u(:, :)
+      real(wp) :: sag(2), chord(2)
+      integer(ip) :: k, next
+
+      bending = 0.0_wp
+      do k = 1, n_corners
+         next = nodes(merge(1_ip, k + 1, k == n_corners))
+         sag = u(:, nodes(n_corners + k)) - 0.5_wp*(u(:, nodes(k)) + u(:, next))
+         chord = x(:, next) - x(:, nodes(k))
+         bending = max(bending, 4*(abs(sag(1)) + abs(sag(2)))/max(abs(chord(1)), abs(chord(2))))
+      end do
+   end function bending
+
+   !> The largest strain and rotation at the best points, of all elements or of those that may rotate by more than a bound.
+   subroutine measure_deformation(fem, u, whole, bound, largest)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
+      logical, intent(in) :: whole                 !< all elements
+      real(wp), intent(in) :: bound                !< else those that may rotate by more [rad]
+      type(deformation_t), intent(out) :: largest
+      type(point_rule_t) :: rules(MOST_NODES)
+      type(point_geometry_t) :: geometry
+      integer(ip) :: e
+
+      call make_point_rules(rules, best=.true.)
+      do e = 1, fem%mesh%n_elements
+         if (.not. whole) then
+            if (.not. rotates(fem%mesh%nodes(:, e), fem%mesh%shape(e), fem%mesh%x, u, bound)) cycle
+         end if
+         if (DEGREE_OF(fem%mesh%shape(e)) == 1) then
+            call measure_middle(fem%mesh, u, e, CORNERS_OF(fem%mesh%shape(e)), largest)
+         else
+            call fetch_geometry(fem, e, rules(fem%mesh%shape(e)), geometry)
+            call measure_points(fem%mesh, u, e, rules(fem%mesh%shape(e))%n, geometry, largest)
+         end if
+      end do
+   end subroutine measure_deformation
+
+   !> The middle of an element whose nodes are its corners.
+   pure subroutine measure_middle(mesh, u, e, n_corners, largest)
+      type(mesh_t), intent(in) :: mesh
+      real(wp), intent(in) :: u(:, :)
+      integer(ip), intent(in) :: e, n_corners
+      type(deformation_t), intent(inout) :: largest
+      integer(ip) :: i1, i2, i3, i4
+      real(wp) :: a1, a2, b1, b2, d1, d2, e1, e2, per, h(2, 2), x(2)
+
+      i1 = mesh%nodes(1, e)
+      i2 = merge(mesh%nodes(2, e), i1, n_corners == 4)  ! of three nodes two sides in place of the diagonals
+      i3 = mesh%nodes(n_corners - 1, e)
+      i4 = mesh%nodes(n_corners, e)
+      a1 = u(1, i3) - u(1, i1)
+      a2 = u(2, i3) - u(2, i1)
+      b1 = u(1, i4) - u(1, i2)
+      b2 = u(2, i4) - u(2, i2)
+      d1 = mesh%x(1, i3) - mesh%x(1, i1)
+      d2 = mesh%x(2, i3) - mesh%x(2, i1)
+      e1 = mesh%x(1, i4) - mesh%x(1, i2)
+      e2 = mesh%x(2, i4) - mesh%x(2, i2)
+      per = 1/(d1*e2 - d2*e1)
+      h(1, 1) = (a1*e2 - b1*d2)*per
+      h(2, 1) = (a2*e2 - b2*d2)*per
+      h(1, 2) = (b1*d1 - a1*e1)*per
+      h(2, 2) = (b2*d1 - a2*e1)*per
+      x = 0.25_wp*(mesh%x(:, i1) + mesh%x(:, i2) + mesh%x(:, i3) + mesh%x(:, i4))
+      if (n_corners == 3) x = (mesh%x(:, i1) + mesh%x(:, i3) + mesh%x(:, i4))/3
+      call note_gradient(h, e, x, largest)
+   end subroutine measure_middle
+
+   pure subroutine measure_points(mesh, u, e, n, geometry, largest)
+      type(mesh_t), intent(in) :: mesh
+      real(wp), intent(in) :: u(:, :)
+      integer(ip), intent(in) :: e, n              !< n: points
+      type(point_geometry_t), intent(in) :: geometry
+      type(deformation_t), intent(inout) :: largest
+      real(wp) :: h(2, 2), way(2)
+      integer(ip) :: i, k, first
+
+      first = mesh%nodes(1, e)
+      do i = 1, n
+         h = 0.0_wp
+         do k = 2, geometry%shape
+            way = u(:, mesh%nodes(k, e)) - u(:, first)
+            h(:, 1) = h(:, 1) + way*geometry%gradient(i, 1, k)
+            h(:, 2) = h(:, 2) + way*geometry%gradient(i, 2, k)
+         end do
+         call note_gradient(h, e, mesh%x(:, first) + geometry%place(i, :), largest)
+      end do
+   end subroutine measure_points
+
+   !> Strain and rotation of a gradient h(i, j) = du_i/dx_j.
+   pure subroutine note_gradient(h, e, x, largest)
+      real(wp), intent(in) :: h(2, 2)
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: x(2)                 !< [L]
+      type(deformation_t), intent(inout) :: largest
+      real(wp) :: strain, rotation
+
+      strain = 0.5_wp*(abs(h(1, 1) + h(2, 2)) + sqrt((h(1, 1) - h(2, 2))**2 + (h(1, 2) + h(2, 1))**2))
+      rotation = 0.5_wp*abs(h(2, 1) - h(1, 2))
+      if (strain > largest%strain) then
+         largest%strain = strain
+         largest%strain_element = e
+         largest%strain_x = x
+      end if
+      if (rotation > largest%rotation) then
+         largest%rotation = rotation
+         largest%rotation_element = e
+         largest%rotation_x = x
+      end if
+   end subroutine note_gradient
+
+end module atrito_large_deformation

@@ -1,0 +1,146 @@
+!> What a line of *DLOAD or *DSLOAD says of a load on faces: pressure, traction along a direction, hydrostatic pressure.
+module atrito_read_face_load
+   use atrito_deck, only: data_line_t, line_item
+   use atrito_diagnostics, only: report_error
+   use atrito_build_context, only: build_context_t
+   use atrito_items, only: get_real
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: LOAD_PRESSURE, LOAD_TRACTION, LOAD_HYDROSTATIC
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_face_load, read_direction, has_no_rest, magnitude_of
+
+   character(len=*), parameter :: LEVEL = 'level x2 of zero pressure, a real [L]'
+   character(len=*), parameter :: LEVEL_OF_MAGNITUDE = 'another level x2, of the magnitude, a real [L]'
+
+contains
+
+   !> The kind and the values of a load on faces from the third item on: P magnitude; TRVEC magnitude, t1, t2[, 0]; HP magnitude,
+   !> level of zero pressure, level of the magnitude.
+   subroutine read_face_load(line, context, label, keyword, kind, value, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: label            !< P, TRVEC or HP, of *DLOAD with a digit behind
+      character(len=*), intent(in) :: keyword
+      integer(ip), intent(out) :: kind
+      real(wp), intent(out) :: value(3)                !< as element_load_t has it
+      logical, intent(out) :: ok
+      real(wp) :: magnitude, direction(2)
+      logical :: good(3)
+
+      value = 0.0_wp
+      call get_real(context%deck, line_item(context%deck, line, 3_ip), magnitude_of(label), magnitude, good(1), keyword=keyword)
+      good(2) = has_no_rest(line, context, label, keyword)
+      good(3) = .true.
+      select case (label(1:1))
+      case ('T')
+         kind = LOAD_TRACTION
+         call read_direction(line, context, 'traction', keyword, direction, good(3))
+         if (good(3)) value(:2) = magnitude*direction
+      case ('H')
+         kind = LOAD_HYDROSTATIC
+         value(1) = magnitude
+         if (good(2)) call read_levels(line, context, keyword, value(2:), good(3))
+      case default
+         kind = LOAD_PRESSURE
+         value(1) = magnitude
+      end select
+      ok = all(good)
+   end subroutine read_face_load
+
+   !> How many items a load has: 1,5 is no pressure of 1.5.
+   logical function has_no_rest(line, context, label, keyword)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: label, keyword
+      integer(ip) :: most
+      character(len=:), allocatable :: rest
+
+      most = 3
+      rest = ''
+      if (label(1:1) == 'H') then
+         most = 5
+         rest = ', level of zero pressure, level of the magnitude [L]'
+      else if (label(1:1) == 'T' .or. label(1:1) == 'G') then
+         most = 6
+      end if
+      has_no_rest = line%n_tokens <= most
+      if (has_no_rest) return
+      call report_error(context%deck, line_item(context%deck, line, most + 1), 'E-ITEMS', to_text(line%n_tokens) &
+                        //' items, where '//to_text(most)//' belong', expected=trim(merge('surface', 'element', &
+                        keyword == 'DSLOAD'))//', '//label//', '//magnitude_of(label)//rest, keyword=keyword)
+   end function has_no_rest
+
+   pure function magnitude_of(label) result(what)
+      character(len=*), intent(in) :: label
+      character(len=:), allocatable :: what
+
+      select case (label(1:1))
+      case ('P')
+         what = 'pressure, positive pushes on the element, a real [F/L^2]'
+      case ('T')
+         what = 'traction, a real [F/L^2]'
+      case ('H')
+         what = 'pressure at the second level, a real [F/L^2]'
+      case ('B')
+         what = 'force per volume, a real [F/L^3]'
+      case default
+         what = 'acceleration, a real [L/T^2]'
+      end select
+   end function magnitude_of
+
+   !> The unit vector of items 4 to 6, of any length.
+   subroutine read_direction(line, context, what, keyword, direction, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: what             !< has the direction
+      character(len=*), intent(in) :: keyword
+      real(wp), intent(out) :: direction(2)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: wanted
+      real(wp) :: d(3)
+      integer(ip) :: i
+      logical :: good(3)
+
+      direction = 0.0_wp
+      wanted = 'direction of '//what//', two components, not both 0 [-]'
+      if (what == 'gravity') wanted = 'direction of gravity, gx, gy, not both 0 [-]'
+      do i = 1, 3
+         call get_real(context%deck, line_item(context%deck, line, 3 + i), wanted, d(i), good(i), 0.0_wp, keyword)
+      end do
+      ok = all(good)
+      if (.not. ok) return
+      ok = .not. abs(d(3)) > 0.0_wp .and. maxval(abs(d)) > 0.0_wp
+      if (abs(d(3)) > 0.0_wp) then
+         call report_error(context%deck, line_item(context%deck, line, 6_ip), 'E-VALUE', 'the scene is plane: ' &
+                           //trim(merge('gz                 ', 'the third component', what == 'gravity'))//' is not 0', &
+                           expected=trim(merge('gz = 0', '0     ', what == 'gravity')), keyword=keyword)
+      else if (.not. ok) then
+         call report_error(context%deck, line_item(context%deck, line, min(4_ip, line%n_tokens + 1)), 'E-VALUE', &
+                           what//' has no direction', expected=wanted, keyword=keyword)
+      else
+         d = d/maxval(abs(d))
+         direction = d(:2)/norm2(d(:2))
+      end if
+   end subroutine read_direction
+
+   !> Items 4 and 5: where the pressure is 0, and where it is the magnitude.
+   subroutine read_levels(line, context, keyword, levels, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: keyword
+      real(wp), intent(out) :: levels(2)
+      logical, intent(out) :: ok
+      logical :: good(2)
+
+      call get_real(context%deck, line_item(context%deck, line, 4_ip), LEVEL, levels(1), good(1), keyword=keyword)
+      call get_real(context%deck, line_item(context%deck, line, 5_ip), LEVEL_OF_MAGNITUDE, levels(2), good(2), keyword=keyword)
+      ok = all(good)
+      if (.not. ok) return
+      ok = abs(levels(1) - levels(2)) > 0.0_wp
+      if (.not. ok) call report_error(context%deck, line_item(context%deck, line, 5_ip), 'E-VALUE', &
+                                      'the pressure is zero at this level', expected=LEVEL_OF_MAGNITUDE, keyword=keyword)
+   end subroutine read_levels
+
+end module atrito_read_face_load

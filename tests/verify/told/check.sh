@@ -1,0 +1,68 @@
+. "$(dirname "$0")/../lib.sh"
+cp "$here"/*.inp .
+# told NAME DECK QUANTITY VALUE OPTIONS: W-LARGE with its number, on the screen, in the listing and in summary.tab.
+told() {
+   name=$1 deck=$2 quantity=$3 value=$4
+   shift 4
+   run 0 "$deck" "$name" "$@"
+   says "$name" "$name.err" 'W-LARGE'
+   says "$name: screen" "$name.out" 'W-LARGE'
+   says "$name: listing" "$name"/*.lst 'W-LARGE'
+   near "$name" "$(summary "$name" "large_$quantity")" "$value" 1e-8
+   [ "$(grep -c '^[^#]* large_' "$name/summary.tab")" -eq 1 ] || complain "$name: something else is large, too"
+}
+# silent NAME DECK OPTIONS: no warning at all.
+silent() {
+   name=$1 deck=$2
+   shift 2
+   run 0 "$deck" "$name" "$@"
+   ! grep -q warning "$name.err" || complain "$name: a warning"
+   ! grep -q 'W-LARGE' "$name.out" || complain "$name: on the screen"
+   ! grep -q ' large_' "$name/summary.tab" || complain "$name: in the summary"
+}
+
+# The largest strain is that of the uniform compression, p/E.
+silent strain-below scene.inp --set p=49.9
+told strain scene.inp strain 0.0501 --set p=50.1
+# A soft block sinks by eleven of its heights.
+told sinks scene.inp strain 11 --set E=1 --set p=11
+
+silent turn-below turned.inp --set w=0.0999
+told turn turned.inp rotation 0.1001 --set w=0.1001
+sed 's/TYPE=CPE4/TYPE=CPE9/' turned.inp >turned-q2.inp
+silent turn-q2-below turned-q2.inp --set w=-0.0999
+told turn-q2 turned-q2.inp rotation 0.1001 --set w=-0.1001
+
+silent slip-below scene.inp --set drag=0.0499
+told slip scene.inp slip 0.0501 --set drag=0.0501
+# Forty faces a side: one of them is 0.025 long.
+sed 's/NX=4/NX=40/' scene.inp >fine.inp
+silent face-below fine.inp --set drag=-0.0249
+told face fine.inp slip 0.0251 --set drag=-0.0251
+
+# Rounding of printed coordinates is no overlap. The warning comes before anything is solved.
+silent rounding scene.inp --set gap=-1e-8
+run 0 scene.inp overlap --set gap=-1e-6
+says overlap overlap.err 'W-OVERLAP'
+says overlap overlap.err 'by 1e-6 [L] at node'
+says overlap overlap/scene.lst 'W-OVERLAP'
+"$atrito" check scene.inp --set gap=-0.125 --set tilt=0.25 >check.out 2>check.err || complain 'check: the exit code'
+says 'check: the overlap' check.err 'UPPER-BOTTOM and LOWER-TOP overlap before any load, by 0.08'
+says 'check: the least gap' check.out 'least gap at node 17 (0.1796,'
+says 'check: the greatest gap' check.out 'greatest at node 19 (0.8204, 1.0801); a negative gap is overlap'
+
+# Loads on faces that touch, of the slave and of the master; one beside them is none.
+for side in UPPER-BOTTOM LOWER-TOP; do
+   sed "s/^UPPER-TOP, P.*/$side, P, <p>/" scene.inp >loaded.inp
+   "$atrito" check loaded.inp >loaded.out 2>loaded.err || complain "$side: the exit code"
+   says "$side" loaded.err 'W-LOADED-CONTACT'
+   says "$side" loaded.err "$side, P, <p>"
+   says "$side" loaded.err 'UPPER-BOTTOM / LOWER-TOP'
+done
+# The master is twice as long as what lies on it; faces of it are loaded within and beyond.
+sed '14,15s/^1,/2,/; s/^\*DSLOAD/*DLOAD/; s/^UPPER-TOP, P.*/5, P3, <p>|8, P3, <p>/' scene.inp | tr '|' '\n' >beside.inp
+"$atrito" check beside.inp >beside.out 2>beside.err || complain 'beside: the exit code'
+says 'beside' beside.err 'W-LOADED-CONTACT'
+says 'beside' beside.err 'at element 5:'
+[ "$(grep -c 'W-LOADED' beside.err)" -eq 1 ] || complain 'beside: the face that nothing touches, too'
+finish
