@@ -5,7 +5,7 @@
 !> atrito_shape_functions.
 module atrito_element_table
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, FORMULATION_BBAR
+   use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, FORMULATION_BBAR
    implicit none (type, external)
    private
    public :: element_shape_t, element_kind_t, SHAPES, KINDS
@@ -46,10 +46,13 @@ module atrito_element_table
    !> Columns by themselves: of all elements of a mesh, SHAPES(shape)%degree would copy the rows.
    integer(ip), parameter :: DEGREE_OF(MOST_NODES) = SHAPES%degree, BEST_OF(MOST_NODES) = SHAPES%n_best
 
-   type(element_kind_t), parameter :: KINDS(6) = &
+   type(element_kind_t), parameter :: KINDS(9) = &
                                       [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
                                        element_kind_t('CPE8', 8, PLANE_STRAIN), element_kind_t('CPS8', 8, PLANE_STRESS), &
-                                   element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), element_kind_t('CPS9', 9, PLANE_STRESS, .true.)]
+                                       element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), &
+                                       element_kind_t('CPS9', 9, PLANE_STRESS, .true.), &
+                                       element_kind_t('CAX4', 4, AXISYMMETRIC), element_kind_t('CAX8', 8, AXISYMMETRIC), &
+                                       element_kind_t('CAX9', 9, AXISYMMETRIC, .true.)]
 
 contains
 

@@ -1,5 +1,6 @@
 !> The deck's meaning: all cards to one model.
 module atrito_build_model
+   use atrito_axis, only: hold_axis, check_axis
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
@@ -92,9 +93,11 @@ contains
       call build_contact(context)
       call read_contact_rules(context, rules)
       call build_supports(context)
+      call hold_axis(context)
       call build_loads(context)
       call build_requests(context)
       call check_mesh(model, context)
+      call check_axis(model, context)
       call order_slaves(model, chains)
       call check_surfaces_of_pairs(model, context, chains)
       if (has_errors()) return
