@@ -16,9 +16,9 @@ module atrito_mortar_points
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, smooth_normal
-   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_mesh, only: mesh_t, face_nodes, is_revolved
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, take_face, place_on_face, direction_at
-   use atrito_plane_state, only: depth_at, STATES
+   use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
@@ -358,9 +358,7 @@ contains
       integer(ip), allocatable :: first_own(:), first_other(:), of_own(:), of_other(:)
       real(wp) :: round_off
       integer(ip) :: j
-      logical :: is_revolved
 
-      is_revolved = STATES(mesh%state(1))%has_hoop  ! all elements or none
       deallocate (points%entry, points%coefficient)
       allocate (points%entry(own%n + others%n), points%coefficient(own%n + others%n))
       call list_holders(points%n, reshape(own%point(:own%n), [1_ip, own%n]), first_own, of_own)
@@ -374,7 +372,7 @@ contains
          if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
          points%first(j + 1) = points%first(j)
          call gather(own, of_own(first_own(j):first_own(j + 1) - 1), j, points)
-         if (.not. is_revolved) call place_force(mesh, j, points)
+         if (.not. is_revolved(mesh)) call place_force(mesh, j, points)
          call gather(others, of_other(first_other(j):first_other(j + 1) - 1), j, points)
       end do
       call trim_points(points)

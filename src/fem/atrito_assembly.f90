@@ -117,6 +117,7 @@ contains
       integer(ip) :: i
 
       store%n = size(elements, kind=ip)
+      if (store%n > 0) store%translates = STATES(fem%mesh%state(elements(1)))%moves(:2)
       allocate (store%start(store%n + 1), store%matrix_of(store%n))
       store%start(1) = 0
       do i = 1, store%n

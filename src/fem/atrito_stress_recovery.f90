@@ -8,11 +8,11 @@ module atrito_stress_recovery
    use atrito_assembly, only: fem_t
    use atrito_element_table, only: SHAPES, BEST_OF, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t, side_count
+   use atrito_mesh, only: mesh_t, side_count, is_revolved
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
-   use atrito_plane_state, only: stress_33, von_mises, COMPONENTS, STRESS_NAMES, STATES
+   use atrito_plane_state, only: stress_33, von_mises, COMPONENTS, STRESS_NAMES
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
@@ -61,7 +61,7 @@ contains
       field%n = work%patches%n
       allocate (field%stress(COMPONENTS, field%n), work%polynomial(field%n))
       call fit_stresses(fem, u, work, field%stress)
-      if (any(STATES(fem%mesh%state(:min(fem%mesh%n_elements, 1_ip)))%has_hoop)) then ! all elements or none
+      if (is_revolved(fem%mesh)) then
          work%of_hoop = .true.
          call sample_stresses(fem, u, work)
          allocate (hoop(COMPONENTS, field%n))

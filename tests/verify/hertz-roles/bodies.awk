@@ -3,7 +3,8 @@
 #    awk -v type=CPE4 -v n=32 -v m=32 -v radius=0 -v slave=A -v load=3.9 -f bodies.awk
 #
 # A stands above, its lower side a circle of radius 10 up to x = 3, then straight; B lies below, its upper side straight (radius 0),
-# a circle of that radius, or hollow (radius < 0). n and m elements to x = 1, growing by 1.15 beyond. load: on the whole width [F/L].
+# a circle of that radius, hollow (radius < 0), or a rigid line (rigid=1). n and m elements to x = 1, growing by 1.15 beyond. load: on the whole width [F/L];
+# of axisymmetric elements, pressure on A times 20..
 function side(x, r,    s, q) {
    if (r == 0) return 0
    s = r > 0 ? 1 : -1
@@ -41,7 +42,8 @@ function make_body(name, r, sign, elements,    nx, ny, i, j, q, c, b, a, surface
       b = sign > 0 ? c : c + q*nx                  # the side that comes first, counter-clockwise in the plane
       a = sign > 0 ? c + q*nx : c
       printf "%d, %d, %d, %d, %d", ++cells, b, b + q, a + q, a
-      if (middle) printf ", %d, %d, %d, %d, %d", b + 1, c + nx + 2, a + 1, c + nx, c + nx + 1
+      if (middle) printf ", %d, %d, %d, %d", b + 1, c + nx + 2, a + 1, c + nx
+      if (type ~ /9/) printf ", %d", c + nx + 1
       printf "\n"
       if (j == 1) surface = surface cells ", " (sign > 0 ? "S1" : "S3") "\n"
       if (j + q == ny) far = far cells ", " (sign > 0 ? "S3" : "S1") "\n"
@@ -54,12 +56,15 @@ function make_body(name, r, sign, elements,    nx, ny, i, j, q, c, b, a, surface
    nodes += nx*ny
 }
 BEGIN {
-   middle = type ~ /9/
+   middle = type ~ /[89]/
    print "*HEADING\ntwo bodies that touch in a point"
    make_body("A", 10, 1, n)
-   make_body("B", radius, -1, m)
+   if (rigid) print "*SURFACE, NAME=B-FACE, TYPE=SEGMENTS\nSTART, -1, 0\nLINE, 11, 0\n*RIGID BODY, ANALYTICAL SURFACE=B-FACE"
+   else make_body("B", radius, -1, m)
    print "*MATERIAL, NAME=M\n*ELASTIC\n1000, 0.3\n*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I" quadrature
    print slave == "A" ? "A-FACE, B-FACE" : "B-FACE, A-FACE"
-   print "*STEP\n*STATIC\n*BOUNDARY\nB-BASE, 2, 2\nA-AXIS, 1, 1\nB-AXIS, 1, 1\n*DSLOAD"
+   print "*STEP\n*STATIC\n*BOUNDARY\nA-AXIS, 1, 1"
+   if (!rigid) print "B-BASE, 2, 2\nB-AXIS, 1, 1"
+   print "*DSLOAD"
    printf "A-FAR, P, %.17g\n*CONTACT PRINT\n*END STEP\n", load/20
 }
