@@ -91,17 +91,20 @@ S
 *CONTACT PRINT
 *END STEP"
 }
-# one pressure everywhere: stresses, pressures, and the force p pi R^2 on the support
+# One pressure everywhere: stresses, pressures, and the force p pi R^2 on the support. The sparse form stops when forces change by
+# 1e-10 of the largest, which a small weight at the axis makes more of as a pressure.
 pressed() {
+   within=1e-10
+   [ -n "$7" ] && within=1e-8
    patch "$1" "$2" "$3" "$4" "$5" "$6" >pressed.inp
    run 0 pressed.inp pressed --digits 17 --quiet $7
    what="$1 from $2, $3 on 3, slave $4, $5, $(echo "$6" | head -1) $7"
    area=$(value "atan2(0, -1)*(4 - $2*$2)")
-   all_near "$what: s22" pressed/stress.tab s22 -10 1e-10
-   for name in s11 s33 s12; do all_near "$what: $name" pressed/stress.tab $name 0 1e-10; done
-   all_near "$what: pressure" pressed/contact.tab pressure 10 1e-10
-   near "$what: normal resultant" "$(summary pressed normal_resultant)" "$(value "10*$area")" 1e-11
-   near "$what: reactions" "$(column pressed/reactions.tab r2 | awk '{ s += $1 } END { printf "%.17g", s }')" "$(value "10*$area")" 1e-10
+   all_near "$what: s22" pressed/stress.tab s22 -10 $within
+   for name in s11 s33 s12; do all_near "$what: $name" pressed/stress.tab $name 0 $within; done
+   all_near "$what: pressure" pressed/contact.tab pressure 10 $within
+   near "$what: normal resultant" "$(summary pressed normal_resultant)" "$(value "10*$area")" $within
+   near "$what: reactions" "$(column pressed/reactions.tab r2 | awk '{ s += $1 } END { printf "%.17g", s }')" "$(value "10*$area")" $within
 }
 for type in CAX4 CAX8 CAX9; do
    for inner in 0 1; do
@@ -114,7 +117,7 @@ for type in CAX4 CAX8 CAX9; do
    done
    pressed $type 0 3 up NODAL "PENALTY
 1e-5" '--contact sparse'
-   pressed $type 0 7 up MORTAR HARD '--contact sparse'
+   pressed $type 0 7 low MORTAR HARD '--contact sparse'
 done
 
 # press TYPE N SLAVE QUADRATURE: a ring from 1 to 1.5 and another from 1.5 - d to 2 around it, held along the axis; closed form of
