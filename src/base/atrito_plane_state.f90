@@ -1,12 +1,14 @@
 !> The plane states, which all rooms ask: stresses and elasticity, what a point weighs, how a body moves without strain.
 !>
-!> Strains are e11, e22, 2 e12, of linear isotropic elasticity. A new state is a row of STATES and a branch in the procedures below;
-!> the strains of the shape functions are in strain_points (atrito_point_stress) and integrate_products (atrito_element).
+!> Strains are e11, e22, 2 e12, of linear isotropic elasticity; axisymmetric states have the hoop strain u1/x1 besides, whose stress
+!> goes by itself (atrito_axisymmetric), so that plane states pay nothing for it. A new state is a row of STATES and a branch in the
+!> procedures below; the strains of the shape functions are in strain_points (atrito_point_stress) and integrate_products
+!> (atrito_element).
 module atrito_plane_state
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, COMPONENTS, STRESS_NAMES
+   public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, COMPONENTS, STRESS_NAMES
    public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, depth_at
    public :: FORMULATION_STANDARD, FORMULATION_BBAR
 
@@ -16,11 +18,16 @@ module atrito_plane_state
       logical :: is_thin = .false.               !< no stress across the plane; else no strain
       real(wp) :: depth(2) = [1.0_wp, 0.0_wp]    !< over the thickness at x1: depth(1) + depth(2) x1 [-, 1/L]
       logical :: moves(3) = .true.               !< rigid motions: translations along 1 and 2, rotation
+      logical :: has_hoop = .false.              !< axisymmetric: x1 is a radius, u1/x1 a strain, s33 its stress
    end type plane_state_t
 
-   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2
-   type(plane_state_t), parameter :: STATES(2) = [plane_state_t('CPE', 'plane strain', .false.), &
-                                                  plane_state_t('CPS', 'plane stress', .true.)]
+   real(wp), parameter :: CIRCLE = 8*atan(1.0_wp)    !< the whole of it
+
+   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2, AXISYMMETRIC = 3
+   type(plane_state_t), parameter :: STATES(3) = [plane_state_t('CPE', 'plane strain', .false.), &
+                                                  plane_state_t('CPS', 'plane stress', .true.), &
+                                                  plane_state_t('CAX', 'axisymmetric', .false., [0.0_wp, CIRCLE], &
+                                                                [.false., .true., .false.], .true.)]
 
    integer(ip), parameter :: COMPONENTS = 3      !< of the stresses that work on strains: s11, s22, s12
    character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises'] !< in tables and fields
@@ -48,7 +55,7 @@ contains
       depth_at = thickness*(STATES(state)%depth(1) + STATES(state)%depth(2)*x1)
    end function depth_at
 
-   !> Stress = matrix * strain for s11, s22, s12 [F/L^2].
+   !> Stress = matrix * strain for s11, s22, s12 [F/L^2], without what a hoop strain adds.
    pure function elasticity_matrix(section, state) result(d)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state     !< place in STATES
@@ -70,7 +77,8 @@ contains
       d(3, 3) = shear
    end function elasticity_matrix
 
-   !> The inverse of the elasticity matrix [L^2/F]; it stays finite at Poisson's ratio 1/2.
+   !> The inverse of the elasticity matrix [L^2/F]; it stays finite at Poisson's ratio 1/2. Where s33 is a stress of its own it is
+   !> what s11, s22, s12 alone strain, as in plane stress.
    pure function compliance_matrix(section, state) result(c)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state     !< place in STATES
@@ -78,7 +86,7 @@ contains
 
       c = 0.0_wp
       associate (young => section%young, mu => section%poisson)
-         if (STATES(state)%is_thin) then
+         if (STATES(state)%is_thin .or. STATES(state)%has_hoop) then
             c(1, 1) = 1/young
             c(1, 2) = -mu/young
          else
@@ -91,7 +99,7 @@ contains
       c(2, 1) = c(1, 2)
    end function compliance_matrix
 
-   !> The stress across the plane.
+   !> The stress across the plane that follows from those in it; where there is a hoop strain it does not.
    pure real(wp) function stress_33(section, state, s)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state

@@ -16,12 +16,13 @@ module atrito_mortar_points
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, smooth_normal
-   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_mesh, only: mesh_t, face_nodes, is_revolved
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
+   use atrito_revolved_faces, only: is_at_axis
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, clear_small_component
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
@@ -184,7 +185,10 @@ contains
 
       integrals%is_whole = sum(to - from) >= WHOLE
       integrals%has_point = [(a <= face%n, a=1, MOST)]
-      if (integrals%is_whole) return
+      if (integrals%is_whole) then                  ! at the axis dual functions would divide by nothing
+         integrals%is_whole = .not. is_at_axis(face%state, face%x(:, :face%n))
+         return
+      end if
       away = huge(1.0_wp)
       do a = 1, face%n
          away(a) = minval(max(from - NODES(a), NODES(a) - to))
@@ -374,13 +378,14 @@ contains
          if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
          points%first(j + 1) = points%first(j)
          call gather(own, of_own(first_own(j):first_own(j + 1) - 1), j, points)
-         call place_force(mesh, j, points)
+         if (.not. is_revolved(mesh)) call place_force(mesh, j, points)
          call gather(others, of_other(first_other(j):first_other(j + 1) - 1), j, points)
       end do
       call trim_points(points)
    end subroutine finish_points
 
-   !> Moves a point from its node to where its force acts on the slave: elsewhere on a face that is covered in part.
+   !> Moves a point from its node to where its force acts on the slave: elsewhere on a face that is covered in part. Rings of forces
+   !> have no moment that would have to be kept.
    pure subroutine place_force(mesh, j, points)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: j                  !< the point; its entries so far are those of the slave

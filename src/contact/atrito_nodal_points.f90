@@ -11,8 +11,9 @@ module atrito_nodal_points
    use atrito_master, only: master_t, sight_t, smooth_normal, is_out_of_sight, look_along, look_at_end, &
                             nearest_end
    use atrito_pieces, only: place_at
-   use atrito_plane_state, only: depth_at
+   use atrito_plane_state, only: depth_at, STATES
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
+   use atrito_revolved_faces, only: revolved_face_t, mixed_rows_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
    use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, clear_small_component, CORNER
    use atrito_smooth_normals, only: smooth_surface, common_normal
@@ -41,6 +42,7 @@ contains
       type(contact_points_t), intent(out) :: points
       logical, allocatable :: used(:)
       real(wp), allocatable :: curvature(:)         ! of the slave at the points [1/L]
+      type(mixed_rows_t) :: mixed
       integer(ip) :: i
 
       points%rigid = master%rigid
@@ -49,10 +51,11 @@ contains
       points%n_left_out = count(.not. used, kind=ip)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
-      call place_points(mesh, thickness, slave, used, points, curvature)
+      call place_points(mesh, thickness, slave, used, points, curvature, mixed)
       call look_for_master(mesh, master, master_faces, curvature, points)
       call trim_points(points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
+      call mix_rows(mixed, points)
    end subroutine pair_with_master
 
    !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave that normal is
@@ -81,32 +84,43 @@ contains
    end function finds_master
 
    !> One point a slave node; weights and normals of the faces that share it are summed.
-   pure subroutine place_points(mesh, thickness, slave, used, points, curvature)
+   pure subroutine place_points(mesh, thickness, slave, used, points, curvature, mixed)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: thickness(:)
       type(face_list_t), intent(in) :: slave
       logical, intent(in) :: used(:)
       type(contact_points_t), intent(inout) :: points
       real(wp), allocatable, intent(out) :: curvature(:) !< of the slave at the points [1/L]
+      type(mixed_rows_t), intent(inout) :: mixed
       real(wp), allocatable :: ends(:, :, :), of_face(:), bend(:)
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule
+      type(revolved_face_t) :: face
       real(wp) :: s
-      integer(ip) :: i, j, k
+      integer(ip) :: i, j, k, of_node(3)
 
       call smooth_surface(mesh, slave, ends, of_face, bend)
       allocate (curvature(size(points%s)), source=0.0_wp)
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+         if (STATES(mesh%state(slave%element(i)))%has_hoop) &
+            face = revolve_face(mesh, mesh%state(slave%element(i)), thickness(slave%element(i)), rule)
          do k = 1, merge(rule%n, 0_ip, used(i))
             call add_point(mesh, rule%node(k), s + rule%s(k), points, place, j)
+            of_node(k) = j
             points%length(j) = points%length(j) + rule%weight(k)
+            curvature(j) = curvature(j) + rule%weight(k)*of_face(i)
+            if (face%n > 0) then
+               points%weight(j) = points%weight(j) + face%weight(k)
+               points%normal(:, j) = points%normal(:, j) + face%weight(k)*face%normal(:, k)
+               cycle
+            end if
             points%weight(j) = points%weight(j) + rule%weight(k)* &
                                depth_at(mesh%state(slave%element(i)), thickness(slave%element(i)), mesh%x(1, rule%node(k)))
             points%normal(:, j) = points%normal(:, j) + rule%weight(k)*rule%normal(:, k)
-            curvature(j) = curvature(j) + rule%weight(k)*of_face(i)
          end do
+         if (used(i)) call note_mixed(face, of_node, mixed)
          s = s + rule%s(rule%n)
       end do
       curvature(:points%n) = curvature(:points%n)/points%length(:points%n)

@@ -38,9 +38,9 @@ contains
       call add_example(k, '*DENSITY|2.5')
 
       call define_keyword(k, 'SOLID SECTION', LEVEL_MODEL, 'gives elements a material and a thickness', &
-                          doc='Every element has exactly one section. BBAR gives CPE4 elements one dilatation, the mean of '// &
-                          'each: they do not lock near mu = 0.5. Other elements are left as they are; but for CPE3 they do not '// &
-                          'need it.')
+                          doc='Every element has exactly one section. BBAR gives CPE4 and CAX4 elements one dilatation, the '// &
+                          'mean of each: they do not lock near mu = 0.5. Other elements are left as they are; but for those '// &
+                          'with three nodes they do not need it. CAX elements have no thickness.')
       call add_option(k, 'ELSET!', KIND_NAME, 'the elements')
       call add_option(k, 'MATERIAL!', KIND_NAME, 'their material')
       call add_option(k, 'FORMULATION+', KIND_WORD, 'how the stiffness is integrated', default='STANDARD', choices='STANDARD BBAR')

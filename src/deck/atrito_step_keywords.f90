@@ -64,7 +64,8 @@ contains
       type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'CLOAD', LEVEL_STEP, 'forces at nodes', &
-                          doc='For the whole thickness. Lines on one dof add up; at a set every node takes the force.')
+                          doc='For the whole thickness, or the full circle of CAX elements. Lines on one dof add up; at a set '// &
+                          'every node takes the force.')
       call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
       call add_form(k, 'one force a line', 1, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
@@ -75,7 +76,8 @@ contains
       call define_keyword(k, 'DLOAD', LEVEL_STEP, 'pressure on faces, force per volume, weight', &
                           doc='P1 to P4: pressure on that face, positive pushes on the element. BX, BY: force per volume. '// &
                           'GRAV: acceleration times *DENSITY along a direction. HP1 to HP4 and TRVEC1 to TRVEC4: hydrostatic '// &
-                          'pressure and traction on that face, as HP and TRVEC of *DSLOAD. All are multiplied by the thickness.')
+                          'pressure and traction on that face, as HP and TRVEC of *DSLOAD. All are multiplied by the '// &
+                          'thickness, or go round the full circle.')
       call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
       call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')

@@ -12,14 +12,14 @@ module atrito_assembly
    use atrito_bodies, only: bodies_t, element_equations
    use atrito_element, only: element_stiffness
    use atrito_multifrontal, only: element_store_t, pack_matrix
-   use atrito_plane_state, only: elastic_t
+   use atrito_plane_state, only: elastic_t, STATES
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_linear_solver, only: linear_solver_t
    use atrito_threads, only: is_shared, chunk_count, find_chunk, CHUNK_LENGTH
    implicit none (type, external)
    private
    public :: fem_t, stiffness_cache_t, body_profile, collect_elements, assemble_body, &
-             retained_diagonal, cached_stiffness, is_like_before, grain_of
+             retained_diagonal, cached_stiffness, is_like_before, grain_of, radius_of, is_at_radius
 
    !> The elements and their sections: what every sum over elements needs.
    type :: fem_t
@@ -33,7 +33,9 @@ module atrito_assembly
    !> All that a stiffness depends on.
    type :: form_t
       integer(ip) :: section = 0, state = 0, shape = 0
+      logical :: has_hoop = .false.                !< the radius matters: of the state
       real(wp) :: x(2, MOST_NODES) = 0.0_wp          !< relative to the first node
+      real(wp) :: radius = 0.0_wp                  !< of the first node, where it matters [L]
    end type form_t
 
    !> The stiffness computed last.
@@ -115,6 +117,7 @@ contains
       integer(ip) :: i
 
       store%n = size(elements, kind=ip)
+      if (store%n > 0) store%translates = STATES(fem%mesh%state(elements(1)))%moves(:2)
       allocate (store%start(store%n + 1), store%matrix_of(store%n))
       store%start(1) = 0
       do i = 1, store%n
@@ -282,7 +285,7 @@ contains
 
       call take_form(fem, element, form)
       n = 2*form%shape
-      call element_stiffness(form%x(:, :form%shape), fem%sections(form%section), form%state, k(:n, :n))
+      call element_stiffness(form%x(:, :form%shape), fem%sections(form%section), form%state, k(:n, :n), form%radius)
       call pack_matrix(k(:n, :n), packed)
    end subroutine compute_matrix
 
@@ -328,7 +331,7 @@ contains
       if (has_form(fem, element, cache%form_t, 0.0_wp)) return
       call take_form(fem, element, cache%form_t)
       n = cache%shape
-      call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n))
+      call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n), cache%radius)
    end subroutine cached_stiffness
 
    !> Whether an element has this form; triangles also turned by 180 degrees, as every other one of a block is: their stiffness is the
@@ -341,8 +344,10 @@ contains
 
       has_form = form%section == fem%section_of(element) .and. form%state == fem%mesh%state(element)
       if (.not. has_form) return
+      if (form%has_hoop) has_form = is_at_radius(fem%mesh, element, form%radius)
+      if (.not. has_form) return
       has_form = is_like_before(fem%mesh, element, form%shape, form%x, grain)
-      if (has_form .or. form%shape /= fem%mesh%shape(element)) return
+      if (has_form .or. form%has_hoop .or. form%shape /= fem%mesh%shape(element)) return
       if (side_count(fem%mesh, element) == 3) has_form = is_like_before(fem%mesh, element, form%shape, -form%x, grain)
    end function has_form
 
@@ -355,10 +360,30 @@ contains
       form%section = fem%section_of(element)
       form%state = fem%mesh%state(element)
       form%shape = fem%mesh%shape(element)
+      form%has_hoop = STATES(form%state)%has_hoop
+      form%radius = 0.0_wp
+      if (form%has_hoop) form%radius = radius_of(fem%mesh, element)
       do k = 1, form%shape
          form%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, element)) - fem%mesh%x(:, fem%mesh%nodes(1, element))
       end do
    end subroutine take_form
+
+   !> The radius of the first node of an axisymmetric element [L].
+   pure real(wp) function radius_of(mesh, element) result(radius)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+
+      radius = mesh%x(1, mesh%nodes(1, element))
+   end function radius_of
+
+   !> Whether the radius of an axisymmetric element is that of another one, within the rounding of coordinates.
+   pure logical function is_at_radius(mesh, element, radius)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      real(wp), intent(in) :: radius               !< of the other one [L]
+
+      is_at_radius = abs(radius_of(mesh, element) - radius) <= 2*EPS_MACH*radius
+   end function is_at_radius
 
    !> Whether an element has the shape of another one, within the rounding of the coordinates and never coarser than 1e-12 of the
    !> element; or within a grain.

@@ -3,9 +3,10 @@
 !> Coordinates are taken relative to the element's first node: the derivatives of the shape functions add up to zero only but for
 !> round-off, which far from the origin would cost digits.
 module atrito_element
+   use atrito_axisymmetric, only: axisymmetric_stiffness
    use atrito_element_table, only: SHAPES, MOST_NODES, has_mean_dilatation
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at
+   use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at, STATES
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
                                      gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, &
                                      S2_ETA_SLOPES, Q2_WEIGHTS, T1_XI_SLOPES, T1_ETA_SLOPES, T2_XI_SLOPES, T2_ETA_SLOPES, &
@@ -29,14 +30,19 @@ contains
    !>
    !> the work of the dilatation and that of the rest, so that the integrals of ga gb' are all that is wanted of the Gauss points.
    !> The mean dilatation changes the first part alone. Only pairs a < b are computed: the blocks of the diagonal follow from them.
-   pure subroutine element_stiffness(x, section, state, k)
+   pure subroutine element_stiffness(x, section, state, k, radius)
       real(wp), intent(in) :: x(:, :)              !< coordinates [L], (2, n)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: k(:, :)             !< (2n, 2n)
+      real(wp), intent(in), optional :: radius     !< of the origin of x [L], where that matters; default 0
       real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, MOST_NODES), d(COMPONENTS, COMPONENTS), bulk, shear
       integer(ip) :: n, i, j
 
+      if (STATES(state)%has_hoop) then
+         call axisymmetric_stiffness(x, section, state, k, radius)
+         return
+      end if
       n = size(x, 2, kind=ip)
       do i = 1, n
          relative(:, i) = x(:, i) - x(:, 1)

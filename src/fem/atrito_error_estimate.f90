@@ -108,6 +108,7 @@ contains
       end do
       energies%solution = energies%solution + integral(n, c, s, weight)
       energies%error = energies%error + integral(n, c, d, weight)
+      if (geometry%has_hoop) call add_hoop(fem, e, u, field, per_unit, rule, geometry, weight, energies)
       energies%round_off = energies%round_off + (geometry%d(1, 1)*(EPS_MACH*(largest*per_unit))**2) &
                            *sum(weight(:n)*geometry%steepness(:n))
    end subroutine add_element
@@ -126,6 +127,36 @@ contains
       end do
       largest_strain = sqrt(square)
    end function largest_strain
+
+   !> What the hoop stress adds to an element's integrals: c11 s33^2 + 2 c12 s33 (s11 + s22), besides that of the others.
+   pure subroutine add_hoop(fem, e, u, field, per_unit, rule, geometry, weight, energies)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: u(:, :)
+      type(stress_field_t), intent(in) :: field
+      real(wp), intent(in) :: per_unit
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry
+      real(wp), intent(in) :: weight(MOST_POINTS)
+      type(energies_t), intent(inout) :: energies
+      real(wp) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS), c(COMPONENTS, COMPONENTS), flat, round
+      integer(ip) :: i
+
+      c = compliance_matrix(fem%sections(geometry%section), geometry%state)
+      call point_stresses(fem, e, u, rule, geometry, s, hoop)
+      associate (place => field%place(:geometry%shape, e))
+         do i = 1, rule%n
+            flat = (s(i, 1) + s(i, 2))*per_unit
+            round = hoop(i)*per_unit
+            energies%solution = energies%solution + weight(i)*(c(1, 1)*round**2 + 2*c(1, 2)*round*flat)
+            associate (value => rule%value(i, :geometry%shape))
+               flat = sum(value*(field%stress(1, place) + field%stress(2, place)))*per_unit - flat
+               round = sum(value*field%hoop(place))*per_unit - round
+            end associate
+            energies%error = energies%error + weight(i)*(c(1, 1)*round**2 + 2*c(1, 2)*round*flat)
+         end do
+      end associate
+   end subroutine add_hoop
 
    !> Sum over the points of weight s C s [F L].
    pure real(wp) function integral(n, c, s, weight)

@@ -5,7 +5,7 @@
 !> by the diagonals of the elements.
 module atrito_large_deformation
    use atrito_assembly, only: fem_t
-   use atrito_element_table, only: SHAPES, DEGREE_OF, MOST_NODES
+   use atrito_element_table, only: BEST_OF, CORNERS_OF, DEGREE_OF, MOST_NODES
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_point_stress, only: point_rule_t, point_geometry_t, make_point_rules, fetch_geometry
@@ -21,9 +21,6 @@ module atrito_large_deformation
       integer(ip) :: strain_element = 0, rotation_element = 0
       real(wp) :: strain_x(2) = 0.0_wp, rotation_x(2) = 0.0_wp !< [L]
    end type deformation_t
-
-   !> By itself: of an element, SHAPES(shape)%n_corners would copy the row.
-   integer(ip), parameter :: CORNERS_OF(MOST_NODES) = SHAPES%n_corners
 
 contains
 
@@ -93,7 +90,7 @@ contains
       type(point_geometry_t) :: geometry
       integer(ip) :: e
 
-      call make_point_rules(rules, best=.true.)
+      call make_point_rules(BEST_OF, rules)
       do e = 1, fem%mesh%n_elements
          if (.not. whole) then
             if (.not. rotates(fem%mesh%nodes(:, e), fem%mesh%shape(e), fem%mesh%x, u, bound)) cycle

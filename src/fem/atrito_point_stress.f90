@@ -1,11 +1,12 @@
 !> Stresses at given points of many elements, fast: shape functions are evaluated once for each kind of element, their gradients
 !> once for neighbours that are equal, and the innermost loops run over the points of an element.
 module atrito_point_stress
-   use atrito_assembly, only: fem_t, is_like_before
+   use atrito_assembly, only: fem_t, is_like_before, is_at_radius, radius_of
+   use atrito_axisymmetric, only: mean_rows, add_hoop_stress
    use atrito_element, only: mean_gradients
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elasticity_matrix, COMPONENTS
+   use atrito_plane_state, only: elasticity_matrix, COMPONENTS, STATES
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
@@ -27,6 +28,8 @@ module atrito_point_stress
       integer(ip) :: section = 0, state = 0
       integer(ip) :: shape = 0                   !< nodes; 0: nothing yet
       real(wp) :: x(2, MOST_NODES) = 0.0_wp        !< [L]
+      logical :: has_hoop = .false.              !< axisymmetric
+      real(wp) :: radius = 0.0_wp                !< then of the first node [L]
       real(wp) :: d(COMPONENTS, COMPONENTS) = 0.0_wp               !< elasticity matrix [F/L^2]
       logical :: averages = .false.              !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
       real(wp) :: mean(2, MOST_CORNERS) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]
@@ -71,14 +74,20 @@ contains
       integer(ip), intent(in) :: e
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(inout) :: geometry  !< of another element by the same rule, or nothing
+      real(wp) :: volume
       integer(ip) :: k, first
 
       if (geometry%section == fem%section_of(e) .and. geometry%state == fem%mesh%state(e)) then
-         if (is_like_before(fem%mesh, e, geometry%shape, geometry%x, 0.0_wp)) return
+         if (is_like_before(fem%mesh, e, geometry%shape, geometry%x, 0.0_wp)) then
+            if (.not. geometry%has_hoop) return
+            if (is_at_radius(fem%mesh, e, geometry%radius)) return
+         end if
       end if
       geometry%section = fem%section_of(e)
       geometry%state = fem%mesh%state(e)
       geometry%shape = fem%mesh%shape(e)
+      geometry%has_hoop = STATES(geometry%state)%has_hoop
+      geometry%radius = radius_of(fem%mesh, e)
       first = fem%mesh%nodes(1, e)
       do k = 1, geometry%shape
          geometry%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, e)) - fem%mesh%x(:, first)
@@ -87,7 +96,11 @@ contains
          geometry%d = elasticity_matrix(section, geometry%state)
          geometry%averages = has_mean_dilatation(section, geometry%state, geometry%shape)
       end associate
-      if (geometry%averages) geometry%mean = mean_gradients(geometry%x(:, :MOST_CORNERS))
+      if (geometry%averages .and. geometry%has_hoop) then
+         call mean_rows(geometry%x(:, :MOST_CORNERS), geometry%radius, 1.0_wp, geometry%state, geometry%mean, volume)
+      else if (geometry%averages) then
+         geometry%mean = mean_gradients(geometry%x(:, :MOST_CORNERS))
+      end if
       call map_points(rule, geometry)
    end subroutine fetch_geometry
 
@@ -123,14 +136,15 @@ contains
    end subroutine map_points
 
    !> s11, s22, s12 of an element at the points [F/L^2]. Displacements are taken relative to the first node, so that a rigid
-   !> translation costs no digits.
-   pure subroutine point_stresses(fem, e, u, rule, geometry, s)
+   !> translation costs no digits. Axisymmetric elements have a hoop stress s33 of its own.
+   pure subroutine point_stresses(fem, e, u, rule, geometry, s, hoop)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
       real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS) !< the first rule%n are set
+      real(wp), intent(inout), optional :: hoop(MOST_POINTS) !< s33 [F/L^2]; the first rule%n are set, of axisymmetric elements
       real(wp) :: way(2, MOST_NODES), dilatation
       integer(ip) :: k, first
 
@@ -146,6 +160,10 @@ contains
       case default
          call strain_points(rule%n, geometry%shape, geometry%gradient, way, s)
       end select
+      if (geometry%has_hoop) then
+         call axisymmetric_stresses(rule, geometry, way, u(1, first), s, hoop)
+         return
+      end if
       if (geometry%averages) then
          dilatation = sum(geometry%mean*way(:, :MOST_CORNERS))
          do k = 1, rule%n
@@ -154,6 +172,35 @@ contains
       end if
       call strains_to_stresses(rule%n, geometry%d, s)
    end subroutine point_stresses
+
+   !> From the strains in the plane to the stresses of an axisymmetric element.
+   pure subroutine axisymmetric_stresses(rule, geometry, way, u, s, hoop)
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry
+      real(wp), intent(in) :: way(2, MOST_NODES) !< displacements less those of the first node [L]
+      real(wp), intent(in) :: u                  !< the first node's, along the radius [L]
+      real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS) !< strains; stresses on return
+      real(wp), intent(inout), optional :: hoop(MOST_POINTS)
+      real(wp) :: at_point(COMPONENTS), e11, e22, e33, s33, excess
+      integer(ip) :: k, n
+
+      n = geometry%shape
+      do k = 1, rule%n
+         e11 = s(k, 1)
+         e22 = s(k, 2)
+         e33 = (u + dot_product(rule%value(k, :n), way(1, :n)))/(geometry%radius + geometry%place(k, 1))
+         if (geometry%averages) then             ! the mean dilatation, a third of it in each direction
+            excess = sum(geometry%mean*way(:, :MOST_CORNERS)) + u*sum(geometry%mean(1, :)) - (e11 + e22 + e33)
+            e11 = e11 + excess/3
+            e22 = e22 + excess/3
+            e33 = e33 + excess/3
+         end if
+         at_point = matmul(geometry%d, [e11, e22, s(k, 3)])
+         call add_hoop_stress(geometry%d, e11, e22, e33, at_point, s33)
+         s(k, :) = at_point
+         if (present(hoop)) hoop(k) = s33
+      end do
+   end subroutine axisymmetric_stresses
 
    pure subroutine strain_points(n, shape, gradient, way, e)
       integer(ip), intent(in) :: n, shape

@@ -8,7 +8,7 @@ module atrito_stress_recovery
    use atrito_assembly, only: fem_t
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, MOST_NODES, MOST_CORNERS
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t, side_count
+   use atrito_mesh, only: mesh_t, side_count, is_revolved
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
@@ -26,6 +26,7 @@ module atrito_stress_recovery
       integer(ip), allocatable :: element(:)       !< (n) an element that the place belongs to; 0: none
       integer(ip), allocatable :: place(:, :)      !< (most nodes of an element, n_elements): places of an element's nodes
       real(wp), allocatable :: stress(:, :)        !< (COMPONENTS, n) [F/L^2]
+      real(wp), allocatable :: hoop(:)             !< (n) s33 of axisymmetric elements [F/L^2]; not allocated where there are none
    end type stress_field_t
 
    !> What a recovery works with.
@@ -36,6 +37,7 @@ module atrito_stress_recovery
       real(wp), allocatable :: x(:, :, :)          !< best points less the element's first node [L], (2, points, n_elements)
       real(wp), allocatable :: s(:, :, :)          !< stresses there [F/L^2], (COMPONENTS, points, n_elements)
       type(polynomial_t), allocatable :: polynomial(:) !< (places) of the patches that lend to other nodes
+      logical :: of_hoop = .false.                 !< s is s33 of axisymmetric elements and twice 0: a recovery of its own
    end type recovery_t
 
    !> How good the patch of a corner is for a node of the element: 1 the node's own, or that of its edge or its element; then the
@@ -56,40 +58,68 @@ contains
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
       type(stress_field_t), intent(out) :: field
       type(recovery_t) :: work
-      integer(ip) :: chunk
+      real(wp), allocatable :: hoop(:, :)
 
       call begin_recovery(fem, u, work)
       field%n = work%patches%n
       allocate (field%stress(COMPONENTS, field%n), work%polynomial(field%n))
-      !$omp parallel do schedule(dynamic) if (is_shared(field%n))
-      do chunk = 1, chunk_count(field%n)
-         call fit_chunk(fem, u, chunk, work, field%stress)
-      end do
-      !$omp end parallel do
-      call borrow_stresses(fem%mesh, work, field%stress)
+      call fit_stresses(fem, u, work, field%stress)
+      if (is_revolved(fem%mesh)) then
+         work%of_hoop = .true.
+         call sample_stresses(fem, u, work)
+         allocate (hoop(COMPONENTS, field%n))
+         call fit_stresses(fem, u, work, hoop)
+         field%hoop = hoop(1, :)
+      end if
       call move_alloc(work%patches%place, field%place)
       call move_alloc(work%patches%node, field%node)
       call move_alloc(work%patches%owner, field%element)
    end subroutine recover_stress_field
+
+   !> From the stresses at the best points to those at the places.
+   subroutine fit_stresses(fem, u, work, stress)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)
+      type(recovery_t), intent(inout) :: work
+      real(wp), intent(inout) :: stress(:, :)
+      integer(ip) :: chunk
+
+      !$omp parallel do schedule(dynamic) if (is_shared(work%patches%n))
+      do chunk = 1, chunk_count(work%patches%n)
+         call fit_chunk(fem, u, chunk, work, stress)
+      end do
+      !$omp end parallel do
+      call borrow_stresses(fem%mesh, work, stress)
+   end subroutine fit_stresses
 
    !> Patches, rules, and the stresses at the best points of all elements.
    subroutine begin_recovery(fem, u, work)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
       type(recovery_t), intent(out) :: work
-      integer(ip) :: chunk, k
+      integer(ip) :: k
 
       call build_patches(fem, work%patches)
       call make_point_rules(BEST_OF, work%best)
       call make_point_rules(POINTS_OF, work%all)
       k = max(1_ip, maxval(BEST_OF(fem%mesh%shape)))
       allocate (work%x(2, k, fem%mesh%n_elements), work%s(COMPONENTS, k, fem%mesh%n_elements))
+      call sample_stresses(fem, u, work)
+   end subroutine begin_recovery
+
+   !> The stresses at the best points of all elements.
+   subroutine sample_stresses(fem, u, work)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)
+      type(recovery_t), intent(inout) :: work
+      integer(ip) :: chunk
+
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do chunk = 1, chunk_count(fem%mesh%n_elements)
          call sample_chunk(fem, u, chunk, work)
       end do
       !$omp end parallel do
-   end subroutine begin_recovery
+   end subroutine sample_stresses
 
    pure subroutine sample_chunk(fem, u, chunk, work)
       type(fem_t), intent(in) :: fem
@@ -104,7 +134,7 @@ contains
       do e = first, last
          associate (rule => work%best(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
-            call point_stresses(fem, e, u, rule, geometry, s)
+            call stresses_to_fit(fem, e, u, work%of_hoop, rule, geometry, s)
             do point = 1, rule%n
                work%s(:, point, e) = s(point, :)
                work%x(:, point, e) = geometry%place(point, :)
@@ -112,6 +142,27 @@ contains
          end associate
       end do
    end subroutine sample_chunk
+
+   !> Stresses in the plane, or s33 in the place of the first.
+   pure subroutine stresses_to_fit(fem, e, u, of_hoop, rule, geometry, s)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: u(:, :)
+      logical, intent(in) :: of_hoop
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry
+      real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS)
+      real(wp) :: hoop(MOST_POINTS)
+
+      if (.not. of_hoop) then
+         call point_stresses(fem, e, u, rule, geometry, s)
+         return
+      end if
+      hoop = 0.0_wp
+      call point_stresses(fem, e, u, rule, geometry, s, hoop)
+      s = 0.0_wp
+      s(:, 1) = hoop
+   end subroutine stresses_to_fit
 
    !> The patches of one chunk of places: the stress at their nodes, and the polynomials that other nodes want.
    pure subroutine fit_chunk(fem, u, chunk, work, stress)
@@ -226,7 +277,7 @@ contains
       first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
       associate (rule => work%all(fem%mesh%shape(e)))
          call fetch_geometry(fem, e, rule, geometry)
-         call point_stresses(fem, e, u, rule, geometry, s)
+         call stresses_to_fit(fem, e, u, work%of_hoop, rule, geometry, s)
          do point = 1, rule%n
             call add_sample(first + geometry%place(point, :), s(point, :), fit)
          end do
@@ -401,7 +452,11 @@ contains
       if (e == 0) return
       zones = zones + 1
       stress(1:2) = stress(1:2) + field%stress(1:2, i)
-      stress(3) = stress(3) + stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), field%stress(:, i))
+      if (allocated(field%hoop)) then                ! all elements are axisymmetric, or none
+         stress(3) = stress(3) + field%hoop(i)
+      else
+         stress(3) = stress(3) + stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), field%stress(:, i))
+      end if
       stress(4) = stress(4) + field%stress(3, i)
    end subroutine add_zone
 

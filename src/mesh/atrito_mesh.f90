@@ -4,6 +4,7 @@ module atrito_mesh
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
+   use atrito_plane_state, only: STATES
    use atrito_threads, only: is_shared
    use atrito_triangle_pieces, only: triangles_of_square
    implicit none (type, external)
@@ -11,7 +12,7 @@ module atrito_mesh
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
    public :: opposite_face_count, has_side, nodes_of_square, is_hollow, elements_of_square
-   public :: side_count, middle_node, element_coordinates, signed_area
+   public :: side_count, middle_node, element_coordinates, signed_area, is_revolved
 
    type :: mesh_t
       integer(ip) :: n_nodes = 0, n_elements = 0
@@ -192,6 +193,14 @@ contains
       nodes = [mesh%nodes(face, element), mesh%nodes(face_end(mesh, element, face), element)]
       if (middle_node(mesh, element, face) > 0) nodes = [nodes, middle_node(mesh, element, face)]
    end function face_nodes
+
+   !> Whether the elements are the section of a body of revolution: all are, or none.
+   pure logical function is_revolved(mesh)
+      type(mesh_t), intent(in) :: mesh
+
+      is_revolved = .false.
+      if (mesh%n_elements > 0) is_revolved = STATES(mesh%state(1))%has_hoop
+   end function is_revolved
 
    !> Faces of an element, and its corners.
    pure integer(ip) function side_count(mesh, element)

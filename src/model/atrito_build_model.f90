@@ -1,6 +1,7 @@
 !> The deck's meaning: all cards to one model.
 module atrito_build_model
    use atrito_adjustment, only: adjusted_t, adjust_pairs, close_adjusted
+   use atrito_axis, only: hold_axis, check_axis
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
@@ -99,9 +100,11 @@ contains
       call read_clearances(context, clearances)
       call read_contact_rules(context, rules)
       call build_supports(context)
+      call hold_axis(context)
       call build_loads(context)
       call build_requests(context)
       call check_mesh(model, context)
+      call check_axis(model, context)
       call order_slaves(model, chains)
       call check_surfaces_of_pairs(model, context, chains)
       if (has_errors()) return

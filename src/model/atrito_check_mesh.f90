@@ -65,10 +65,10 @@ contains
    subroutine check_materials(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
-      logical, dimension(size(model%materials)) :: strained, locks, triangles, oscillates
-      integer(ip) :: e, i
+      logical, dimension(size(model%materials)) :: locks, triangles, oscillates
+      integer(ip) :: state(size(model%materials)), e, i    ! state: of elements that mu = 1/2 makes incompressible; 0: none
 
-      strained = .false.
+      state = 0
       locks = .false.
       triangles = .false.
       oscillates = .false.
@@ -76,7 +76,7 @@ contains
          if (model%section_of(e) <= 0) cycle
          associate (section => model%sections(model%section_of(e)))
             if (STATES(model%mesh%state(e))%is_thin) cycle
-            strained(section%material) = .true.
+            state(section%material) = model%mesh%state(e)
             if (SHAPES(model%mesh%shape(e))%degree > 1) then
                oscillates(section%material) = .true.
             else if (model%mesh%shape(e) == 3) then
@@ -94,39 +94,44 @@ contains
                                     'material '//material%name//' has no *ELASTIC', &
                                     expected='*ELASTIC below *MATERIAL: E [F/L^2], mu [-]', keyword='ELASTIC')
                end if
-            else if (strained(i) .and. .not. context%elastic_invalid(i)) then
-               call check_strained(context%deck, material%poisson, locks(i), triangles(i), oscillates(i), context%poisson(i))
+            else if (state(i) > 0 .and. .not. context%elastic_invalid(i)) then
+               call check_strained(context%deck, material%poisson, locks(i), triangles(i), oscillates(i), context%poisson(i), &
+                                   state(i))
             end if
          end associate
       end do
    end subroutine check_materials
 
-   !> Poisson's ratio of a material in plane strain.
-   subroutine check_strained(deck, poisson, locks, triangles, oscillates, place)
+   !> Poisson's ratio of a material that cannot give way across the plane.
+   subroutine check_strained(deck, poisson, locks, triangles, oscillates, place, state)
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: poisson
       logical, intent(in) :: locks, triangles, oscillates !< STANDARD elements with four nodes; with three; with six and more
       type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: state                 !< place in STATES
+      character(len=:), allocatable :: there
 
+      there = ' in '//trim(STATES(state)%name)
+      if (STATES(state)%has_hoop) there = ' in '//trim(STATES(state)%name)//' elements'
       if (poisson >= 0.5_wp) then
-         call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson, 15)//' in plane strain', &
+         call report_error(deck, place, 'E-VALUE', 'mu = '//to_text(poisson, 15)//there, &
                            expected="Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
                            keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. triangles) then
-         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: triangles with three nodes are much too stiff '// &
-                             'in plane strain', expected='CPE4 with FORMULATION=BBAR of *SOLID SECTION, '// &
+         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: triangles with three nodes are much too stiff'// &
+                             there, expected='elements with four nodes and FORMULATION=BBAR of *SOLID SECTION, '// &
                              'or mu < 0.49 [-]', keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. locks) then
-         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: fully integrated Q1 elements are much too stiff '// &
-                             'in plane strain', expected='FORMULATION=BBAR of *SOLID SECTION, or mu < 0.49 [-]', keyword='ELASTIC')
+         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: fully integrated Q1 elements are much too stiff'// &
+                             there, expected='FORMULATION=BBAR of *SOLID SECTION, or mu < 0.49 [-]', keyword='ELASTIC')
       else if (poisson >= LOCKING_RATIO .and. oscillates) then
-         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible: in plane strain the pressures of elements with '// &
+         call report_warning(deck, place, 'W-LOCKING', 'nearly incompressible:'//there//' the pressures of elements with '// &
                              'six, eight or nine nodes oscillate, in contact too', expected='elements with four nodes and '// &
                              'FORMULATION=BBAR, or mu < 0.49 [-]', keyword='ELASTIC')
       end if
    end subroutine check_strained
 
-   !> BBAR is for four nodes in plane strain; elsewhere it changes nothing, which is told once a section.
+   !> BBAR is for four nodes where nothing gives way across the plane; elsewhere it changes nothing, told once a section.
    subroutine note_formulations(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
@@ -145,7 +150,8 @@ contains
          if (elements(i)%n == 0) cycle
          call report_note(context%deck, context%sections(i), 'N-FORMULATION', 'FORMULATION=BBAR changes nothing in element '// &
                           ids_text(numbers_of(elements(i)))//' of set '//model%sections(i)%elset// &
-                          ': it is for four nodes in plane strain', expected='CPE4 elements', keyword='SOLID SECTION')
+                          ': it is for four nodes in plane strain or axisymmetric', expected='CPE4 or CAX4 elements', &
+                          keyword='SOLID SECTION')
       end do
    end subroutine note_formulations
 

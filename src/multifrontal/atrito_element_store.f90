@@ -24,6 +24,7 @@ module atrito_element_store
       logical :: is_near = .false.               !< some elements have the matrix of one that they are near to, and not equal
       type(matrices_t) :: own                    !< then those of the first elements themselves, where they are wanted
       logical :: enough = .true.                 !< memory, for all elements so far; the others are left out
+      logical :: translates(2) = .true.          !< free of forces where the 1st, 3rd, ... equations move alike; the 2nd, 4th, ...
    end type element_store_t
 
 contains
@@ -188,6 +189,7 @@ contains
 
       to%n_matrices = from%n_matrices
       to%is_near = from%is_near
+      to%translates = from%translates
       from%n_matrices = 0
       call move_alloc(from%start, to%start)
       call move_alloc(from%equations, to%equations)

@@ -212,20 +212,22 @@ contains
             n = int(store%start(e + 1) - first, ip)
             if (e <= store%own%n) then
                call add_element_product(n, store%equations(first + 1:first + n), &
-                                        store%own%values(store%own%matrix_start(store%own%matrix_of(e)) + 1:), x, y)
+                                        store%own%values(store%own%matrix_start(store%own%matrix_of(e)) + 1:), store%translates, &
+                                        x, y)
             else
                call add_element_product(n, store%equations(first + 1:first + n), &
-                                        store%values(store%matrix_start(store%matrix_of(e)) + 1:), x, y)
+                                        store%values(store%matrix_start(store%matrix_of(e)) + 1:), store%translates, x, y)
             end if
          end do
       end associate
    end subroutine add_fixed_product
 
    !> With the displacements less those of the first node, whose part in the forces is none: a stiffness is free of forces under
-   !> translation, and what cancels is left out.
-   pure subroutine add_element_product(n, equations, packed, x, y)
+   !> translation, and what cancels is left out. (Along a radius it is not.)
+   pure subroutine add_element_product(n, equations, packed, translates, x, y)
       integer(ip), intent(in) :: n, equations(n)
       real(wp), intent(in) :: packed(*)
+      logical, intent(in) :: translates(2)
       real(wp), intent(in) :: x(:)
       real(wp), intent(inout) :: y(:)
       real(wp) :: xe(n), ye(n)
@@ -237,7 +239,7 @@ contains
       end do
       if (n > 2) then
          do i = n, 1, -1
-            xe(i) = xe(i) - xe(2 - mod(i, 2_ip))
+            if (translates(2 - mod(i, 2_ip))) xe(i) = xe(i) - xe(2 - mod(i, 2_ip))
          end do
       end if
       ye = 0.0_wp

@@ -266,16 +266,20 @@ contains
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
       type(quantity_t), allocatable :: list(:)
+      type(balance_t) :: b
       integer :: i
 
-      associate (b => results%balance)
-         call add_line(page, '   '//left('resultants', 30)//right('F1 [F]', 18)//right('F2 [F]', 18)// &
-                       right('moment about 0,0', 20))
-         call add_line(page, force_line('applied', b%applied)//right(number(b%applied_moment, DIGITS), 20))
-         call add_line(page, force_line('reactions of the supports', b%reactions)//right(number(b%reaction_moment, DIGITS), 20))
-         call add_line(page, force_line('from rigid surfaces', -b%rigid))
-         call add_line(page, force_line('sum', balance_sum(b)))
-      end associate
+      b = results%balance
+      if (b%is_revolved) then
+         call add_line(page, '   of the full circle: what is radial, and moments, balance in themselves')
+         b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)])
+      end if
+      call add_line(page, '   '//left('resultants', 30)//right('F1 [F]', 18)//right('F2 [F]', 18)// &
+                    right('moment about 0,0', 20))
+      call add_line(page, force_line('applied', b%applied)//right(number(b%applied_moment, DIGITS), 20))
+      call add_line(page, force_line('reactions of the supports', b%reactions)//right(number(b%reaction_moment, DIGITS), 20))
+      call add_line(page, force_line('from rigid surfaces', -b%rigid))
+      call add_line(page, force_line('sum', balance_sum(b)))
       call add_blank(page)
       list = step_quantities(results)
       do i = 1, size(list)

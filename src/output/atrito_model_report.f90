@@ -5,7 +5,7 @@ module atrito_model_report
    use atrito_plane_state, only: depth_at
    use atrito_strings, only: to_text
    use atrito_face_loads, only: traction_load, hydrostatic_load
-   use atrito_mesh, only: face_end, face_nodes, side_count
+   use atrito_mesh, only: face_end, face_nodes, side_count, is_revolved
    use atrito_sets, only: set_count
    use atrito_model, only: model_t, interaction_t, FORMULATION_NAME, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
                            FRICTION_NONLOCAL, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, SURFACE_SEGMENTS
@@ -159,6 +159,11 @@ contains
       type(force_t) :: concentrated, pressure, body
 
       call load_resultants(model, concentrated, pressure, body)
+      if (is_revolved(model%mesh)) then              ! the circle has no resultant along a radius, and no moment
+         concentrated = force_t([0.0_wp, concentrated%f(2)])
+         pressure = force_t([0.0_wp, pressure%f(2)])
+         body = force_t([0.0_wp, body%f(2)])
+      end if
       call add_blank(page)
       call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
                     right('moment about 0,0', 18))

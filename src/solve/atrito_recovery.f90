@@ -274,14 +274,18 @@ contains
       type(point_geometry_t), intent(inout) :: geometry
       integer(ip), intent(inout) :: row              !< the last one filled
       type(results_t), intent(inout) :: results
-      real(wp) :: s(MOST_POINTS, COMPONENTS), s33
+      real(wp) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS), s33
       integer(ip) :: k
 
       call fetch_geometry(fem, e, rule, geometry)
-      call point_stresses(fem, e, results%u, rule, geometry, s)
+      call point_stresses(fem, e, results%u, rule, geometry, s, hoop)
       do k = 1, rule%n
          row = row + 1
-         s33 = stress_33(fem%sections(geometry%section), geometry%state, [s(k, 1), s(k, 2), s(k, 3)])
+         if (geometry%has_hoop) then
+            s33 = hoop(k)
+         else
+            s33 = stress_33(fem%sections(geometry%section), geometry%state, [s(k, 1), s(k, 2), s(k, 3)])
+         end if
          results%stress_element(row) = e
          results%stress_point(row) = k
          results%stress_x(1, row) = fem%mesh%x(1, fem%mesh%nodes(1, e)) + geometry%place(k, 1)

@@ -16,6 +16,7 @@ module atrito_solve
    use atrito_joint_sums, only: sum_joints
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: find_large, warn_of_large
+   use atrito_mesh, only: is_revolved
    use atrito_messages, only: add_note, add_warning
    use atrito_model, only: controls_t, model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_outer_loop, only: FREE_MOTION
@@ -349,6 +350,7 @@ contains
       if (.not. solution%converged) results%verdict = solution%verdict
       results%strain_energy = equilibrium%energy
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
+      results%balance%is_revolved = is_revolved(data%fem%mesh)
       if (data%model%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)

@@ -1,7 +1,8 @@
 !> Solves a deck and prints the errors of displacements (L2 norm) and stresses (energy norm) against an exact solution, both over
 !> that of the solution itself, integrated with 5 x 5 Gauss points an element over the mesh as it is (of a
 !> triangle those of the square that is pressed together at one corner). FORMULATION=BBAR: the
-!> stresses are those of the strains with the mean dilatation of the element, the same integral.
+!> stresses are those of the strains with the mean dilatation of the element, the same integral. Axisymmetric elements (STANDARD):
+!> integrals over the full circle; the field is that of the plane along y = 0, with the stress round the circle for s33.
 !>
 !>    error_norms DECK LEVELS FIELD NUMBER...        FIELD and its numbers: exact_fields.f90; LEVELS of refinement
 !>
@@ -9,13 +10,13 @@
 program error_norms
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_body_cache, only: body_cache_t
-   use atrito_plane_state, only: elastic_t, elasticity_matrix
+   use atrito_plane_state, only: elastic_t, elasticity_matrix, PLANE_STRAIN
    use atrito_reader, only: read_deck
    use atrito_build_model, only: build_model
    use atrito_deck, only: deck_t
    use atrito_element_table, only: SHAPES, has_mean_dilatation
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: element_coordinates
+   use atrito_mesh, only: element_coordinates, is_revolved
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_reporter, only: reporter_t
@@ -42,7 +43,11 @@ program error_norms
    sums = 0.0_wp
    warp = 0.0_wp
    do e = 1, model%mesh%n_elements
-      call add_element_errors(e, sums, warp)
+      if (is_revolved(model%mesh)) then
+         call add_ring_errors(e, sums)
+      else
+         call add_element_errors(e, sums, warp)
+      end if
    end do
    write (output_unit, '(i0,1x,i0,3(1x,es22.15))') model%mesh%n_elements, 2*model%mesh%n_nodes, &
       sqrt(sums(1)/sums(2)), sqrt(sums(3)/sums(4)), warp
@@ -142,6 +147,50 @@ contains
       weight = weight*0.25_wp*(1 - xi(1))
       xi(2) = xi(2)*(1 - xi(1))
    end subroutine point_of
+
+   !> The same of an axisymmetric element.
+   subroutine add_ring_errors(e, sums)
+      integer(ip), intent(in) :: e
+      real(wp), intent(inout) :: sums(4)
+      type(elastic_t) :: section
+      real(wp) :: x(2, model%mesh%shape(e)), u(2, model%mesh%shape(e)), n(model%mesh%shape(e))
+      real(wp) :: xi(2), at_point, place(2), exact_u(2), plane(3), exact(4), s(4), strain(3), hoop, jacobian, weight, lambda, shear
+      integer(ip) :: i, j
+
+      x = element_coordinates(model%mesh, e)
+      u = results%u(:, model%mesh%nodes(:model%mesh%shape(e), e))
+      associate (material => model%materials(model%sections(model%section_of(e))%material))
+         section = elastic_t(material%young, material%poisson)
+      end associate
+      associate (young => section%young, mu => section%poisson)
+         shear = young/(2*(1 + mu))
+         lambda = young*mu/((1 + mu)*(1 - 2*mu))
+         do j = 1, 5
+            do i = 1, 5
+               call point_of(model%mesh%shape(e), i, j, xi, at_point)
+               n = shape_values(model%mesh%shape(e), xi)
+               place = matmul(x, n)
+               call exact_solution(field, section, PLANE_STRAIN, [sum(x(1, :SHAPES(model%mesh%shape(e))%n_corners))/SHAPES(model%mesh%shape(e))%n_corners, 0.0_wp], [place(1), 0.0_wp], exact_u, plane)
+               exact = [plane(1), mu*(plane(1) + plane(2)), plane(2), 0.0_wp]
+               call strain_at(x, u, xi, strain, jacobian)
+               hoop = dot_product(u(1, :), n)/place(1)
+               s = [2*shear*[strain(1), strain(2), hoop] + lambda*(strain(1) + strain(2) + hoop), shear*strain(3)]
+               weight = at_point*jacobian*place(1)
+               sums(1) = sums(1) + weight*sum((matmul(u, n) - exact_u)**2)
+               sums(2) = sums(2) + weight*sum(exact_u**2)
+               sums(3) = sums(3) + weight*spatial_energy(young, mu, s - exact)
+               sums(4) = sums(4) + weight*spatial_energy(young, mu, exact)
+            end do
+         end do
+      end associate
+   end subroutine add_ring_errors
+
+   !> The work of s11, s22, s33, s12 on their strains.
+   pure real(wp) function spatial_energy(young, mu, s)
+      real(wp), intent(in) :: young, mu, s(4)
+
+      spatial_energy = ((1 + mu)*(sum(s(:3)**2) + 2*s(4)**2) - mu*sum(s(:3))**2)/young
+   end function spatial_energy
 
    pure real(wp) function mean_dilatation(x, u)
       real(wp), intent(in) :: x(:, :), u(:, :)

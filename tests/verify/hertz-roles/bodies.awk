@@ -3,7 +3,8 @@
 #    awk -v type=CPE4 -v n=32 -v m=32 -v radius=0 -v slave=A -v load=3.9 -f bodies.awk
 #
 # A stands above, its lower side a circle of radius 10 up to x = 3, then straight; B lies below, its upper side straight (radius 0),
-# a circle of that radius, or hollow (radius < 0). rigid=A or rigid=B: that one is a rigid line. n and m elements to x = 1, growing by 1.15 beyond. load: on the whole width [F/L].
+# a circle of that radius, or hollow (radius < 0). rigid=A or rigid=B: that one is a rigid line. n and m elements to x = 1, growing by 1.15 beyond. load: on the whole width [F/L];
+# of axisymmetric elements, pressure on A times 20.
 function side(x, r,    s, q) {
    if (r == 0) return 0
    s = r > 0 ? 1 : -1

@@ -1,0 +1,241 @@
+!> Faces of an axisymmetric slave: what their points weigh on the full circle, and what is done at the axis.
+!>
+!> The shape functions N of a face carry a uniform pressure by int N n 2 pi r ds, which the points have to have as weight and
+!> normal, so that it passes from side to side exactly. (In the plane the trapezoidal rule and Simpson's do that.) A face of the
+!> second degree gives a node on the axis nothing, int N 2 pi r ds = 0, and one near it next to nothing: there the points are those
+!> of hat functions psi over the three nodes, as where the master ends under a face (atrito_mortar_points),
+!>
+!>     (1/W_j) int psi_j (u_slave - u_master) 2 pi r ds,   W_j = int psi_j 2 pi r ds > 0,
+!>
+!> whose sum is one, so that a uniform pressure is still carried exactly, and that on the axis has a value.
+module atrito_revolved_faces
+   use atrito_face_geometry, only: face_direction, outward_normal
+   use atrito_growth, only: make_room
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_plane_state, only: STATES, depth_at
+   use atrito_points, only: contact_points_t
+   use atrito_shape_functions, only: face_shape_values, gauss_rule
+   use atrito_slave_faces, only: nodal_rule_t
+   implicit none (type, external)
+   private
+   public :: revolved_face_t, mixed_rows_t, revolve_face, is_at_axis, note_mixed, mix_rows, axis_hats
+
+   integer(ip), parameter :: MOST = 3              !< nodes of a face
+   !> A face of the second degree that begins within this part of its reach along the radius begins at the axis.
+   real(wp), parameter :: AT_AXIS = 0.1_wp
+
+   !> A face in the order of travel.
+   type :: revolved_face_t
+      integer(ip) :: n = 0
+      logical :: mixes = .false.                   !< at the axis
+      real(wp) :: weight(MOST) = 0.0_wp            !< of its points [L^2]
+      real(wp) :: normal(2, MOST) = 0.0_wp         !< unit vectors
+      real(wp) :: share(MOST, MOST) = 0.0_wp       !< int psi_j N_a 2 pi r ds where it mixes [L^2]
+   end type revolved_face_t
+
+   !> Points whose rows are those of several nodes.
+   type :: mixed_rows_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: point(:), other(:)
+      real(wp), allocatable :: share(:)            !< [L^2]
+   end type mixed_rows_t
+
+contains
+
+   !> Whether a face of the second degree touches the axis of its body of revolution, or nearly so.
+   pure logical function is_at_axis(state, x)
+      integer(ip), intent(in) :: state             !< place in STATES
+      real(wp), intent(in) :: x(:, :)              !< its nodes [L]
+
+      is_at_axis = .false.
+      if (.not. STATES(state)%has_hoop .or. size(x, 2) < MOST) return
+      is_at_axis = minval(x(1, :)) < AT_AXIS*(maxval(x(1, :)) - minval(x(1, :)))
+   end function is_at_axis
+
+   !> Hat functions of the nodes at -1, 1 and 0.
+   pure function axis_hats(t) result(psi)
+      real(wp), intent(in) :: t                    !< [-1,1]
+      real(wp) :: psi(MOST)
+
+      psi = [max(-t, 0.0_wp), max(t, 0.0_wp), 1 - abs(t)]
+   end function axis_hats
+
+   !> The weights and normals of a face, exact for straight faces and curved ones of the second degree.
+   pure function revolve_face(mesh, state, thickness, rule) result(face)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: state             !< place in STATES
+      real(wp), intent(in) :: thickness
+      type(nodal_rule_t), intent(in) :: rule       !< of the face
+      type(revolved_face_t) :: face
+      real(wp) :: x(2, MOST), vector(2, MOST)
+      integer(ip) :: order(MOST), k, n
+
+      n = rule%n
+      order = [1_ip, 2_ip, 3_ip]
+      if (n == MOST) order = [1_ip, 3_ip, 2_ip]    ! from the order of travel to corners, middle, and back
+      do k = 1, n
+         x(:, order(k)) = mesh%x(:, rule%node(k))
+      end do
+      face%n = n
+      face%mixes = is_at_axis(state, x(:, :n))
+      vector = 0.0_wp
+      if (face%mixes) then                         ! the hats have a kink in the middle
+         call add_part(x(:, :n), state, thickness, [-1.0_wp, 0.0_wp], face, vector)
+         call add_part(x(:, :n), state, thickness, [0.0_wp, 1.0_wp], face, vector)
+      else
+         call add_part(x(:, :n), state, thickness, [-1.0_wp, 1.0_wp], face, vector)
+      end if
+      do k = 1, n
+         face%weight(k) = norm2(vector(:, order(k)))
+         face%normal(:, k) = vector(:, order(k))/face%weight(k)
+      end do
+      face%share = face%share(order, order)
+   end function revolve_face
+
+   !> Adds the integrals over a part of a face.
+   pure subroutine add_part(x, state, thickness, part, face, vector)
+      real(wp), intent(in) :: x(:, :)              !< in the order of face_nodes [L]
+      integer(ip), intent(in) :: state
+      real(wp), intent(in) :: thickness, part(2)   !< part: of [-1,1]
+      type(revolved_face_t), intent(inout) :: face
+      real(wp), intent(inout) :: vector(2, MOST)   !< int psi n 2 pi r ds [L^2]
+      real(wp) :: points(MOST), weights(MOST), t, ds, values(MOST), psi(MOST)
+      integer(ip) :: g, n
+
+      n = size(x, 2, kind=ip)
+      call gauss_rule(MOST, points, weights)
+      do g = 1, MOST
+         t = 0.5_wp*((1 - points(g))*part(1) + (1 + points(g))*part(2))
+         values = 0.0_wp
+         values(:n) = face_shape_values(n, t)
+         psi = values
+         if (face%mixes) psi = axis_hats(t)
+         ds = 0.5_wp*weights(g)*(part(2) - part(1))*norm2(face_direction(x, t)) &
+              *depth_at(state, thickness, dot_product(values(:n), x(1, :)))
+         vector = vector + ds*spread(outward_normal(x, t), 2, MOST)*spread(psi, 1, 2)
+         if (face%mixes) face%share = face%share + ds*spread(psi, 2, MOST)*spread(values, 1, MOST)
+      end do
+   end subroutine add_part
+
+   !> Notes that the points of a face mix the rows of its nodes.
+   pure subroutine note_mixed(face, points, mixed)
+      type(revolved_face_t), intent(in) :: face
+      integer(ip), intent(in) :: points(MOST)      !< of its nodes, in the order of travel
+      type(mixed_rows_t), intent(inout) :: mixed
+      integer(ip) :: j, a
+
+      if (.not. face%mixes) return
+      if (.not. allocated(mixed%point)) allocate (mixed%point(0), mixed%other(0), mixed%share(0))
+      call make_room(mixed%point, mixed%n, mixed%n + MOST**2)
+      call make_room(mixed%other, mixed%n, mixed%n + MOST**2)
+      call make_room(mixed%share, mixed%n, mixed%n + MOST**2)
+      do j = 1, MOST
+         do a = 1, MOST
+            mixed%n = mixed%n + 1
+            mixed%point(mixed%n) = points(j)
+            mixed%other(mixed%n) = points(a)
+            ! the part of its weight that a point has from this face goes to the nodes of the face
+            mixed%share(mixed%n) = face%share(j, a)/sum(face%share(j, :))*face%weight(j)
+         end do
+      end do
+   end subroutine note_mixed
+
+   !> From the rows of nodes to those of points: row j becomes the sum over its faces of share/W_j times the rows of their nodes,
+   !> and its own with what is left of the weight. The gaps go with the rows.
+   pure subroutine mix_rows(mixed, points)
+      type(mixed_rows_t), intent(in) :: mixed
+      type(contact_points_t), intent(inout) :: points
+      integer(ip), allocatable :: first(:), entry(:)
+      real(wp), allocatable :: coefficient(:), gap(:)
+      real(wp) :: part(points%n)
+      integer(ip) :: j, k, n
+
+      if (mixed%n == 0) return
+      allocate (first(points%n + 1), entry(0), coefficient(0))
+      gap = points%gap
+      n = 0
+      do j = 1, points%n
+         first(j) = n + 1
+         if (.not. any(mixed%point(:mixed%n) == j)) then
+            call copy_row(j, points, entry, coefficient, n)
+            cycle
+         end if
+         part = 0.0_wp
+         part(j) = points%weight(j)
+         do k = 1, mixed%n
+            if (mixed%point(k) /= j) cycle
+            part(j) = part(j) - mixed%share(k)
+            part(mixed%other(k)) = part(mixed%other(k)) + mixed%share(k)
+         end do
+         part = part/points%weight(j)
+         points%gap(j) = sum(part*gap(:points%n))
+         call mix_row(j, part, points, entry, coefficient, n)
+      end do
+      first(points%n + 1) = n + 1
+      points%first(:points%n + 1) = first
+      points%entry = entry(:n)
+      points%coefficient = coefficient(:n)
+   end subroutine mix_rows
+
+   !> Appends the entries of a row: its own node, others of the slave, the master's.
+   pure subroutine mix_row(j, part, points, entry, coefficient, n)
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: part(:)              !< of each point
+      type(contact_points_t), intent(in) :: points
+      integer(ip), allocatable, intent(inout) :: entry(:)
+      real(wp), allocatable, intent(inout) :: coefficient(:)
+      integer(ip), intent(inout) :: n
+      integer(ip) :: i, k, start
+
+      start = n
+      call add_to_row(points%node(j), part(j), start, entry, coefficient, n)
+      do i = 1, points%n
+         if (abs(part(i)) > 0.0_wp) call add_to_row(points%node(i), merge(0.0_wp, part(i), i == j), start, entry, coefficient, n)
+      end do
+      do i = 1, points%n
+         if (.not. abs(part(i)) > 0.0_wp) cycle
+         do k = points%first(i) + 1, points%first(i + 1) - 1
+            call add_to_row(points%entry(k), part(i)*points%coefficient(k), start, entry, coefficient, n)
+         end do
+      end do
+   end subroutine mix_row
+
+   pure subroutine copy_row(j, points, entry, coefficient, n)
+      integer(ip), intent(in) :: j
+      type(contact_points_t), intent(in) :: points
+      integer(ip), allocatable, intent(inout) :: entry(:)
+      real(wp), allocatable, intent(inout) :: coefficient(:)
+      integer(ip), intent(inout) :: n
+      integer(ip) :: k
+
+      k = points%first(j + 1) - points%first(j)
+      call make_room(entry, n, n + k)
+      call make_room(coefficient, n, n + k)
+      entry(n + 1:n + k) = points%entry(points%first(j):points%first(j + 1) - 1)
+      coefficient(n + 1:n + k) = points%coefficient(points%first(j):points%first(j + 1) - 1)
+      n = n + k
+   end subroutine copy_row
+
+   pure subroutine add_to_row(node, value, start, entry, coefficient, n)
+      integer(ip), intent(in) :: node
+      real(wp), intent(in) :: value
+      integer(ip), intent(in) :: start             !< entries before those of the row
+      integer(ip), allocatable, intent(inout) :: entry(:)
+      real(wp), allocatable, intent(inout) :: coefficient(:)
+      integer(ip), intent(inout) :: n
+      integer(ip) :: at
+
+      at = start + findloc(entry(start + 1:n), node, dim=1, kind=ip)
+      if (at == start) then
+         call make_room(entry, n, n + 1)
+         call make_room(coefficient, n, n + 1)
+         n = n + 1
+         at = n
+         entry(at) = node
+         coefficient(at) = 0.0_wp
+      end if
+      coefficient(at) = coefficient(at) + value
+   end subroutine add_to_row
+
+end module atrito_revolved_faces
