@@ -1,6 +1,6 @@
-!> Uniform refinement: every element into pieces x pieces of the same shape or all of one shape with as many corners, on the isoparametric
-!> map of its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then
-!> those inside elements.
+!> Uniform refinement: every element into pieces x pieces of the same shape, or all of one shape with as many corners, on the
+!> isoparametric map of its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on
+!> edges follow, then those inside elements.
 module atrito_refinement
    use atrito_element_table, only: SHAPES, DEGREE_OF, CORNERS_OF, MOST_NODES, MOST_SIDES
    use atrito_faces, only: node_elements_t
