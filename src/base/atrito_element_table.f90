@@ -40,7 +40,7 @@ module atrito_element_table
                                                                                    0, -1, 1, 0, 0, 1, -1, 0, 0, 0], [2, MOST_NODES])
    !> Corners, middles of the sides; places 7 to 9 are not used.
    real(wp), parameter :: TRIANGLE(2, MOST_NODES) = 0.5_wp*reshape([real(wp) :: 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 0, 0, 0, 0, &
-                                                                    0, 0], [2, MOST_NODES])
+                                                                                                             0, 0], [2, MOST_NODES])
    type(element_shape_t), parameter :: SHAPES(MOST_NODES) = &
                                        [(NO_SHAPE, i=1, 2), element_shape_t(3, 3, 1, 1, 1, 'T1', 'Triangle', TRIANGLE), &
                                         element_shape_t(4, 4, 1, 4, 1, 'Q1', 'Quadrilateral', SQUARE), NO_SHAPE, &

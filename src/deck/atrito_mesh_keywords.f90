@@ -199,7 +199,8 @@ contains
                           'Makes the node set <elset>, and the node sets and surfaces <elset>-BOTTOM, -RIGHT, -TOP and '// &
                           '-LEFT. COPY makes columns and rows of equal blocks, each a body of its own: that in column 3 of '// &
                           'row 2 is <elset>-3-2, with its own sets and sides; <elset> holds all of them, and <elset>-BOTTOM '// &
-                          'those of the first row, -TOP of the last row, -LEFT of the first column, -RIGHT of the last.')
+                          'those of the first row, -TOP of the last row, -LEFT of the first column, -RIGHT of the last. '// &
+                          'Triangles come in twos: each square is cut from its corner towards LEFT and BOTTOM.')
       call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types())
       call add_option(k, 'ELSET!', KIND_NAME, 'name of the block')
       call add_option(k, 'NX!', KIND_INTEGER, 'elements along BOTTOM; triangles: squares, of two each')

@@ -334,8 +334,8 @@ contains
       call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n), cache%radius)
    end subroutine cached_stiffness
 
-   !> Whether an element has this form; triangles also turned by 180 degrees, as every other one of a block is: their stiffness is the
-   !> same to the last bit.
+   !> Whether an element has this form; triangles also turned by 180 degrees, as every other one of a block is: their stiffness is
+   !> the same to the last bit.
    pure logical function has_form(fem, element, form, grain)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: element

@@ -30,7 +30,7 @@ module atrito_patches
       integer(ip), allocatable :: element(:), corner(:)
       integer(ip), allocatable :: owner(:)        !< (n) the first element that a place belongs to; 0: none
       logical, allocatable :: lends(:)            !< (n_elements) a node of the element takes its stress from patches of other nodes
-      integer(ip), allocatable :: helper(:)       !< (n_elements, or none) triangle without a patch: a neighbour that has one; 0: none
+      integer(ip), allocatable :: helper(:)       !< (n_elements, or none) of a triangle without a patch: its neighbour with one; 0
    end type patches_t
 
 contains

@@ -1,8 +1,8 @@
 !> Continuous stresses by superconvergent patch recovery (O. C. Zienkiewicz and J. Z. Zhu, Int. J. Numer. Methods Eng. 33, 1992).
 !>
 !> A polynomial of the elements' degree p is fitted to the stresses at their best points (first degree: the centre; second: 2 x 2
-!> Gauss points, of triangles the three of the stiffness) round every corner node inside a zone; nodes on the outline of the zone take
-!> their values from the patches inside. Where there is none at hand, the patch of an outer node takes all Gauss points of two
+!> Gauss points, of triangles the three of the stiffness) round every corner node inside a zone; nodes on the outline of the zone
+!> take their values from the patches inside. Where there is none at hand, the patch of an outer node takes all Gauss points of two
 !> elements or more, and an element without neighbours its best points and degree p - 1.
 module atrito_stress_recovery
    use atrito_assembly, only: fem_t

@@ -1,17 +1,16 @@
-!> Uniform refinement: every element into pieces x pieces of the same shape or all of one shape with as many corners, on the isoparametric
-!> map of its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on edges follow, then
-!> those inside elements.
+!> Uniform refinement: every element into pieces x pieces of the same shape, or all of one shape with as many corners, on the
+!> isoparametric map of its parent, so that curved edges stay what they are. Nodes of the coarse mesh keep their places; those on
+!> edges follow, then those inside elements.
 module atrito_refinement
    use atrito_element_table, only: SHAPES, DEGREE_OF, CORNERS_OF, MOST_NODES, MOST_SIDES
    use atrito_faces, only: node_elements_t
    use atrito_id_map, only: add_id
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: mesh_t, side_count, face_end, middle_node, nodes_of_square, is_hollow, element_coordinates
-   use atrito_triangle_pieces, only: piece_of_triangle, piece_nodes, is_piece_on_side, triangle_point
+   use atrito_triangle_pieces, only: piece_of_triangle, piece_nodes, triangle_point
    implicit none (type, external)
    private
-   public :: refinement_t, refine_mesh, count_fine_nodes, fine_nodes, fine_elements, is_on_side, is_refined, edge_place
-   public :: map_element
+   public :: refinement_t, refine_mesh, count_fine_nodes, drops_centre, is_refined, edge_place, map_element
 
    !> How a fine mesh came from a coarse one.
    type :: refinement_t
@@ -469,87 +468,11 @@ contains
       end if
    end subroutine take_piece
 
-   !> The places in the fine mesh of some elements of the coarse one.
-   pure function fine_elements(refinement, members) result(pieces)
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: members(:)
-      integer(ip), allocatable :: pieces(:)
-      integer(ip) :: i, k, children
-
-      children = refinement%pieces**2
-      allocate (pieces(children*size(members, kind=ip)))
-      do i = 1, size(members, kind=ip)
-         pieces((i - 1)*children + 1:i*children) = [((members(i) - 1)*children + k, k=1, children)]
-      end do
-   end function fine_elements
-
    !> Whether this tells of a refinement at all.
    pure logical function is_refined(refinement)
       type(refinement_t), intent(in) :: refinement
 
       is_refined = refinement%n_elements > 0
    end function is_refined
-
-   !> True when a fine element has part of its parent's face as its own face of that number.
-   pure logical function is_on_side(refinement, element, face)
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: element             !< place in the fine mesh
-      integer(ip), intent(in) :: face                !< 1..4
-      integer(ip) :: k, place(2)
-
-      k = modulo(element - 1, refinement%pieces**2)
-      if (is_refined(refinement)) then
-         if (refinement%is_triangle((element - 1)/refinement%pieces**2 + 1)) then
-            is_on_side = is_piece_on_side(refinement%pieces, k, face)
-            return
-         end if
-      end if
-      place = [modulo(k, refinement%pieces), k/refinement%pieces]
-      select case (face)
-      case (1)
-         is_on_side = place(2) == 0
-      case (2)
-         is_on_side = place(1) == refinement%pieces - 1
-      case (3)
-         is_on_side = place(2) == refinement%pieces - 1
-      case default
-         is_on_side = place(1) == 0
-      end select
-   end function is_on_side
-
-   !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members, what lies on an edge all of whose
-   !> nodes are members, and what lies inside an element all of whose nodes are members.
-   pure function fine_nodes(mesh, refinement, members) result(fine)
-      type(mesh_t), intent(in) :: mesh
-      type(refinement_t), intent(in) :: refinement
-      integer(ip), intent(in) :: members(:)          !< places in the coarse mesh
-      integer(ip), allocatable :: fine(:)
-      logical, allocatable :: chosen(:)
-      integer(ip) :: e, i, k, n
-
-      n = refinement%inner_first(mesh%n_elements + 1) - 1
-      allocate (chosen(0:n), source=.false.)
-      chosen(0) = .true.                             ! the middle of an edge that has none
-      chosen(members) = .true.
-      do i = 1, refinement%n_edges
-         if (.not. all(chosen(refinement%edge_node(:, i)))) cycle
-         chosen(refinement%edge_first(i):refinement%edge_first(i + 1) - 1) = .true.
-      end do
-      do e = 1, mesh%n_elements
-         if (.not. all(chosen(mesh%nodes(:mesh%shape(e), e)))) cycle
-         chosen(refinement%inner_first(e):refinement%inner_first(e + 1) - 1) = .true.
-      end do
-      do e = 1, mesh%n_elements
-         if (drops_centre(mesh, refinement, e)) chosen(mesh%nodes(mesh%shape(e), e)) = .false.
-      end do
-      fine = pack(members, chosen(members))
-      k = size(fine, kind=ip)
-      fine = [fine, [(0_ip, i=1, count(chosen(mesh%n_nodes + 1:), kind=ip))]]
-      do i = mesh%n_nodes + 1, n
-         if (.not. chosen(i)) cycle
-         k = k + 1
-         fine(k) = i
-      end do
-   end function fine_nodes
 
 end module atrito_refinement

@@ -1,7 +1,7 @@
 !> A triangle cut into n x n: which pieces there are, their nodes, and where a place of its grid of nodes lies.
 !>
-!> The grid has the places (i, j), i, j >= 0, i + j <= m; (0, 0), (m, 0) and (0, m) are the corners. Row by row from side 1-2 a piece
-!> that stands as its parent does is followed by one that is turned by 180 degrees, but for the last of the row.
+!> The grid has the places (i, j), i, j >= 0, i + j <= m; (0, 0), (m, 0) and (0, m) are the corners. Row by row from side 1-2 a
+!> piece that stands as its parent does is followed by one that is turned by 180 degrees, but for the last of the row.
 module atrito_triangle_pieces
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
@@ -83,8 +83,8 @@ contains
    end function triangle_point
 
    !> The nodes of the two triangles of a square of 2 x 2 or 3 x 3 nodes, cut from its first corner to its third: the lower one has
-   !> the sides 1-2 and 2-3 of the square as its faces 1 and 2, the upper one 3-4 and 4-1. They begin at opposite ends of the cut, so
-   !> that in a parallelogram one is the other turned by 180 degrees.
+   !> the sides 1-2 and 2-3 of the square as its faces 1 and 2, the upper one 3-4 and 4-1. They begin at opposite ends of the cut,
+   !> so that in a parallelogram one is the other turned by 180 degrees.
    pure function triangles_of_square(square) result(nodes)
       integer(ip), intent(in) :: square(:, :)
       integer(ip) :: nodes(3*(size(square, 1) - 1), 2)

@@ -248,7 +248,7 @@ contains
       type(block_t), intent(in) :: block
 
       n = elements_of_square(block%shape)*(ubound(block%nodes, 1, kind=ip)/block%order)*(ubound(block%nodes, 2, &
-                                                                                               kind=ip)/block%order)
+                                                                                                kind=ip)/block%order)
    end function count_elements
 
 end module atrito_build_block

@@ -13,7 +13,8 @@ module atrito_build_loads
    use atrito_numbers, only: read_integer
    use atrito_read_face_load, only: read_face_load, read_direction, has_no_rest, magnitude_of
    use atrito_references, only: find_nodes, find_elements, check_faces, report_unknown
-   use atrito_refinement, only: is_on_side, is_refined
+   use atrito_refined_members, only: is_on_side
+   use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private

@@ -17,7 +17,7 @@ module atrito_build_surfaces
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_references, only: find_elements, check_faces, report_unknown
-   use atrito_refinement, only: fine_elements, is_on_side
+   use atrito_refined_members, only: fine_elements, is_on_side
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private

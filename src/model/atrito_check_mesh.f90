@@ -195,7 +195,7 @@ contains
       call report_error(context%deck, place_token(context%deck, context%elements%place(first)), 'E-EDGE', 'element '// &
                         ids_text(numbers_of(ids))//' and a neighbour share nodes of an edge, but not all of them', &
                         expected='elements of one order and size on both sides of an edge (CPE3 and CPE4, or CPE6, CPE8 and '// &
-                                 'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
+                        'CPE9; so CPS), or no common nodes and a *CONTACT PAIR', keyword='ELEMENT')
    end subroutine check_edges
 
    !> Marks the neighbours of an element of the second degree that have the corners of its edge and not its middle, or its middle

@@ -88,7 +88,7 @@ contains
          call report_error(deck, place, 'E-SHAPE', name//' is degenerate: its angle at '//at_node// &
                            ' is not between 0 and 180 degrees', &
                            expected=trim(merge('a triangle with an area ', 'a convex quadrilateral  ', corners == 3))// &
-                                    ', corners counter-clockwise', keyword='ELEMENT')
+                           ', corners counter-clockwise', keyword='ELEMENT')
       case (SHAPE_ORDER)
          call report_error(deck, place, 'E-SHAPE', name//' folds over near '//at_node// &
                            ': its mid-side nodes'//trim(also(1))//' stand in another order', &

@@ -11,7 +11,8 @@ module atrito_references
    use atrito_messages, only: has_room, SEVERITY_ERROR
    use atrito_name_list, only: name_list_t, names_of
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_refinement, only: fine_elements, is_refined
+   use atrito_refined_members, only: fine_elements
+   use atrito_refinement, only: is_refined
    use atrito_sets, only: set_list_t, find_set
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)

@@ -11,7 +11,8 @@ module atrito_refine_model
    use atrito_mesh, only: mesh_t
    use atrito_model_memory, only: fits_memory
    use atrito_refine_arcs, only: place_on_arcs
-   use atrito_refinement, only: refine_mesh, count_fine_nodes, fine_nodes, fine_elements
+   use atrito_refined_members, only: fine_nodes, fine_elements
+   use atrito_refinement, only: refine_mesh, count_fine_nodes
    use atrito_sets, only: set_count
    use atrito_strings, only: to_text
    implicit none (type, external)

@@ -26,7 +26,7 @@ scene() {
 *CONTACT PAIR, INTERACTION=JOINT
 $1, RIGID"
 }
-for type in CPE4 CPE9; do
+for type in CPE4 CPE9 CPE6; do
    for n in 16 32; do
       { printf '*HEADING\nCylinder on a floor\n'
         awk -v type=$type -v n=$n -v m=$n -v map=ring -v r1=2 -v r2=10 -v start=-90 -v turn=90 -v gx=-4 -v gy=4 -v dy=10 -f "$mesh"
@@ -47,6 +47,8 @@ for scene in cylinder disc; do
    judge $scene-CPE4-32 0.03 0.06 0.05
    judge $scene-CPE9-16 0.01 0.02 0.05
    judge $scene-CPE9-32 0.01 0.02 0.025
+   judge $scene-CPE6-16 0.01 0.02 0.05
+   judge $scene-CPE6-32 0.01 0.02 0.025
 done
 echo
 echo '| scene | closed points | p(0)/p0 - 1 | half width over a, less 1 | largest error of p up to 0.8 a, over p0 |

@@ -130,6 +130,7 @@ for order in 4 9 6; do
    noise "CPE$order, the finer side is the slave and below" up-$order-1 fine 0.02
 done
 noise 'CPE6, the coarser side is the slave and below' low-6-1 fine 0.02
+noise 'CPE6, the coarser side is the slave and above' up-6-0 fine 0.02
 noise 'CPE9, the coarser side is the slave and below' low-9-1 fine 0.02
 noise 'CPE9, the coarser side is the slave and above' up-9-0 fine 0.02
 # 16 elements with four nodes are off by 2 % at their ends also where they match

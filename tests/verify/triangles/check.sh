@@ -32,6 +32,15 @@ for type in CPS6 CPE6; do
    done
 done
 
+# A block of no parallelograms: its triangles have straight sides, so they contain quadratic displacements all the same.
+sed 's/TYPE=CPS8/TYPE=CPS6/; s/^4, 1$/3.5, 1.2/' "$here/../eight-nodes/bent.inp" >skew.inp
+for level in 0 1; do
+   run 0 skew.inp skew-$level --refine $level --digits 17 --quiet
+   field_near "skew-$level u1" skew-$level/nodes.tab u1 '-1e-3*x*(y - 0.5)' 1e-15
+   field_near "skew-$level s11" skew-$level/stress.tab s11 '-(y - 0.5)' 1e-11
+   all_near "skew-$level s12" skew-$level/stress.tab s12 0 1e-11
+done
+
 # Triangles beside quadrilaterals in one body: a linear field, and the same refined.
 for pair in CPE3-CPE3 CPE3-CPE4 CPE4-CPE3 CPE6-CPE6 CPE6-CPE8 CPE6-CPE9 CPE9-CPE6; do
    sed "s/FIRST/${pair%-*}/; s/SECOND/${pair#*-}/" "$here/beside.inp" >"$pair.inp"

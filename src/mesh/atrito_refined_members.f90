@@ -1,0 +1,89 @@
+!> What of a refined mesh belongs to nodes, elements and faces of the coarse one: sets and surfaces follow by these rules.
+module atrito_refined_members
+   use atrito_kinds, only: ip
+   use atrito_mesh, only: mesh_t
+   use atrito_refinement, only: refinement_t, drops_centre, is_refined
+   use atrito_triangle_pieces, only: is_piece_on_side
+   implicit none (type, external)
+   private
+   public :: fine_nodes, fine_elements, is_on_side
+
+contains
+
+   !> The places in the fine mesh of some elements of the coarse one.
+   pure function fine_elements(refinement, members) result(pieces)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: members(:)
+      integer(ip), allocatable :: pieces(:)
+      integer(ip) :: i, k, children
+
+      children = refinement%pieces**2
+      allocate (pieces(children*size(members, kind=ip)))
+      do i = 1, size(members, kind=ip)
+         pieces((i - 1)*children + 1:i*children) = [((members(i) - 1)*children + k, k=1, children)]
+      end do
+   end function fine_elements
+
+   !> True when a fine element has part of its parent's face as its own face of that number.
+   pure logical function is_on_side(refinement, element, face)
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: element             !< place in the fine mesh
+      integer(ip), intent(in) :: face                !< 1..4
+      integer(ip) :: k, place(2)
+
+      k = modulo(element - 1, refinement%pieces**2)
+      if (is_refined(refinement)) then
+         if (refinement%is_triangle((element - 1)/refinement%pieces**2 + 1)) then
+            is_on_side = is_piece_on_side(refinement%pieces, k, face)
+            return
+         end if
+      end if
+      place = [modulo(k, refinement%pieces), k/refinement%pieces]
+      select case (face)
+      case (1)
+         is_on_side = place(2) == 0
+      case (2)
+         is_on_side = place(1) == refinement%pieces - 1
+      case (3)
+         is_on_side = place(2) == refinement%pieces - 1
+      case default
+         is_on_side = place(1) == 0
+      end select
+   end function is_on_side
+
+   !> The nodes of the fine mesh that belong to a set of nodes of the coarse one: its members, what lies on an edge all of whose
+   !> nodes are members, and what lies inside an element all of whose nodes are members.
+   pure function fine_nodes(mesh, refinement, members) result(fine)
+      type(mesh_t), intent(in) :: mesh
+      type(refinement_t), intent(in) :: refinement
+      integer(ip), intent(in) :: members(:)          !< places in the coarse mesh
+      integer(ip), allocatable :: fine(:)
+      logical, allocatable :: chosen(:)
+      integer(ip) :: e, i, k, n
+
+      n = refinement%inner_first(mesh%n_elements + 1) - 1
+      allocate (chosen(0:n), source=.false.)
+      chosen(0) = .true.                             ! the middle of an edge that has none
+      chosen(members) = .true.
+      do i = 1, refinement%n_edges
+         if (.not. all(chosen(refinement%edge_node(:, i)))) cycle
+         chosen(refinement%edge_first(i):refinement%edge_first(i + 1) - 1) = .true.
+      end do
+      do e = 1, mesh%n_elements
+         if (.not. all(chosen(mesh%nodes(:mesh%shape(e), e)))) cycle
+         chosen(refinement%inner_first(e):refinement%inner_first(e + 1) - 1) = .true.
+      end do
+      do e = 1, mesh%n_elements
+         if (drops_centre(mesh, refinement, e)) chosen(mesh%nodes(mesh%shape(e), e)) = .false.
+      end do
+      fine = pack(members, chosen(members))
+      k = size(fine, kind=ip)
+      fine = [fine, [(0_ip, i=1, count(chosen(mesh%n_nodes + 1:), kind=ip))]]
+      do i = mesh%n_nodes + 1, n
+         if (.not. chosen(i)) cycle
+         k = k + 1
+         fine(k) = i
+      end do
+   end function fine_nodes
+
+end module atrito_refined_members
