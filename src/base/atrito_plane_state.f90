@@ -5,7 +5,7 @@
 !> procedures below; the strains of the shape functions are in strain_points (atrito_point_stress) and integrate_products
 !> (atrito_element).
 module atrito_plane_state
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, wp, PI
    implicit none (type, external)
    private
    public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, COMPONENTS, STRESS_NAMES
@@ -21,12 +21,10 @@ module atrito_plane_state
       logical :: has_hoop = .false.              !< axisymmetric: x1 is a radius, u1/x1 a strain, s33 its stress
    end type plane_state_t
 
-   real(wp), parameter :: CIRCLE = 8*atan(1.0_wp)    !< the whole of it
-
    integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2, AXISYMMETRIC = 3
    type(plane_state_t), parameter :: STATES(3) = [plane_state_t('CPE', 'plane strain', .false.), &
                                                   plane_state_t('CPS', 'plane stress', .true.), &
-                                                  plane_state_t('CAX', 'axisymmetric', .false., [0.0_wp, CIRCLE], &
+                                                  plane_state_t('CAX', 'axisymmetric', .false., [0.0_wp, 2*PI], &
                                                                 [.false., .true., .false.], .true.)]
 
    integer(ip), parameter :: COMPONENTS = 3      !< of the stresses that work on strains: s11, s22, s12

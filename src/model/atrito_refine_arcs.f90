@@ -9,7 +9,8 @@ module atrito_refine_arcs
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_refinement, only: map_element, fine_elements
+   use atrito_refined_members, only: fine_elements
+   use atrito_refinement, only: map_element
    implicit none (type, external)
    private
    public :: place_on_arcs

@@ -6,12 +6,13 @@ module mortar_cases
    use atrito_mesh, only: add_element, add_node, mesh_t
    use atrito_mortar_points, only: pair_by_mortar
    use atrito_mortar_segments, only: segments_t, cut_slave
-   use atrito_plane_state, only: PLANE_STRAIN
+   use atrito_nodal_points, only: pair_with_master
+   use atrito_plane_state, only: PLANE_STRAIN, AXISYMMETRIC
    use atrito_points, only: contact_points_t
    use strip_cases, only: add_strip, begin_scene
    implicit none (type, external)
    private
-   public :: mortar_case_t, two_strips, strip_on_line, ring_in_ring, pair_up, row_of, THICKNESS
+   public :: mortar_case_t, two_strips, revolved_strips, strip_on_line, ring_in_ring, pair_up, row_of, THICKNESS
 
    real(wp), parameter :: THICKNESS = 0.5_wp
 
@@ -44,6 +45,27 @@ contains
       if (present(shift)) scene%mesh%x = scene%mesh%x + shift
       call pair_up(scene, softer)
    end subroutine two_strips
+
+   !> Two strips that turn about the axis x1 = 0; their points by NODAL, or by MORTAR.
+   subroutine revolved_strips(upper, lower, gap, order, nodal, scene)
+      real(wp), intent(in) :: upper(:), lower(:), gap
+      integer(ip), intent(in) :: order
+      logical, intent(in) :: nodal
+      type(mortar_case_t), intent(out) :: scene
+      real(wp), allocatable :: depth(:)
+
+      call begin_scene(scene%mesh)
+      call add_strip(scene%mesh, upper, gap, .false., order, 0.0_wp, scene%slave)
+      call add_strip(scene%mesh, lower, 0.0_wp, .true., order, 0.0_wp, scene%faces)
+      scene%mesh%state = AXISYMMETRIC
+      call master_of_faces(scene%mesh, scene%faces, scene%master)
+      allocate (depth(scene%mesh%n_elements), source=1.0_wp)
+      if (nodal) then
+         call pair_with_master(scene%mesh, depth, scene%slave, scene%faces, scene%master, scene%points)
+      else
+         call pair_by_mortar(scene%mesh, depth, scene%slave, scene%faces, scene%master, scene%points)
+      end if
+   end subroutine revolved_strips
 
    !> A strip at height `gap` on a rigid line through `ends`, or on an arc about `centre`.
    subroutine strip_on_line(x, gap, order, ends, scene, centre)
