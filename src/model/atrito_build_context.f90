@@ -10,7 +10,7 @@ module atrito_build_context
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text
-   use atrito_kinds, only: ip, lp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
@@ -70,6 +70,7 @@ module atrito_build_context
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
       integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in model%prescribed; 0: free
+      real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
       integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
    end type build_context_t
 

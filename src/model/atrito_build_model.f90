@@ -1,13 +1,16 @@
 !> The deck's meaning: all cards to one model.
 module atrito_build_model
+   use atrito_bilateral_rows, only: trim_rows
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
    use atrito_build_elements, only: read_element_card, read_elgen_card
+   use atrito_build_equations, only: turn_supports, build_equations
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
    use atrito_build_requests, only: build_requests
+   use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
    use atrito_build_surfaces, only: build_surfaces
@@ -19,6 +22,7 @@ module atrito_build_model
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
+   use atrito_local_axes, only: read_local_axes
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
@@ -91,7 +95,11 @@ contains
       call build_materials(context)
       call build_contact(context)
       call read_contact_rules(context, rules)
+      call read_local_axes(context)
       call build_supports(context)
+      call turn_supports(context)
+      call build_equations(context)
+      call build_springs(context)
       call build_loads(context)
       call build_requests(context)
       call check_mesh(model, context)
@@ -102,6 +110,7 @@ contains
       call note_unused_interactions(model, context)
       call pair_all(model, points)
       call move_alloc(points, model%points)
+      call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)
    end subroutine build_once
 
@@ -175,7 +184,7 @@ contains
       do i = 1, context%deck%n_cards
          select case (keyword_name(context%deck%cards(i)))
          case ('ELEMENT')
-            call read_element_card(i, context)
+            if (.not. is_spring_card(context, context%deck%cards(i))) call read_element_card(i, context)
          case ('ELGEN')
             call read_elgen_card(i, context)
          case ('ELCOPY')

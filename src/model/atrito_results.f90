@@ -87,6 +87,7 @@ module atrito_results
       real(wp) :: applied(2) = 0.0_wp, reactions(2) = 0.0_wp
       real(wp) :: applied_moment = 0.0_wp, reaction_moment = 0.0_wp
       real(wp) :: rigid(2) = 0.0_wp                 !< force of the bodies' contact upon rigid surfaces
+      real(wp) :: rows(2) = 0.0_wp                  !< of the bodies upon springs to the ground and equations
    end type balance_t
 
    !> A row of bodies.tab: the rigid motion that comes nearest to the displacements of a body, and what acts upon it.
@@ -124,6 +125,8 @@ module atrito_results
       logical, allocatable :: prescribed(:, :)      !< (2, n_nodes)
       real(wp), allocatable :: reaction(:, :)       !< (2, n_nodes) [F]; 0 where not prescribed
       type(contact_result_t), allocatable :: contact(:)   !< one a pair
+      real(wp), allocatable :: row_x(:, :)          !< (2, bilateral rows) a node of each [L]
+      real(wp), allocatable :: row_force(:)         !< (bilateral rows) q: what row j takes along its vectors [F]
       integer(ip), allocatable :: stress_element(:) !< (n_stress) places of elements, rows of stress.tab
       integer(ip), allocatable :: stress_point(:)   !< (n_stress) 1.. in the element, xi fastest
       real(wp), allocatable :: stress_x(:, :)       !< (2, n_stress) [L]

@@ -4,7 +4,8 @@ module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
+                                  tangential_of
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
@@ -223,7 +224,8 @@ contains
                             to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
          return
       end if
-      call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
+      call clear_round_off(shape, solution%bounds, forces_that_are_none(system, multipliers, solution%state%q), multipliers, &
+                           solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
                                                          solution%inner%undetermined)
       solution%p = pressure_of(line, solution%state%q)
@@ -270,7 +272,7 @@ contains
       shape%n_normal = count(line%normal > 0, kind=ip)
       shape%k = system%k
       shape%weight = line%weight(line%point)
-      solution%history%tangential_of = line%tangential(line%point(:shape%n_normal))
+      solution%history%tangential_of = tangential_of(line, shape%n_normal)
       call normal_bounds(line, shape, solution%bounds, solution%state)
       pair = 1
       if (allocated(line%pair)) pair = line%pair(:line%n)

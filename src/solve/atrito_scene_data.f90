@@ -65,9 +65,9 @@ contains
       data%solver_kind = asked%solver_kind
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
-      call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known)
+      call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
-      call build_rows(data%points, data%rows)
+      call build_rows(data%points, data%rows, model%bilateral)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)
@@ -83,7 +83,7 @@ contains
       type(scene_data_t), intent(inout) :: data
       integer(ip) :: i, n
 
-      n = 0
+      n = data%model%bilateral%n
       do i = 1, size(data%points, kind=ip)
          n = n + data%points(i)%n
          if (data%model%interactions(data%model%pairs(i)%interaction)%nu > 0.0_wp) n = n + data%points(i)%n
