@@ -51,13 +51,17 @@ module atrito_multiplier_step
 contains
 
    !> At rest: no forces, no displacements.
-   subroutine begin_multipliers(system, pair, multipliers)
+   subroutine begin_multipliers(system, pair, multipliers, compliance)
       class(contact_system_t), intent(in) :: system
       integer(ip), intent(in) :: pair(:)         !< (m) of each row
       type(multiplier_t), intent(out) :: multipliers
+      real(wp), intent(in), optional :: compliance(:) !< (m) of springs: a soft one holds its body no firmer than it is [L/F]
+      real(wp) :: yields(system%rows%n)
       integer(ip) :: i, k
 
       multipliers%pair = pair
+      yields = system%flexibility
+      if (present(compliance)) yields = yields + compliance
       multipliers%n_pairs = maxval([pair, 0_ip])
       associate (m => system%rows%n)
          allocate (multipliers%x(system%n), multipliers%q_old(m), multipliers%noise(m), multipliers%a_old(system%k), &
@@ -67,7 +71,7 @@ contains
          do i = 1, m
             do k = system%rows%first(i), system%rows%first(i + 1) - 1
                associate (a => system%rows%column(k) - (system%n - system%k))
-                  if (a > 0) multipliers%hold(a) = multipliers%hold(a) + system%rows%value(k)**2/system%flexibility(i)
+                  if (a > 0) multipliers%hold(a) = multipliers%hold(a) + system%rows%value(k)**2/yields(i)
                end associate
             end do
          end do

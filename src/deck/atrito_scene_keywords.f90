@@ -16,6 +16,7 @@ contains
       call define_contact_keywords(k)
       call define_boundary(k)
       call define_linear_constraints(k)
+      call define_tie(k)
       call define_springs(k)
    end subroutine define_scene_keywords
 
@@ -189,6 +190,29 @@ contains
       call add_item(k, '[further terms]...', KIND_TEXT, 'node, dof, coefficient')
       call add_example(k, '*EQUATION|2|17, 1, 1., 205, 1, -1.')
    end subroutine define_linear_constraints
+
+   subroutine define_tie(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'TIE', LEVEL_MODEL, 'joins two surfaces for good', &
+                          doc='The displacements of both sides are the same: in the mean (mortar) where the sides do not '// &
+                          'match, node by node where they do. Nodes of the slave farther from the master than the tolerance '// &
+                          'are not tied. What is left of a gap makes no strain. A node can be a slave in one tie only.')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the tie')
+      call add_option(k, 'ADJUST', KIND_WORD, 'whether nodes of the slave are moved onto the master before anything else', &
+                      default='YES', choices='YES NO')
+      call add_option(k, 'POSITION TOLERANCE', KIND_REAL, 'farther nodes are not tied; 0.05 of the mean face of the master '// &
+                      'when left out', dimension='L')
+      call add_option(k, 'TYPE', KIND_WORD, 'always by mortar, or always node by node', &
+                      choices='SURFACE_TO_SURFACE NODE_TO_SURFACE')
+      call add_option(k, '(NO ROTATION)', KIND_FLAG, 'nodes have no rotations')
+      call add_option(k, '(NO THICKNESS)', KIND_FLAG, 'of shells')
+      call add_option(k, '-CYCLIC SYMMETRY', KIND_FLAG, 'sectors')
+      call add_form(k, 'one tie a line', 1, ANY_NUMBER)
+      call add_item(k, 'slave', KIND_NAME, 'surface of elements, one connected chain')
+      call add_item(k, 'master', KIND_NAME, 'surface of elements')
+      call add_example(k, '*TIE, NAME=glue|layer-BOTTOM, ground-TOP')
+   end subroutine define_tie
 
    subroutine define_springs(k)
       type(keyword_list_t), intent(inout) :: k

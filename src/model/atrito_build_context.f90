@@ -64,6 +64,7 @@ module atrito_build_context
       type(node_elements_t) :: around                  !< elements round each node
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
+      type(token_t), allocatable :: ties(:)            !< of each the slave
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
       logical, allocatable :: elastic_given(:), elastic_invalid(:)  !< for each material
       logical :: sections_undetermined = .false.             !< a *SOLID SECTION could not be understood

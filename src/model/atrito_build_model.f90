@@ -13,6 +13,7 @@ module atrito_build_model
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
+   use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
    use atrito_check_mesh, only: check_mesh
@@ -95,6 +96,7 @@ contains
       call build_materials(context)
       call build_contact(context)
       call read_contact_rules(context, rules)
+      call read_ties(context)
       call read_local_axes(context)
       call build_supports(context)
       call turn_supports(context)
@@ -105,7 +107,9 @@ contains
       call check_mesh(model, context)
       call order_slaves(model, chains)
       call check_surfaces_of_pairs(model, context, chains)
+      call check_ties(context, chains)
       if (has_errors()) return
+      call build_ties(context)
       call find_contact(rules, context)
       call note_unused_interactions(model, context)
       call pair_all(model, points)

@@ -276,7 +276,8 @@ contains
       call normal_bounds(line, shape, solution%bounds, solution%state)
       pair = 1
       if (allocated(line%pair)) pair = line%pair(:line%n)
-      call begin_multipliers(system, pair(line%point), multipliers)
+      call begin_multipliers(system, pair(line%point), multipliers, &
+                             merge(solution%bounds%d, 0.0_wp, solution%bounds%lower <= -HUGE_REAL))
       if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
       allocate (solution%tau(line%n), source=0.0_wp)
       where (line%tangential > 0) solution%tau = HUGE_REAL
