@@ -71,6 +71,7 @@ module atrito_results
       type(pair_scene_t), allocatable :: pairs(:)
       integer(ip) :: n_dofs = 0                     !< free dofs of all bodies
       integer(ip) :: n_normal = 0, n_tangential = 0 !< unknowns of the contact line
+      integer(ip) :: n_rows = 0                     !< of the normal ones those of ties, equations, supports, springs
       integer(ip) :: n_rigid = 0                    !< rigid motions carried as unknowns
       logical :: outer_loop = .false.
       logical :: near_elements = .false.            !< some that are near, not equal, had one stiffness; refined

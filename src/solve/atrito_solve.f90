@@ -22,7 +22,7 @@ module atrito_solve
    use atrito_recovery, only: contact_forces, add_bilateral_forces, add_rigid_motions, recover_contact, recover_stress, &
                               estimate_error
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: results_t, scene_t, pair_scene_t
+   use atrito_results, only: balance_t, results_t, scene_t, pair_scene_t
    use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
@@ -346,6 +346,17 @@ contains
       end associate
    end subroutine share_out_rows
 
+   !> What bodies that are tied do to each other adds up to round-off.
+   pure subroutine clear_balance(balance)
+      type(balance_t), intent(inout) :: balance
+      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
+      real(wp) :: all_forces
+
+      all_forces = sum(abs(balance%applied) + abs(balance%reactions) + abs(balance%rigid) + abs(balance%rows))
+      where (abs(balance%rigid) <= ROUND_OFF*all_forces) balance%rigid = 0.0_wp
+      where (abs(balance%rows) <= ROUND_OFF*all_forces) balance%rows = 0.0_wp
+   end subroutine clear_balance
+
    !> Nodes with a support along another direction have reactions along both axes.
    pure subroutine mark_supports(bilateral, prescribed)
       type(bilateral_rows_t), intent(in) :: bilateral
@@ -388,6 +399,7 @@ contains
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
       results%balance%rows = others
       results%balance%rigid = results%balance%rigid - others
+      if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
       if (data%model%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
