@@ -60,11 +60,26 @@ contains
       call list_contact_nodes(fem%bodies, points, model%bilateral, first, contact_nodes)
       do i = 1, fem%bodies%n
          n_free = count(.not. held(:, fem%bodies%list(i)%nodes), kind=ip)
-         call number_equations(fem%mesh, fem%bodies, i, held, contact_nodes(first(i):first(i + 1) - 1), &
-                               needs_profile(asked, n_free))
+         call number_equations(fem%mesh, fem%bodies, i, held, enough_nodes(fem, i, contact_nodes(first(i):first(i + 1) - 1), &
+                                                                           model%bilateral%n > 0), needs_profile(asked, n_free))
          call find_rigid_modes(fem%mesh, fem%bodies%list(i), held)
       end do
    end subroutine build_bodies
+
+   !> A body that hangs on one node alone could turn about it while the others are eliminated: the one farthest from it stays, too.
+   pure function enough_nodes(fem, b, nodes, hangs) result(kept)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b, nodes(:)
+      logical, intent(in) :: hangs                             !< there are rows that single nodes hang on
+      integer(ip), allocatable :: kept(:)
+      integer(ip) :: i
+
+      kept = nodes
+      if (size(nodes) /= 1 .or. .not. hangs) return
+      associate (own => fem%bodies%list(b)%nodes, x => fem%mesh%x)
+         kept = [nodes, own(maxloc([(norm2(x(:, own(i)) - x(:, nodes(1))), i=1, size(own, kind=ip))], dim=1))]
+      end associate
+   end function enough_nodes
 
    pure subroutine list_prescribed(model, held, value)
       type(model_t), intent(in) :: model
