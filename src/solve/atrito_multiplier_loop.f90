@@ -48,7 +48,7 @@ module atrito_multiplier_loop
    real(wp), parameter :: LEAST_SHARE = 0.05_wp
    real(wp), parameter :: STEADY = 0.02_wp             !< change of a drift from one step to the next
    real(wp), parameter :: MOST_DRIFT = 1.0e9_wp        !< steps
-   real(wp), parameter :: LEAST_KAPPA = 1.0e-11_wp
+   real(wp), parameter :: LEAST_KAPPA = 1.0e-11_wp, LEAST_PULL = 1.0e-8_wp !< when bodies move; of what has no contact points
    real(wp), parameter :: NO_LOAD = 1.0e-9_wp         !< pull over the forces of a body that is none
    real(wp), parameter :: MOVES = 1.0e-6_wp           !< pull over the forces of a body that moves, when it does not fall:
    real(wp), parameter :: STEADY_PULL = 0.8_wp        !< of that of the step before
@@ -279,6 +279,8 @@ contains
       call begin_multipliers(system, pair(line%point), multipliers, &
                              merge(solution%bounds%d, 0.0_wp, solution%bounds%lower <= -HUGE_REAL))
       if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
+      ! where nothing can be open no body waits for what will hold it
+      if (line%n_bilateral == line%n) multipliers%kappa = LEAST_PULL
       allocate (solution%tau(line%n), source=0.0_wp)
       where (line%tangential > 0) solution%tau = HUGE_REAL
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
