@@ -33,6 +33,7 @@ module atrito_multiplier_step
       real(wp), allocatable :: hold(:)           !< (k) [F/L] sum of G_ij^2/c_i over the rows of the body
       integer(ip), allocatable :: pair(:)        !< (m) contact pair of each row
       integer(ip) :: n_pairs = 0
+      integer(ip) :: n_contact_pairs = huge(1_ip) !< those behind are groups of bilateral rows
       real(wp), allocatable :: stiffness(:)      !< (m) that was factored last
       real(wp), allocatable :: pull(:)           !< (k) that was factored last
       logical :: settled = .false.               !< the last step ended with the states that it assumed

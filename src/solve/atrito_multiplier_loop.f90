@@ -279,6 +279,7 @@ contains
       call begin_multipliers(system, pair(line%point), multipliers, &
                              merge(solution%bounds%d, 0.0_wp, solution%bounds%lower <= -HUGE_REAL))
       if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
+      if (line%n_bilateral > 0) multipliers%n_contact_pairs = line%pair(line%n - line%n_bilateral + 1) - 1
       ! where nothing can be open no body waits for what will hold it
       if (line%n_bilateral == line%n) multipliers%kappa = LEAST_PULL
       allocate (solution%tau(line%n), source=0.0_wp)
