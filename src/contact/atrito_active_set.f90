@@ -3,7 +3,7 @@
 !> Full steps end in a few solves almost always. When a state comes back, after MOST_FULL_STEPS, or when a body is free under
 !> the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
 module atrito_active_set
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, lp, wp, HUGE_REAL
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &
                               put_at_bounds, row_round_off, force_round_off, FREE, AT_LOWER, AT_UPPER
    use atrito_goldfarb_idnani, only: take_goldfarb_idnani_steps
@@ -79,13 +79,16 @@ contains
       real(wp) :: most
       integer(ip) :: i, old
 
-      most = OPENS*maxval([abs(state%q(:problem%n_normal))/problem%weight(:problem%n_normal), 0.0_wp])
+      associate (n => problem%n_normal)
+         most = OPENS*maxval([maxval(abs(state%q(:n))/problem%weight(:n), mask=bounds%lower(:n) > -HUGE_REAL), 0.0_wp])
+      end associate
       changes = 0
       do i = 1, problem%m
          old = state%state(i)
          select case (old)
          case (FREE)
             if (i <= problem%n_normal) then
+               if (bounds%lower(i) <= -HUGE_REAL) cycle
                if (is_in_tension(problem, bounds%d, state, i, most)) state%state(i) = AT_LOWER
             else if (abs(state%q(i))/(1 + SLIPS) > bounds%upper(i)) then
                if (.not. is_vanishing(problem, bounds%d, state, i)) state%state(i) = merge(AT_UPPER, AT_LOWER, state%q(i) > 0.0_wp)

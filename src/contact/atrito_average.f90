@@ -5,7 +5,7 @@ module atrito_average
    use atrito_neighbours, only: grid_t, build_grid, count_near, list_near
    implicit none (type, external)
    private
-   public :: average_t, identity_average, build_average, count_entries, apply_average, least_spacing
+   public :: average_t, identity_average, add_identity_rows, build_average, count_entries, apply_average, least_spacing
 
    !> 1 / integral of exp(1/(r^2-1)) over (-1,1): the constant c of the kernel, times rho.
    real(wp), parameter :: KERNEL_CONSTANT = 2.252283621043581_wp
@@ -34,6 +34,19 @@ contains
       w%column = [(j, j=1, n)]
       allocate (w%entry(n), source=1.0_wp)
    end function identity_average
+
+   !> More points, each of them its own average.
+   pure subroutine add_identity_rows(n, w)
+      integer(ip), intent(in) :: n
+      type(average_t), intent(inout) :: w
+      integer(ip) :: j, entries
+
+      entries = w%first(w%n + 1) - 1
+      w%first = [w%first, [(entries + j + 1, j=1, n)]]
+      w%column = [w%column, [(w%n + j, j=1, n)]]
+      w%entry = [w%entry, [(1.0_wp, j=1, n)]]
+      w%n = w%n + n
+   end subroutine add_identity_rows
 
    !> W_jk = omega_rho(|x_j - x_k|) l_k, with rows that sum to one (KERNEL_POINTS) or with the constant of the whole line
    !> (KERNEL_LINE). The identity when rho is at most the least spacing of the points.

@@ -6,8 +6,9 @@
 !> which the loads work more than any such forces, by the least sum (docs/theory/formulation.md, section 10). With least_largest
 !> the largest y_i takes the place of the sum; then sum |S_i v_i| is one, and v is as simple as such a motion can be.
 !>
-!> A point whose friction depends on its own pressure alone has two columns, the edges of its cone; others have one for the
-!> pressure, two for the friction, and a row for the bound. Columns are scaled to a largest entry of one.
+!> A bilateral row has two columns, one for either sign. A point whose friction depends on its own pressure alone has two columns,
+!> the edges of its cone; others have one for the pressure, two for the friction, and a row for the bound. Columns are scaled to a
+!> largest entry of one.
 module atrito_balance_program
    use atrito_contact_line, only: contact_line_t, pressure_of
    use atrito_growth, only: resize
@@ -153,7 +154,9 @@ contains
       call list_users(line, kinds, first, user, pressed)
       do j = 1, line%n
          if (.not. wanted(j) .or. line%normal(j) == 0) cycle
-         if (kinds%is_cone(j)) then
+         if (j > line%n - line%n_bilateral) then
+            call add_both_ways(rows, line%normal(j), row_of_motion, scale, columns)
+         else if (kinds%is_cone(j)) then
             call add_cone(rows, line, j, row_of_motion, scale, columns)
          else if (works(rows, line%normal(j), row_of_motion) .or. first(j + 1) > first(j)) then
             associate (users => user(first(j):first(j + 1) - 1), added => pressed(first(j):first(j + 1) - 1))
@@ -163,6 +166,23 @@ contains
          end if
       end do
    end subroutine add_contact_columns
+
+   !> The force of a bilateral row, which may have either sign.
+   pure subroutine add_both_ways(rows, i, row_of_motion, scale, columns)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: i               !< its unknown
+      integer(ip), intent(in) :: row_of_motion(:)
+      real(wp), intent(in) :: scale(:)
+      type(columns_t), intent(inout) :: columns
+      integer(ip) :: side
+
+      if (.not. works(rows, i, row_of_motion)) return
+      do side = -1, 1, 2
+         call begin_column(columns, [i, 0_ip], [real(side, wp), 0.0_wp])
+         call add_row(rows, i, real(side, wp), row_of_motion, scale, columns)
+         call scale_column(columns)
+      end do
+   end subroutine add_both_ways
 
    !> The two edges of the cone of a point: a pressure with full friction along T and against it.
    pure subroutine add_cone(rows, line, j, row_of_motion, scale, columns)

@@ -277,6 +277,7 @@ contains
       do i = 1, rows%m
          if (line%normal(line%point(i)) /= i) cycle
          resisted = rate(i) + by_friction(line%point(i))
+         if (line%point(i) > line%n - line%n_bilateral) resisted = abs(rate(i))
          if (resisted <= ROUND_OFF*(terms(i) + by_friction(line%point(i)))) cycle
          if (rows%first(i + 1) > rows%first(i)) then
             taken = taken + resisted*minval(body_force(rows%motion(rows%first(i):rows%first(i + 1) - 1)))
@@ -323,7 +324,7 @@ contains
       integer(ip) :: j
 
       p = pressure_of(line, q)
-      balanced = all(p >= 0.0_wp)
+      balanced = all(p(:line%n - line%n_bilateral) >= 0.0_wp)
       tau = friction_bound(line, p)
       do j = 1, line%n
          if (line%tangential(j) == 0) cycle

@@ -6,13 +6,15 @@ module atrito_contact_line
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: contact_line_t, number_unknowns, last_of_pair, pressure_of, shear_force_of, slip_of_unknown, friction_bound, &
-             normal_bounds, set_friction_bounds
+   public :: contact_line_t, number_unknowns, tangential_of, last_of_pair, pressure_of, shear_force_of, slip_of_unknown, &
+             friction_bound, normal_bounds, set_friction_bounds
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
-   !> displacement less the distance, and its slip, are known numbers.
+   !> displacement less the distance, and its slip, are known numbers. The last n_bilateral are no points of contact but bilateral
+   !> rows (atrito_bilateral_rows): a normal force without a bound, no friction, delta = w times the compliance.
    type :: contact_line_t
       integer(ip) :: n = 0
+      integer(ip) :: n_bilateral = 0
       real(wp), allocatable :: weight(:)              !< [L^2]
       real(wp), allocatable :: delta(:)               !< [L^3/F]
       type(friction_law_t), allocatable :: law(:)
@@ -55,6 +57,16 @@ contains
       end do
    end subroutine number_unknowns
 
+   !> The tangential unknown at the point of each of the n normal ones; 0: none; -1: no point of contact.
+   pure function tangential_of(line, n) result(i)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: n
+      integer(ip) :: i(n)
+
+      i = line%tangential(line%point(:n))
+      where (line%point(:n) > line%n - line%n_bilateral) i = -1
+   end function tangential_of
+
    !> The last point of the pair that begins at `first`.
    pure integer(ip) function last_of_pair(line, first) result(last)
       type(contact_line_t), intent(in) :: line
@@ -79,7 +91,7 @@ contains
       do j = 1, line%n
          if (line%normal(j) > 0) then
             p(j) = q(line%normal(j))/line%weight(j)
-         else if (line%known_overlap(j) > 0.0_wp .and. line%delta(j) > 0.0_wp) then
+         else if ((line%known_overlap(j) > 0.0_wp .or. j > line%n - line%n_bilateral) .and. line%delta(j) > 0.0_wp) then
             p(j) = line%known_overlap(j)/line%delta(j)
          else
             p(j) = 0.0_wp
@@ -138,6 +150,7 @@ contains
       allocate (state%q(problem%m), state%a(problem%k), state%r(problem%m), source=0.0_wp)
       do i = 1, problem%n_normal
          bounds%d(i) = line%delta(line%point(i))/line%weight(line%point(i))
+         if (line%point(i) > line%n - line%n_bilateral) bounds%lower(i) = -HUGE_REAL
       end do
       state%state(problem%n_normal + 1:) = FROZEN
    end subroutine normal_bounds

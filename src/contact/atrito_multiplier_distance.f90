@@ -22,6 +22,8 @@ module atrito_multiplier_distance
    end type distance_t
 
    real(wp), parameter :: NO_FORCE = 1.0e-12_wp  !< of the forces on the bodies that meet: none
+   !> The same of a bilateral row: it may be where nothing moves, and nothing tells its noise.
+   real(wp), parameter :: LITTLE = 1.0e-5_wp
 
 contains
 
@@ -96,7 +98,7 @@ contains
       do i = 1, system%rows%n
          associate (bodies => system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1)), &
                     pair => multipliers%pair(i))
-            least(pair) = max(least(pair), NO_FORCE*maxval(of_body(bodies)))
+            least(pair) = max(least(pair), merge(LITTLE, NO_FORCE, pair > multipliers%n_contact_pairs)*maxval(of_body(bodies)))
          end associate
       end do
    end subroutine measure_pairs

@@ -12,7 +12,7 @@ module atrito_multiplier_step
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
-   use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
    use atrito_least_forces, only: find_least_forces
    use atrito_line_search, only: search_line
    use atrito_solve_history, only: solve_history_t, record_solve
@@ -33,6 +33,7 @@ module atrito_multiplier_step
       real(wp), allocatable :: hold(:)           !< (k) [F/L] sum of G_ij^2/c_i over the rows of the body
       integer(ip), allocatable :: pair(:)        !< (m) contact pair of each row
       integer(ip) :: n_pairs = 0
+      integer(ip) :: n_contact_pairs = huge(1_ip) !< those behind are groups of bilateral rows
       real(wp), allocatable :: stiffness(:)      !< (m) that was factored last
       real(wp), allocatable :: pull(:)           !< (k) that was factored last
       logical :: settled = .false.               !< the last step ended with the states that it assumed
@@ -51,13 +52,17 @@ module atrito_multiplier_step
 contains
 
    !> At rest: no forces, no displacements.
-   subroutine begin_multipliers(system, pair, multipliers)
+   subroutine begin_multipliers(system, pair, multipliers, compliance)
       class(contact_system_t), intent(in) :: system
       integer(ip), intent(in) :: pair(:)         !< (m) of each row
       type(multiplier_t), intent(out) :: multipliers
+      real(wp), intent(in), optional :: compliance(:) !< (m) of springs: a soft one holds its body no firmer than it is [L/F]
+      real(wp) :: yields(system%rows%n)
       integer(ip) :: i, k
 
       multipliers%pair = pair
+      yields = system%flexibility
+      if (present(compliance)) yields = yields + compliance
       multipliers%n_pairs = maxval([pair, 0_ip])
       associate (m => system%rows%n)
          allocate (multipliers%x(system%n), multipliers%q_old(m), multipliers%noise(m), multipliers%a_old(system%k), &
@@ -67,7 +72,7 @@ contains
          do i = 1, m
             do k = system%rows%first(i), system%rows%first(i + 1) - 1
                associate (a => system%rows%column(k) - (system%n - system%k))
-                  if (a > 0) multipliers%hold(a) = multipliers%hold(a) + system%rows%value(k)**2/system%flexibility(i)
+                  if (a > 0) multipliers%hold(a) = multipliers%hold(a) + system%rows%value(k)**2/yields(i)
                end associate
             end do
          end do
@@ -299,14 +304,16 @@ contains
    end subroutine take_least_forces
 
    !> A pressure that is round-off is none: the point is open.
-   subroutine clear_round_off(shape, none, multipliers, state)
+   subroutine clear_round_off(shape, bounds, none, multipliers, state)
       type(bound_qp_t), intent(in) :: shape
+      type(box_bounds_t), intent(in) :: bounds
       logical, intent(in) :: none(:)             !< (m) of a pair without any force but round-off
       type(multiplier_t), intent(in) :: multipliers
       type(box_state_t), intent(inout) :: state
 
       associate (n => shape%n_normal)
-         where (state%state(:n) == FREE .and. (state%q(:n) <= multipliers%noise(:n) .or. none(:n)))
+         where (state%state(:n) == FREE .and. bounds%lower(:n) > -HUGE_REAL .and. &
+                (state%q(:n) <= multipliers%noise(:n) .or. none(:n)))
             state%q(:n) = 0.0_wp
             state%state(:n) = AT_LOWER
             state%r(:n) = min(state%r(:n), 0.0_wp)

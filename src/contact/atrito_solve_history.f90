@@ -25,7 +25,7 @@ module atrito_solve_history
       integer(ip) :: outer = 0, inner = 0
       real(wp) :: last_residual = 1.0_wp             !< of the friction bounds, at the end of the last outer iteration
       real(wp), allocatable :: moved(:), stress(:)   !< of the solve before
-      integer(ip), allocatable :: tangential_of(:)   !< (n_normal) tangential unknown of the same point; 0: none
+      integer(ip), allocatable :: tangential_of(:)   !< (n_normal) tangential unknown of the same point; 0: none; < 0: no contact
       integer(ip), allocatable :: states(:, :)       !< (n_normal, OUTER_KEPT) at the end of the last outer iterations, oldest first
       integer(ip) :: kept = 0                        !< of them there are
    end type solve_history_t
@@ -62,6 +62,9 @@ contains
       n = problem%n_normal
       moved = state%r + bounds%d*state%q
       stress = state%q/problem%weight
+      if (allocated(history%tangential_of)) then
+         where (history%tangential_of < 0) stress(:n) = 0.0_wp
+      end if
       if (.not. allocated(history%moved)) then
          allocate (history%moved(problem%m), history%stress(problem%m), source=0.0_wp)
          allocate (history%records(64))
@@ -102,7 +105,7 @@ contains
       now = [(point_state(history, state, i), i=1, problem%n_normal)]
       record%open = count(now == IS_OPEN, kind=ip)
       record%stick = count(now == IS_STUCK, kind=ip)
-      record%slip = problem%n_normal - record%open - record%stick
+      record%slip = count(now > 0, kind=ip) - record%open - record%stick
       ! the last solve of an outer iteration counts
       if (.not. allocated(history%states)) allocate (history%states(size(now), OUTER_KEPT), source=0_ip)
       if (record%inner == 1 .and. history%kept == OUTER_KEPT) history%states(:, :OUTER_KEPT - 1) = history%states(:, 2:)
@@ -118,7 +121,9 @@ contains
 
       t = 0
       if (allocated(history%tangential_of)) t = history%tangential_of(i)
-      if (state%state(i) /= FREE) then
+      if (t < 0) then
+         now = 0
+      else if (state%state(i) /= FREE) then
          now = IS_OPEN
       else if (t == 0) then
          now = IS_CLOSED

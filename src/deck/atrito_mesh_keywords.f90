@@ -126,11 +126,18 @@ contains
                           '8 the same without a centre (serendipity). Faces: S1 = nodes 1-2, S2 = 2-3, '// &
                           'S3 = 3-4, S4 = 4-1. Triangles: 3 nodes are linear, 6 quadratic; mid-sides 1-2, 2-3, 3-1; '// &
                           'S3 = 3-1, and no S4.')
-      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types())
+      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types()//' SPRING1 SPRING2')
       call add_option(k, 'ELSET', KIND_NAME, 'puts these elements into an element set')
       do shape = 1, MOST_NODES
          if (SHAPES(shape)%n_nodes > 0) call add_element_form(k, shape)
       end do
+      call add_form(k, 'one spring to the ground a line; *SPRING gives its dof', 1, ANY_NUMBER, when='TYPE=SPRING1')
+      call add_item(k, 'id', KIND_ID, 'number of the spring, positive')
+      call add_item(k, 'node', KIND_ID, 'that it holds')
+      call add_form(k, 'one spring between two nodes a line', 1, ANY_NUMBER, when='TYPE=SPRING2')
+      call add_item(k, 'id', KIND_ID, 'number of the spring, positive')
+      call add_item(k, 'node 1', KIND_ID, 'first end')
+      call add_item(k, 'node 2', KIND_ID, 'second end')
       call add_example(k, '*ELEMENT, TYPE=CPE4, ELSET=plate|1, 1, 2, 102, 101')
 
       call define_keyword(k, 'ELGEN', LEVEL_MODEL, 'repeats an element in a row, and the row', &

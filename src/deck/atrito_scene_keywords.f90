@@ -16,6 +16,9 @@ contains
       call define_interaction_keywords(k)
       call define_contact_keywords(k)
       call define_boundary(k)
+      call define_linear_constraints(k)
+      call define_tie(k)
+      call define_springs(k)
    end subroutine define_scene_keywords
 
    subroutine define_material_keywords(k)
@@ -176,6 +179,77 @@ contains
       call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2|*BOUNDARY, FUNCTION|pillar-TOP, 2, 2, '// &
                        '-(0.10 - 0.001*x)')
    end subroutine define_boundary
+
+   subroutine define_linear_constraints(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'TRANSFORM', LEVEL_MODEL, 'local axes of nodes', &
+                          doc='*BOUNDARY, *CLOAD and *EQUATION at these nodes are along the local axes; what is printed is '// &
+                          'along x and y. R: the local x axis points from the origin to a, local y to the side of b. C: local '// &
+                          'x is the direction from a to the node, local y is that turned by +90 degrees.')
+      call add_option(k, 'NSET!', KIND_NAME, 'the nodes')
+      call add_option(k, 'TYPE', KIND_WORD, 'rectangular or cylindrical', default='R', choices='R C -S')
+      call add_form(k, 'the axes', 1, 1)
+      call add_item(k, 'xa', KIND_REAL, 'point a', dimension='L')
+      call add_item(k, 'ya', KIND_REAL, 'point a', dimension='L')
+      call add_item(k, 'za', KIND_REAL, 'point a', dimension='L', default='0')
+      call add_item(k, 'xb', KIND_REAL, 'point b', dimension='L', default='on the axis')
+      call add_item(k, 'yb', KIND_REAL, 'point b', dimension='L', default='on the axis')
+      call add_item(k, 'zb', KIND_REAL, 'point b', dimension='L', default='0')
+      call add_example(k, '*TRANSFORM, NSET=block-BOTTOM|0.8660254, 0.5, 0., -0.5, 0.8660254, 0.|*BOUNDARY|block-BOTTOM, 2')
+
+      call define_keyword(k, 'EQUATION', LEVEL_MODEL, 'linear equations between displacements', &
+                          doc='The sum of coefficient times displacement over the terms is 0. Where the first term names a '// &
+                          'set, there is one equation for each of its nodes; other terms have one node, or a set of as '// &
+                          'many, taken in order. All dofs may be prescribed or take part in other equations.')
+      call add_form(k, 'the number of terms, then the terms, up to four a line', 2, ANY_NUMBER)
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set; or the number of terms, alone')
+      call add_item(k, '[dof]', KIND_INTEGER, '1 or 2')
+      call add_item(k, '[coefficient]', KIND_REAL, 'not all of them 0', dimension='-')
+      call add_item(k, '[further terms]...', KIND_TEXT, 'node, dof, coefficient')
+      call add_example(k, '*EQUATION|2|17, 1, 1., 205, 1, -1.')
+   end subroutine define_linear_constraints
+
+   subroutine define_tie(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'TIE', LEVEL_MODEL, 'joins two surfaces for good', &
+                          doc='The displacements of both sides are the same: in the mean (mortar) where the sides do not '// &
+                          'match, node by node where they do. Nodes of the slave farther from the master than the tolerance '// &
+                          'are not tied. What is left of a gap makes no strain. A node can be a slave in one tie only.')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the tie')
+      call add_option(k, 'ADJUST', KIND_WORD, 'whether nodes of the slave are moved onto the master before anything else', &
+                      default='YES', choices='YES NO')
+      call add_option(k, 'POSITION TOLERANCE', KIND_REAL, 'farther nodes are not tied; 0.05 of the mean face of the master '// &
+                      'when left out', dimension='L')
+      call add_option(k, 'TYPE', KIND_WORD, 'always by mortar, or always node by node', &
+                      choices='SURFACE_TO_SURFACE NODE_TO_SURFACE')
+      call add_option(k, '(NO ROTATION)', KIND_FLAG, 'nodes have no rotations')
+      call add_option(k, '(NO THICKNESS)', KIND_FLAG, 'of shells')
+      call add_option(k, '-CYCLIC SYMMETRY', KIND_FLAG, 'sectors')
+      call add_form(k, 'one tie a line', 1, ANY_NUMBER)
+      call add_item(k, 'slave', KIND_NAME, 'surface of elements, one connected chain')
+      call add_item(k, 'master', KIND_NAME, 'surface of elements')
+      call add_example(k, '*TIE, NAME=glue|layer-BOTTOM, ground-TOP')
+   end subroutine define_tie
+
+   subroutine define_springs(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'SPRING', LEVEL_MODEL, 'gives springs their direction and stiffness', &
+                          doc='The springs are made by *ELEMENT, TYPE=SPRING1 (a node to the ground) or SPRING2 (between two '// &
+                          'nodes). The force is stiffness times u_dof of the first node, less that of the second.')
+      call add_option(k, 'ELSET!', KIND_NAME, 'the springs, as ELSET of their *ELEMENT')
+      call add_option(k, '-NONLINEAR', KIND_FLAG, 'force by a table')
+      call add_option(k, '-ORIENTATION', KIND_NAME, 'local axes')
+      call add_form(k, 'the dofs', 1, 1)
+      call add_item(k, 'dof', KIND_INTEGER, 'of the first node, 1 or 2')
+      call add_item(k, 'second dof', KIND_INTEGER, 'of the second node, of SPRING2', default='dof')
+      call add_form(k, 'the stiffness', 1, 1)
+      call add_item(k, 'stiffness', KIND_REAL, 'force over elongation, > 0', dimension='F/L')
+      call add_item(k, '(further)...', KIND_REAL, 'of other programs')
+      call add_example(k, '*ELEMENT, TYPE=SPRING1, ELSET=bedding|1001, 17|*SPRING, ELSET=bedding|2|2.5e4')
+   end subroutine define_springs
 
    !> A line of two surfaces; with a condition on an option.
    subroutine add_surface_pair(k, when)

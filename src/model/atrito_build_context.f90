@@ -69,12 +69,14 @@ module atrito_build_context
       type(node_elements_t) :: around                  !< elements round each node
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
+      type(token_t), allocatable :: ties(:)            !< of each the slave
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
       logical, allocatable :: elastic_given(:), elastic_invalid(:)  !< for each material
       logical :: sections_undetermined = .false.             !< a *SOLID SECTION could not be understood
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
       integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in model%prescribed; 0: free
+      real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
       integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
    end type build_context_t
 

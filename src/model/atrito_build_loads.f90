@@ -6,6 +6,7 @@ module atrito_build_loads
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
+   use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_load_lists, only: add_nodal_value, add_element_load, trim_nodal_values, trim_element_loads
    use atrito_model, only: model_t, LOAD_BODY, LOAD_TRACTION, SURFACE_ELEMENTS
    use atrito_name_list, only: find_name
@@ -97,10 +98,28 @@ contains
          return
       end if
       do i = 1, size(nodes, kind=ip)
-         call add_nodal_value(context%model%node_loads, nodes(i), dof, force)
+         call add_force(context, nodes(i), dof, force)
       end do
       call note_supported(line, context, nodes, dof)
    end subroutine read_cload_line
+
+   !> A force along a dof, which may be a local axis.
+   subroutine add_force(context, node, dof, force)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node, dof
+      real(wp), intent(in) :: force                    !< [F]
+      real(wp) :: along(2)
+      integer(ip) :: axis
+
+      if (.not. has_local_axes(context, node)) then
+         call add_nodal_value(context%model%node_loads, node, dof, force)
+         return
+      end if
+      along = force*dof_direction(context, node, dof)
+      do axis = 1, 2
+         if (along(axis) /= 0.0_wp) call add_nodal_value(context%model%node_loads, node, axis, along(axis))
+      end do
+   end subroutine add_force
 
    !> A force on a prescribed dof moves nothing.
    subroutine note_supported(line, context, nodes, dof)

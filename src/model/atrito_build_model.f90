@@ -2,16 +2,20 @@
 module atrito_build_model
    use atrito_adjustment, only: adjusted_t, adjust_pairs, close_adjusted
    use atrito_axis, only: hold_axis, check_axis
+   use atrito_bilateral_rows, only: trim_rows
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
    use atrito_build_elements, only: read_element_card, read_elgen_card
+   use atrito_build_equations, only: turn_supports, build_equations
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
    use atrito_build_requests, only: build_requests
+   use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
+   use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
    use atrito_check_contact_sense, only: warn_of_overlap, warn_of_loaded_contact
@@ -23,6 +27,7 @@ module atrito_build_model
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
    use atrito_kinds, only: ip, lp
+   use atrito_local_axes, only: read_local_axes
    use atrito_memory, only: available_memory
    use atrito_mesh, only: trim_mesh
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
@@ -99,15 +104,22 @@ contains
       call build_contact(context)
       call read_clearances(context, clearances)
       call read_contact_rules(context, rules)
+      call read_ties(context)
+      call read_local_axes(context)
       call build_supports(context)
       call hold_axis(context)
+      call turn_supports(context)
+      call build_equations(context)
+      call build_springs(context)
       call build_loads(context)
       call build_requests(context)
       call check_mesh(model, context)
       call check_axis(model, context)
       call order_slaves(model, chains)
       call check_surfaces_of_pairs(model, context, chains)
+      call check_ties(context, chains)
       if (has_errors()) return
+      call build_ties(context)
       call find_contact(rules, context)
       call note_unused_interactions(model, context)
       call adjust_pairs(context, adjusted)
@@ -118,6 +130,7 @@ contains
       end do
       call set_clearances(clearances, model%mesh%n_nodes, points)
       call move_alloc(points, model%points)
+      call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
@@ -193,7 +206,7 @@ contains
       do i = 1, context%deck%n_cards
          select case (keyword_name(context%deck%cards(i)))
          case ('ELEMENT')
-            call read_element_card(i, context)
+            if (.not. is_spring_card(context, context%deck%cards(i))) call read_element_card(i, context)
          case ('ELGEN')
             call read_elgen_card(i, context)
          case ('ELCOPY')

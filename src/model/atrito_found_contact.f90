@@ -86,6 +86,9 @@ contains
       do i = 1, size(context%model%pairs, kind=ip)
          call add_rule(rules%excluded, context%model%pairs(i)%slave, context%model%pairs(i)%master, i)
       end do
+      do i = 1, size(context%model%ties, kind=ip)
+         call add_rule(rules%excluded, context%model%ties(i)%slave, context%model%ties(i)%master, i)
+      end do
       call sort_rules(rules%included)
       call sort_rules(rules%excluded)
       call sort_rules(rules%assigned)

@@ -1,5 +1,6 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
 module atrito_model
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_points, only: contact_points_t
@@ -11,7 +12,7 @@ module atrito_model
    implicit none (type, external)
    private
    public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
-   public :: controls_t, requests_t, requested_t, parameter_value_t
+   public :: spring_t, tie_t, controls_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
@@ -80,6 +81,22 @@ module atrito_model
       real(wp), allocatable :: value(:)
    end type nodal_values_t
 
+   type :: tie_t
+      character(len=:), allocatable :: name
+      integer(ip) :: slave = 0, master = 0          !< places of surfaces
+      integer(ip) :: quadrature = QUADRATURE_AUTO
+      real(wp) :: tolerance = -1.0_wp               !< farther nodes of the slave are not tied [L]; < 0: not set yet
+      logical :: adjusts = .true.                   !< nodes of the slave are moved onto the master
+      integer(ip) :: n_nodes = 0, n_far = 0         !< of the slave that are tied, and that are not
+   end type tie_t
+
+   !> SPRING1 holds one node, SPRING2 two.
+   type :: spring_t
+      integer(ip) :: id = 0                         !< the user's number
+      integer(ip) :: node(2) = 0, dof(2) = 0        !< second node 0: the ground
+      real(wp) :: stiffness = 0.0_wp                !< [F/L], > 0
+   end type spring_t
+
    !> Loads on elements; several add up.
    type :: element_load_t
       integer(ip) :: n = 0
@@ -134,6 +151,10 @@ module atrito_model
       type(interaction_t), allocatable :: interactions(:)
       type(pair_t), allocatable :: pairs(:)
       type(contact_points_t), allocatable :: points(:) !< of each pair
+      type(bilateral_rows_t) :: bilateral           !< of ties, equations, supports along other directions, springs
+      type(nodal_values_t) :: equations             !< node, dof and coefficient of the first term of each
+      type(spring_t), allocatable :: springs(:)
+      type(tie_t), allocatable :: ties(:)
       type(nodal_values_t) :: prescribed            !< each dof once
       type(nodal_values_t) :: node_loads            !< several on one dof add up
       type(element_load_t) :: element_loads

@@ -10,7 +10,7 @@ module atrito_pairing
    use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
-   public :: order_slaves, pair_all, element_thickness, make_master
+   public :: order_slaves, pair_all, pair_surfaces, element_thickness, make_master
 
 contains
 
@@ -23,6 +23,7 @@ contains
 
       is_slave = .false.
       is_slave(model%pairs%slave) = .true.
+      if (allocated(model%ties)) is_slave(model%ties%slave) = .true.
       allocate (reports(size(model%surfaces)))
       do i = 1, size(model%surfaces, kind=ip)
          associate (surface => model%surfaces(i))
@@ -37,26 +38,36 @@ contains
    subroutine pair_all(model, points)
       type(model_t), intent(in) :: model
       type(contact_points_t), allocatable, intent(out) :: points(:)
+
+      call pair_surfaces(model, model%pairs%slave, model%pairs%master, model%pairs%quadrature, points)
+   end subroutine pair_all
+
+   !> The same of any pairs of surfaces, by their places.
+   subroutine pair_surfaces(model, slaves, partners, quadrature, points)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: slaves(:), partners(:) !< slaves and masters
+      integer(ip), intent(in) :: quadrature(:)         !< QUADRATURE_*
+      type(contact_points_t), allocatable, intent(out) :: points(:)
       type(master_t), allocatable :: masters(:)        ! of the surfaces
       logical :: is_master(size(model%surfaces))
       real(wp), allocatable :: thickness(:)
       integer(ip) :: i
 
-      allocate (points(size(model%pairs)), masters(size(model%surfaces)))
+      allocate (points(size(slaves)), masters(size(model%surfaces)))
       if (size(points) == 0) return
       thickness = element_thickness(model)
       is_master = .false.
-      is_master(model%pairs%master) = .true.
+      is_master(partners) = .true.
       do i = 1, size(masters, kind=ip)
          if (is_master(i)) call make_master(model, i, masters(i))
       end do
       do i = 1, size(points, kind=ip)
-         associate (slave => model%surfaces(model%pairs(i)%slave)%faces, surface => model%surfaces(model%pairs(i)%master), &
-                    master => masters(model%pairs(i)%master))
-            call make_points(model, thickness, model%pairs(i)%quadrature, slave, surface%faces, master, points(i))
+         associate (slave => model%surfaces(slaves(i))%faces, surface => model%surfaces(partners(i)), &
+                    master => masters(partners(i)))
+            call make_points(model, thickness, quadrature(i), slave, surface%faces, master, points(i))
          end associate
       end do
-   end subroutine pair_all
+   end subroutine pair_surfaces
 
    subroutine make_master(model, i, master)
       type(model_t), intent(in) :: model

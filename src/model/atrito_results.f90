@@ -73,6 +73,7 @@ module atrito_results
       type(pair_scene_t), allocatable :: pairs(:)
       integer(ip) :: n_dofs = 0                     !< free dofs of all bodies
       integer(ip) :: n_normal = 0, n_tangential = 0 !< unknowns of the contact line
+      integer(ip) :: n_rows = 0                     !< of the normal ones those of ties, equations, supports, springs
       integer(ip) :: n_rigid = 0                    !< rigid motions carried as unknowns
       logical :: outer_loop = .false.
       logical :: near_elements = .false.            !< some that are near, not equal, had one stiffness; refined
@@ -90,6 +91,7 @@ module atrito_results
       real(wp) :: applied_moment = 0.0_wp, reaction_moment = 0.0_wp
       real(wp) :: rigid(2) = 0.0_wp                 !< force of the bodies' contact upon rigid surfaces
       logical :: is_revolved = .false.              !< forces along 1 are radial: they and the moments balance in themselves
+      real(wp) :: rows(2) = 0.0_wp                  !< of the bodies upon springs to the ground and equations
    end type balance_t
 
    !> A row of bodies.tab: the rigid motion that comes nearest to the displacements of a body, and what acts upon it.
@@ -134,6 +136,8 @@ module atrito_results
       logical, allocatable :: prescribed(:, :)      !< (2, n_nodes)
       real(wp), allocatable :: reaction(:, :)       !< (2, n_nodes) [F]; 0 where not prescribed
       type(contact_result_t), allocatable :: contact(:)   !< one a pair
+      real(wp), allocatable :: row_x(:, :)          !< (2, bilateral rows) a node of each [L]
+      real(wp), allocatable :: row_force(:)         !< (bilateral rows) q: what row j takes along its vectors [F]
       integer(ip), allocatable :: stress_element(:) !< (n_stress) places of elements, rows of stress.tab
       integer(ip), allocatable :: stress_point(:)   !< (n_stress) 1.. in the element, xi fastest
       real(wp), allocatable :: stress_x(:, :)       !< (2, n_stress) [L]

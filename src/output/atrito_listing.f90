@@ -14,6 +14,7 @@ module atrito_listing
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
+   use atrito_row_tables, only: describe_rows
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields, &
                              scales_of_pair, pair_name
@@ -79,6 +80,7 @@ contains
       call add_iterations(page, results)
       call add_heading(page, '5  CONTACT')
       call add_contact(page, model, results)
+      call describe_rows(page, model, results)
       call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
       call add_equilibrium(page, results)
       call add_heading(page, '7  MESSAGES')
@@ -272,13 +274,15 @@ contains
       b = results%balance
       if (b%is_revolved) then
          call add_line(page, '   of the full circle: what is radial, and moments, balance in themselves')
-         b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)])
+         b = balance_t([0.0_wp, b%applied(2)], [0.0_wp, b%reactions(2)], rigid=[0.0_wp, b%rigid(2)], &
+                       rows=[0.0_wp, b%rows(2)])
       end if
       call add_line(page, '   '//left('resultants', 30)//right('F1 [F]', 18)//right('F2 [F]', 18)// &
                     right('moment about 0,0', 20))
       call add_line(page, force_line('applied', b%applied)//right(number(b%applied_moment, DIGITS), 20))
       call add_line(page, force_line('reactions of the supports', b%reactions)//right(number(b%reaction_moment, DIGITS), 20))
       call add_line(page, force_line('from rigid surfaces', -b%rigid))
+      if (any(abs(b%rows) > 0.0_wp)) call add_line(page, force_line('from springs and equations', -b%rows))
       call add_line(page, force_line('sum', balance_sum(b)))
       call add_blank(page)
       list = step_quantities(results)
@@ -298,8 +302,8 @@ contains
       type(balance_t), intent(in) :: b
       real(wp) :: total(2)
 
-      total = b%applied + b%reactions - b%rigid
-      where (abs(total) < ZERO_SHARE*(abs(b%applied) + abs(b%reactions) + abs(b%rigid))) total = 0.0_wp
+      total = b%applied + b%reactions - b%rigid - b%rows
+      where (abs(total) < ZERO_SHARE*(abs(b%applied) + abs(b%reactions) + abs(b%rigid) + abs(b%rows))) total = 0.0_wp
    end function balance_sum
 
    pure function force_line(name, f) result(text)

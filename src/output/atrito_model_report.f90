@@ -1,6 +1,7 @@
 !> What was understood of a deck, for the listing and for `atrito check`.
 module atrito_model_report
    use atrito_element_table, only: KINDS, MOST_CORNERS, kind_of
+   use atrito_row_tables, only: joined_text
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: depth_at
    use atrito_strings, only: to_text
@@ -53,6 +54,7 @@ contains
       call add_entry(page, 'materials, sections', to_text(size(model%materials, kind=ip))//', '// &
                      to_text(size(model%sections, kind=ip)))
       call add_entry(page, 'contact pairs', to_text(size(model%pairs, kind=ip)))
+      if (len(joined_text(model)) > 0) call add_entry(page, 'joined by', joined_text(model))
    end subroutine describe_counts
 
    !> ` (75 CPE4, 36 CPS9)`

@@ -25,8 +25,9 @@ contains
 
       call add_entry(page, 'bodies', to_text(body_count(scene)))
       call add_entry(page, 'free displacements', to_text(scene%n_dofs))
-      call add_entry(page, 'normal unknowns', to_text(scene%n_normal))
+      call add_entry(page, 'normal unknowns', to_text(scene%n_normal - scene%n_rows))
       call add_entry(page, 'tangential unknowns', to_text(scene%n_tangential))
+      if (scene%n_rows > 0) call add_entry(page, 'of ties, equations, springs', to_text(scene%n_rows))
       call add_entry(page, 'rigid motions as unknowns', to_text(scene%n_rigid))
       if (scene%outer_loop) then
          call add_entry(page, 'outer loop', 'on the friction bound')

@@ -8,6 +8,7 @@ module atrito_screen
    use atrito_model, only: model_t, METHOD_NAME
    use atrito_results, only: results_t, scene_t
    use atrito_model_report, only: describe_counts
+   use atrito_row_tables, only: joined_text
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
                           plural
@@ -82,7 +83,7 @@ contains
                        plural(model%mesh%n_elements, 'element', 'elements')//', '// &
                        plural(model%mesh%n_nodes, 'node', 'nodes')//', '//to_text(scene%n_dofs)// &
                        ' '//trim(merge('free dofs         ', 'free displacements', scene%n_dofs >= 1000000)))
-         call add_item(page, 'contact', contact_text(scene))
+         call add_item(page, 'contact', contact_text(model, scene))
          call add_item(page, 'solver', solvers(scene)//iteration_text(model, results))
       end associate
       if (results%converged .and. results%law_holds) then
@@ -95,7 +96,8 @@ contains
       end if
    end subroutine add_sizes
 
-   pure function contact_text(scene) result(text)
+   pure function contact_text(model, scene) result(text)
+      type(model_t), intent(in) :: model
       type(scene_t), intent(in) :: scene
       character(len=:), allocatable :: text
       integer(ip) :: n
@@ -106,8 +108,9 @@ contains
          text = 'none'
       else
          text = plural(n, 'pair', 'pairs')//', '//plural(sum(scene%pairs%n_points), 'point', 'points')//': '// &
-                to_text(scene%n_normal)//' normal and '//to_text(scene%n_tangential)//' tangential unknowns'
+                to_text(scene%n_normal - scene%n_rows)//' normal and '//to_text(scene%n_tangential)//' tangential unknowns'
       end if
+      if (len(joined_text(model)) > 0) text = text//'; '//joined_text(model)
    end function contact_text
 
    !> The solvers in use, each once.

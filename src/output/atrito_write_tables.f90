@@ -10,6 +10,7 @@ module atrito_write_tables
    use atrito_model, only: model_t
    use atrito_results, only: results_t, contact_result_t, iteration_t, body_motion_t
    use atrito_number_text, only: trimmed_real
+   use atrito_row_tables, only: has_rows, build_row_table
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, &
                              measure_fields, scales_of_pair, pair_count
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_real_columns, add_field, add_integers, &
@@ -19,8 +20,8 @@ module atrito_write_tables
    public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES
 
    !> Every table that atrito can write.
-   character(len=10), parameter :: TABLE_NAMES(9) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
-                                                                                         'bodies', 'joints', 'iterations', 'timing']
+   character(len=10), parameter :: TABLE_NAMES(12) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
+                                                      'bodies', 'joints', 'ties', 'equations', 'springs', 'iterations', 'timing']
 
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
@@ -94,6 +95,9 @@ contains
          case ('joints')
             if (.not. (model%requests%joints .and. allocated(results%joints))) cycle
             call build_joints(results, scales, table)
+         case ('ties', 'equations', 'springs')
+            if (.not. has_rows(model, results, trim(TABLE_NAMES(i)))) cycle
+            call build_row_table(model, results, scales, trim(TABLE_NAMES(i)), table)
          case ('iterations')
             call build_iterations(results, table)
          case default

@@ -8,7 +8,7 @@ module atrito_assembled_scene
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_bodies, only: mode_at
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, element_store_t, add_to_store, sum_diagonals, take_own_matrices, front_bytes_t, &
@@ -173,7 +173,7 @@ contains
          j = line%point(i)
          do k = rows%first(j), rows%first(j + 1) - 1
             node = rows%node(k)
-            d = rows%coefficient(k)*direction_of(rows, line, i)
+            d = rows%coefficient(k)*direction_of_entry(rows, j, k, direction_of(rows, line, i))
             first = scene%numbering%before(fem%bodies%of_node(node))
             scene%flexibility(i) = scene%flexibility(i) &
                                    + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)

@@ -4,6 +4,7 @@
 !> again when its materials are, too; its reduced load when the load is the same as well. Nothing is guessed from what was varied.
 module atrito_body_cache
    use atrito_assembly, only: fem_t
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
    use atrito_kinds, only: ip, wp
@@ -31,6 +32,7 @@ module atrito_body_cache
       integer(ip), allocatable, private :: section_of(:)   !< (n_elements)
       logical, allocatable, private :: held(:, :)      !< (2, n_nodes)
       type(contact_points_t), allocatable, private :: points(:)
+      type(bilateral_rows_t), private :: bilateral
       integer, private :: asked = 0                    !< solver asked for
       real(wp), private :: grain = 0.0_wp              !< [L] of the elements that were taken as equal
       real(wp), allocatable, private :: load(:, :)     !< (2, n_nodes) [F] the reduced load
@@ -42,7 +44,7 @@ contains
    !> Condensed bodies with their reduced loads; those of the run before serve again where they can.
    !>
    !> status: STATUS_SINGULAR of condense_body.
-   subroutine provide_bodies(store, fem, held, points, load, asked, results, status)
+   subroutine provide_bodies(store, fem, held, points, load, asked, results, status, bilateral)
       type(body_cache_t), intent(inout) :: store
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
@@ -51,6 +53,7 @@ contains
       integer, intent(in) :: asked                     !< STORAGE_* or 0
       type(body_result_t), intent(inout) :: results(:) !< one a body
       type(status_t), intent(out) :: status
+      type(bilateral_rows_t), intent(in), optional :: bilateral !< without it there are none
       type(condensed_body_t), allocatable :: bodies(:)
       logical :: same_bodies, same_load
       integer(ip) :: b
@@ -58,7 +61,7 @@ contains
       store%factorisations = 0
       same_bodies = .false.
       if (store%holds) same_bodies = store%asked == asked .and. store%grain == fem%grain &
-                                     .and. has_same_numbering(store, held, points, fem)
+                                     .and. has_same_numbering(store, held, points, fem, bilateral)
       store%holds = .false.
       allocate (bodies(fem%bodies%n))
       do b = 1, fem%bodies%n
@@ -82,7 +85,9 @@ contains
                               //'  contact dofs '//to_text(fem%bodies%list(b)%n_retained)//'  '//results(b)%solver)
       end do
       call move_alloc(bodies, store%bodies)
-      if (store%keeps) call remember(store, fem, held, points, load, asked, results, same_bodies)
+      if (.not. store%keeps) return
+      call remember(store, fem, held, points, load, asked, results, same_bodies)
+      if (present(bilateral)) store%bilateral = bilateral
    end subroutine provide_bodies
 
    subroutine remember(store, fem, held, points, load, asked, results, same_bodies)
@@ -126,25 +131,27 @@ contains
 
    !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same: how they
    !> are numbered depends on the solver.
-   subroutine take_numbering(store, held, points, asked, fem, taken)
+   subroutine take_numbering(store, held, points, asked, fem, taken, bilateral)
       type(body_cache_t), intent(in) :: store
       logical, intent(in) :: held(:, :)                !< (2, n_nodes)
       type(contact_points_t), intent(in) :: points(:)
       integer, intent(in) :: asked                     !< STORAGE_* or 0
       type(fem_t), intent(inout) :: fem                !< with mesh and sections
       logical, intent(out) :: taken
+      type(bilateral_rows_t), intent(in), optional :: bilateral
 
       taken = .false.
-      if (store%holds) taken = store%asked == asked .and. has_same_numbering(store, held, points, fem)
+      if (store%holds) taken = store%asked == asked .and. has_same_numbering(store, held, points, fem, bilateral)
       if (taken) fem%bodies = store%numbering
    end subroutine take_numbering
 
    !> Mesh, supports and contact nodes decide on bodies and numbering.
-   pure logical function has_same_numbering(store, held, points, fem) result(same)
+   pure logical function has_same_numbering(store, held, points, fem, bilateral) result(same)
       type(body_cache_t), intent(in) :: store
       logical, intent(in) :: held(:, :)
       type(contact_points_t), intent(in) :: points(:)
       type(fem_t), intent(in) :: fem
+      type(bilateral_rows_t), intent(in), optional :: bilateral
       integer(ip) :: i
 
       same = .false.
@@ -160,6 +167,13 @@ contains
             if (any(old%entry /= new%entry)) return
          end associate
       end do
+      if (present(bilateral)) then
+         if (store%bilateral%n /= bilateral%n) return
+         if (bilateral%n > 0) then
+            if (size(store%bilateral%node) /= size(bilateral%node)) return
+            if (any(store%bilateral%node /= bilateral%node)) return
+         end if
+      end if
       same = .true.
    end function has_same_numbering
 

@@ -2,11 +2,13 @@
 module atrito_contact_problem
    use atrito_kinds, only: ip, lp, wp
    use atrito_assembly, only: fem_t
+   use atrito_average, only: add_identity_rows
    use atrito_bodies, only: mode_at
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_contact_line, only: contact_line_t, number_unknowns
-   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
    use atrito_model, only: model_t, interaction_t
    use atrito_points, only: contact_points_t
@@ -29,6 +31,7 @@ contains
       integer(ip) :: i, j, first
 
       line%n = rows%n
+      line%n_bilateral = rows%n_bilateral
       allocate (line%weight(line%n), line%delta(line%n), line%law(line%n), line%pair(line%n))
       allocate (line%known_overlap(line%n), line%known_slip(line%n))
       first = 0
@@ -42,6 +45,7 @@ contains
          end associate
       end do
       call average_surfaces(points, average_rules(model), line%average)
+      if (line%n_bilateral > 0) call append_bilateral(model%bilateral, size(points, kind=ip), line)
       do j = 1, line%n
          normal_row(j) = has_unknown(fem, rows, j, rows%normal(:, j))
          tangential_row(j) = has_unknown(fem, rows, j, rows%tangent(:, j))
@@ -50,6 +54,20 @@ contains
       end do
       call number_unknowns(line, normal_row, tangential_row)
    end subroutine build_line
+
+   !> The rows behind the points: without friction, their average their own force.
+   pure subroutine append_bilateral(bilateral, n_pairs, line)
+      type(bilateral_rows_t), intent(in) :: bilateral
+      integer(ip), intent(in) :: n_pairs
+      type(contact_line_t), intent(inout) :: line
+
+      associate (n => line%n - line%n_bilateral)
+         line%pair(n + 1:) = n_pairs + bilateral%group
+         line%weight(n + 1:) = bilateral%weight
+         line%delta(n + 1:) = bilateral%compliance*bilateral%weight
+         call add_identity_rows(line%n_bilateral, line%average)
+      end associate
+   end subroutine append_bilateral
 
    !> The entries of the average over the points of all pairs; an estimate where there are more than `most`.
    pure integer(lp) function average_entries(model, points, most) result(entries)
@@ -94,11 +112,13 @@ contains
       integer(ip), intent(in) :: j
       real(wp), intent(in) :: direction(2)
       integer(ip) :: k, dof
+      real(wp) :: along(2)
 
       has_unknown = .false.
       do k = rows%first(j), rows%first(j + 1) - 1
+         along = direction_of_entry(rows, j, k, direction)
          do dof = 1, 2
-            has_unknown = has_unknown .or. (direction(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) > 0)
+            has_unknown = has_unknown .or. (along(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) > 0)
          end do
       end do
    end function has_unknown
@@ -232,6 +252,7 @@ contains
       integer(ip), intent(out) :: dofs(:)
       real(wp), intent(out) :: coefficients(:)
       integer(ip) :: k, dof, n, node
+      real(wp) :: along(2)
 
       dofs = 0
       coefficients = 0.0_wp
@@ -239,11 +260,12 @@ contains
       do k = rows%first(point), rows%first(point + 1) - 1
          node = rows%node(k)
          if (fem%bodies%of_node(node) /= i_body) cycle
+         along = direction_of_entry(rows, point, k, direction)
          do dof = 1, 2
-            if (fem%bodies%equation(dof, node) == 0 .or. direction(dof) == 0.0_wp) cycle
+            if (fem%bodies%equation(dof, node) == 0 .or. along(dof) == 0.0_wp) cycle
             n = n + 1
             dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained)
-            coefficients(n) = rows%coefficient(k)*direction(dof)
+            coefficients(n) = rows%coefficient(k)*along(dof)
          end do
       end do
    end subroutine row_entries
@@ -281,7 +303,8 @@ contains
          do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
             b = fem%bodies%of_node(rows%node(k))
             call add_motion_row(fem, b, rows%node(k), rows%coefficient(k), &
-                                direction_of(problem, rows, line, i), problem%g(i, column(b):column(b + 1) - 1))
+                                direction_of_entry(rows, line%point(i), k, direction_of(problem, rows, line, i)), &
+                                problem%g(i, column(b):column(b + 1) - 1))
          end do
       end do
       call clear_round_off(problem%g)

@@ -1,12 +1,14 @@
 !> The rows N_j and T_j of equation (8): relative displacements at the points from nodal displacements.
 module atrito_contact_rows
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_kinds, only: ip, wp
    use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
-   public :: contact_rows_t, build_rows, row_value, bodies_of_row
+   public :: contact_rows_t, build_rows, row_value, bodies_of_row, direction_of_entry
 
-   !> Row of point j along a direction d_j: the sum of coefficient(k) d_j . u(node(k)) over k from first(j) to first(j+1) - 1.
+   !> Row of point j along a direction d_j: the sum of coefficient(k) d_j . u(node(k)) over k from first(j) to first(j+1) - 1. The
+   !> last n_bilateral rows have vectors of their own in place of coefficient(k) d_j, and no direction.
    type :: contact_rows_t
       integer(ip) :: n = 0
       integer(ip) :: longest = 0                     !< most entries of a row
@@ -16,17 +18,23 @@ module atrito_contact_rows
       real(wp), allocatable :: normal(:, :)          !< (2, n) n
       real(wp), allocatable :: tangent(:, :)         !< (2, n) T, n turned by +90 degrees
       real(wp), allocatable :: gap(:)                !< (n) initial distance s_j [L]
+      integer(ip) :: n_bilateral = 0
+      integer(ip) :: before_vectors = 0              !< entries of the rows before
+      real(wp), allocatable :: vector(:, :)          !< (2, entries of bilateral rows)
    end type contact_rows_t
 
 contains
 
-   !> The rows of all pairs, one pair after the other.
-   pure subroutine build_rows(points, rows)
+   !> The rows of all pairs, one pair after the other, and the bilateral ones behind them.
+   pure subroutine build_rows(points, rows, bilateral)
       type(contact_points_t), intent(in) :: points(:)
       type(contact_rows_t), intent(out) :: rows
+      type(bilateral_rows_t), intent(in), optional :: bilateral
       integer(ip) :: i, j, m
 
       rows%n = sum(points%n)
+      if (present(bilateral)) rows%n_bilateral = bilateral%n
+      rows%n = rows%n + rows%n_bilateral
       allocate (rows%first(rows%n + 1), source=1_ip)
       allocate (rows%normal(2, rows%n), rows%tangent(2, rows%n), rows%gap(rows%n), &
                 source=0.0_wp)
@@ -43,7 +51,39 @@ contains
       end do
       rows%node = [(points(i)%entry, i=1, size(points, kind=ip))]
       rows%coefficient = [(points(i)%coefficient, i=1, size(points, kind=ip))]
+      if (rows%n_bilateral > 0) call append_bilateral(bilateral, m, rows)
    end subroutine build_rows
+
+   pure subroutine append_bilateral(bilateral, m, rows)
+      type(bilateral_rows_t), intent(in) :: bilateral
+      integer(ip), intent(in) :: m                   !< rows before
+      type(contact_rows_t), intent(inout) :: rows
+      integer(ip) :: j
+
+      rows%before_vectors = rows%first(m + 1) - 1
+      rows%vector = bilateral%vector
+      rows%node = [rows%node, bilateral%node]
+      rows%coefficient = [rows%coefficient, [(1.0_wp, j=1, size(bilateral%node, kind=ip))]]
+      rows%gap(m + 1:) = bilateral%value
+      do j = 1, bilateral%n
+         rows%first(m + j + 1) = rows%before_vectors + bilateral%first(j + 1)
+         rows%longest = max(rows%longest, bilateral%first(j + 1) - bilateral%first(j))
+      end do
+   end subroutine append_bilateral
+
+   !> The direction of entry k of row j: what the displacement of its node is multiplied by, besides the coefficient.
+   pure function direction_of_entry(rows, j, k, direction) result(vector)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j, k
+      real(wp), intent(in) :: direction(2)           !< n or T of the point
+      real(wp) :: vector(2)
+
+      if (j > rows%n - rows%n_bilateral) then
+         vector = rows%vector(:, k - rows%before_vectors)
+      else
+         vector = direction
+      end if
+   end function direction_of_entry
 
    !> The relative displacement [L] of point j along a direction.
    pure real(wp) function row_value(rows, j, direction, u) result(value)
@@ -54,6 +94,12 @@ contains
       integer(ip) :: k
 
       value = 0.0_wp
+      if (j > rows%n - rows%n_bilateral) then
+         do k = rows%first(j), rows%first(j + 1) - 1
+            value = value + dot_product(rows%vector(:, k - rows%before_vectors), u(:, rows%node(k)))
+         end do
+         return
+      end if
       do k = rows%first(j), rows%first(j + 1) - 1
          value = value + rows%coefficient(k)*dot_product(direction, u(:, rows%node(k)))
       end do

@@ -92,14 +92,16 @@ contains
       type(box_state_t) :: state
       type(equality_solution_t) :: found
       type(status_t) :: status
+      logical :: pulled(problem%n_normal)
       integer :: round
 
       if (allocated(solution%rows)) return              ! their factor is not that of the free set
       associate (n => problem%n_normal)
          state = solution%state
          do round = 1, MOST_ROUNDS
-            if (.not. any(state%state(:n) == FREE .and. state%q(:n) < 0.0_wp)) exit
-            where (state%state(:n) == FREE .and. state%q(:n) < 0.0_wp)
+            pulled = state%state(:n) == FREE .and. state%q(:n) < 0.0_wp .and. solution%bounds%lower(:n) > -HUGE_REAL
+            if (.not. any(pulled)) exit
+            where (pulled)
                state%state(:n) = AT_LOWER
                state%q(:n) = 0.0_wp
             end where

@@ -62,7 +62,8 @@ contains
       type(status_t), intent(out) :: status
 
       store%reporter = data%reporter
-      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, status)
+      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
+                          status, data%model%bilateral)
       results%factorisations = store%factorisations
       if (.not. is_ok(status)) return
       results%scene%near_elements = any(store%bodies%is_near)

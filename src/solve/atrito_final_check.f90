@@ -35,6 +35,7 @@ module atrito_final_check
    real(wp), parameter :: FORCE_TOLERANCE = 1.0e-7_wp    !< of the largest nodal force
    real(wp), parameter :: ROUND_OFFS = 100.0_wp          !< times eps |K||u_e|
    real(wp), parameter :: BALANCE_TOLERANCE = 1.0e-8_wp  !< of the sum of the forces on a body
+   real(wp), parameter :: ROW_TOLERANCE = 1.0e-9_wp      !< of what a bilateral row asks for
    real(wp), parameter :: ROUND_OFF_BESIDE = 1.0e-14_wp  !< of the forces on a body that touches one without load
 
 contains
@@ -230,9 +231,14 @@ contains
       real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n)
       type(contact_scales_t) :: scales
       integer(ip) :: j, last
+      logical :: rows_hold
       character(len=:), allocatable :: wrong
 
       if (line%n == 0) return
+      p = 0.0_wp                                 ! of the rows behind the points
+      gap = 0.0_wp
+      slip = 0.0_wp
+      t = 0.0_wp
       call gather_fields(results, p, gap, slip, t)
       if (.not. all(ieee_is_finite([p, gap, slip, t]))) then
          results%law_holds = .false.
@@ -241,8 +247,10 @@ contains
       end if
       tau = friction_bound(line, p)
       call find_uncertain_displacements(results%u, of_node, growth, uncertain)
+      call check_bilateral_rows(rows, line, uncertain, results, rows_hold)
+      if (.not. rows_hold) return
       last = 0
-      do j = 1, line%n
+      do j = 1, line%n - line%n_bilateral
          if (j > last) then
             last = last_of_pair(line, j)
             call measure_pair(rows, line, results, uncertain, j, last, p, scales)
@@ -260,6 +268,37 @@ contains
          return
       end do
    end subroutine check_law
+
+   !> Every bilateral row with the final displacements: vector . u = value + compliance q, within what round-off leaves open.
+   subroutine check_bilateral_rows(rows, line, uncertain, results, holds)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: uncertain(:)       !< (n_nodes) [L]
+      type(results_t), intent(inout) :: results
+      logical, intent(out) :: holds
+      real(wp) :: moved, asked, allowed, q
+      integer(ip) :: i, j, k
+
+      holds = .true.
+      do i = 1, rows%n_bilateral
+         j = rows%n - rows%n_bilateral + i
+         q = results%row_force(i)
+         asked = rows%gap(j) + line%delta(j)/line%weight(j)*q
+         moved = row_value(rows, j, [0.0_wp, 0.0_wp], results%u)
+         allowed = ROW_TOLERANCE*(abs(rows%gap(j)) + abs(asked))
+         do k = rows%first(j), rows%first(j + 1) - 1
+            allowed = allowed + sum(abs(rows%vector(:, k - rows%before_vectors)))*uncertain(rows%node(k))
+         end do
+         holds = abs(moved - asked) <= allowed .and. ieee_is_finite(q)
+         if (holds) cycle
+         results%law_holds = .false.
+         if (.not. results%converged) return
+         results%verdict = 'a tie, equation, support or spring at x = ('//to_text(results%row_x(1, i))//', ' &
+                           //to_text(results%row_x(2, i))//') does not hold: off by '//to_text(moved - asked, 3)//', ' &
+                           //to_text(allowed, 3)//' allowed'
+         return
+      end do
+   end subroutine check_bilateral_rows
 
    !> What round-off may do to the displacements of the body of each node [L].
    pure subroutine find_uncertain_displacements(u, of_node, growth, uncertain)

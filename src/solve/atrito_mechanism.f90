@@ -78,6 +78,11 @@ contains
       closed = .false.
       do j = 1, line%n
          if (line%normal(j) == 0) cycle
+         if (j > line%n - line%n_bilateral) then
+            closed(j) = .true.
+            mechanism%touches = .true.
+            cycle
+         end if
          apart = row_value(rows, j, rows%normal(:, j), u) + by_friction(j)
          along = row_value(rows, j, rows%tangent(:, j), u)
          closed(j) = apart >= -least

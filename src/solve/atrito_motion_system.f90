@@ -10,6 +10,8 @@ module atrito_motion_system
    private
    public :: build_motion_rows
 
+   integer(ip), parameter :: MOST_MODES = 3_ip   !< of a body
+
 contains
 
    !> G of all unknown forces by rows, and h = Z'f with the size of its terms.
@@ -31,7 +33,11 @@ contains
          end do
       end do
       motions%m = size(line%point, kind=ip)
-      allocate (motions%first(motions%m + 1), motions%motion(6*motions%m), motions%value(6*motions%m))
+      n = 0
+      do i = 1, motions%m
+         n = n + MOST_MODES*max(2_ip, min(fem%bodies%n, rows%first(line%point(i) + 1) - rows%first(line%point(i))))
+      end do
+      allocate (motions%first(motions%m + 1), motions%motion(n), motions%value(n))
       motions%first(1) = 1
       do i = 1, motions%m
          associate (first => motions%first(i))

@@ -4,7 +4,8 @@ module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
+                                  tangential_of
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
@@ -47,7 +48,7 @@ module atrito_multiplier_loop
    real(wp), parameter :: LEAST_SHARE = 0.05_wp
    real(wp), parameter :: STEADY = 0.02_wp             !< change of a drift from one step to the next
    real(wp), parameter :: MOST_DRIFT = 1.0e9_wp        !< steps
-   real(wp), parameter :: LEAST_KAPPA = 1.0e-11_wp
+   real(wp), parameter :: LEAST_KAPPA = 1.0e-11_wp, LEAST_PULL = 1.0e-8_wp !< when bodies move; of what has no contact points
    real(wp), parameter :: NO_LOAD = 1.0e-9_wp         !< pull over the forces of a body that is none
    real(wp), parameter :: MOVES = 1.0e-6_wp           !< pull over the forces of a body that moves, when it does not fall:
    real(wp), parameter :: STEADY_PULL = 0.8_wp        !< of that of the step before
@@ -223,7 +224,8 @@ contains
                             to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
          return
       end if
-      call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
+      call clear_round_off(shape, solution%bounds, forces_that_are_none(system, multipliers, solution%state%q), multipliers, &
+                           solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
                                                          solution%inner%undetermined)
       solution%p = pressure_of(line, solution%state%q)
@@ -270,12 +272,16 @@ contains
       shape%n_normal = count(line%normal > 0, kind=ip)
       shape%k = system%k
       shape%weight = line%weight(line%point)
-      solution%history%tangential_of = line%tangential(line%point(:shape%n_normal))
+      solution%history%tangential_of = tangential_of(line, shape%n_normal)
       call normal_bounds(line, shape, solution%bounds, solution%state)
       pair = 1
       if (allocated(line%pair)) pair = line%pair(:line%n)
-      call begin_multipliers(system, pair(line%point), multipliers)
+      call begin_multipliers(system, pair(line%point), multipliers, &
+                             merge(solution%bounds%d, 0.0_wp, solution%bounds%lower <= -HUGE_REAL))
       if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
+      if (line%n_bilateral > 0) multipliers%n_contact_pairs = line%pair(line%n - line%n_bilateral + 1) - 1
+      ! where nothing can be open no body waits for what will hold it
+      if (line%n_bilateral == line%n) multipliers%kappa = LEAST_PULL
       allocate (solution%tau(line%n), source=0.0_wp)
       where (line%tangential > 0) solution%tau = HUGE_REAL
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)

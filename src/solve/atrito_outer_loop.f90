@@ -5,7 +5,7 @@ module atrito_outer_loop
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t
    use atrito_coarse_line, only: interpolation_t, has_coarse_line, coarsen_line, start_from_coarse
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, normal_bounds
+   use atrito_contact_line, only: contact_line_t, normal_bounds, tangential_of
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, solve_with_bound, judge_condition, relative_residual
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_model, only: controls_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON
@@ -87,7 +87,7 @@ contains
    pure logical function has_coarse_start(line)
       type(contact_line_t), intent(in) :: line
 
-      has_coarse_start = line%n > MOST_PLAIN
+      has_coarse_start = line%n > MOST_PLAIN .and. line%n_bilateral == 0   ! whose forces are no field
       if (has_coarse_start) has_coarse_start = has_coarse_line(line)
    end function has_coarse_start
 
@@ -106,7 +106,7 @@ contains
       call solve_coarse(coarse_problem, coarse_line, coarse, status)
       if (.not. coarse%converged) return
       call report_progress(task%reporter, 'start from '//to_text(coarse_line%n)//' of '//to_text(task%line%n)//' contact points')
-      solution%history%tangential_of = task%line%tangential(task%line%point(:task%problem%n_normal))
+      solution%history%tangential_of = tangential_of(task%line, task%problem%n_normal)
       call start_from_coarse(task%problem, task%line, interpolation, coarse_line, coarse%state, solution%bounds, &
                              solution%state, tau)
       if (task%line%has_friction) then
@@ -182,7 +182,7 @@ contains
       real(wp) :: none(line%n)
 
       allocate (tau(line%n))
-      solution%history%tangential_of = line%tangential(line%point(:problem%n_normal))
+      solution%history%tangential_of = tangential_of(line, problem%n_normal)
       call normal_bounds(line, problem, solution%bounds, solution%state)
       none = 0.0_wp
       call solve_with_bound(problem, line, none, solution, tau, status)

@@ -22,12 +22,12 @@ module atrito_recovery
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
-   public :: contact_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
+   public :: contact_forces, add_bilateral_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
              estimate_error
 
 contains
 
-   !> B'q as nodal forces (2, n_nodes) [F]: what the contact takes from the loads, all points, prescribed dofs too.
+   !> B'q as nodal forces (2, n_nodes) [F]: what the contact and the bilateral rows take from the loads, prescribed dofs too.
    pure function contact_forces(fem, rows, line, solution) result(force)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -38,13 +38,32 @@ contains
       integer(ip) :: j, k
 
       force = 0.0_wp
-      do j = 1, rows%n
+      do j = 1, rows%n - rows%n_bilateral
          at_point = line%weight(j)*(max(solution%p(j), 0.0_wp)*rows%normal(:, j) + solution%t(j)*rows%tangent(:, j))
          do k = rows%first(j), rows%first(j + 1) - 1
             force(:, rows%node(k)) = force(:, rows%node(k)) + rows%coefficient(k)*at_point
          end do
       end do
+      call add_bilateral_forces(rows, [(.true., j=1, rows%n_bilateral)], line%weight*solution%p, force)
    end function contact_forces
+
+   !> Adds what some bilateral rows take from the loads.
+   pure subroutine add_bilateral_forces(rows, wanted, q, force)
+      type(contact_rows_t), intent(in) :: rows
+      logical, intent(in) :: wanted(:)               !< (bilateral rows)
+      real(wp), intent(in) :: q(:)                   !< (n) of all rows [F]
+      real(wp), intent(inout) :: force(:, :)         !< (2, n_nodes) [F]
+      integer(ip) :: j, k
+
+      associate (before => rows%n - rows%n_bilateral)
+         do j = 1, rows%n_bilateral
+            if (.not. wanted(j)) cycle
+            do k = rows%first(before + j), rows%first(before + j + 1) - 1
+               force(:, rows%node(k)) = force(:, rows%node(k)) + q(before + j)*rows%vector(:, k - rows%before_vectors)
+            end do
+         end do
+      end associate
+   end subroutine add_bilateral_forces
 
    !> The displacements of one body without its rigid motion: u_e = u0 - F B'q at the contact dofs, the interior from them.
    subroutine elastic_displacements(fem, i_body, condensed, force, u)

@@ -4,7 +4,7 @@ module atrito_row_entries
    use atrito_bodies, only: bodies_t, body_t, mode_at
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_rows, only: contact_rows_t, bodies_of_row
+   use atrito_contact_rows, only: contact_rows_t, bodies_of_row, direction_of_entry
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
@@ -73,18 +73,19 @@ contains
       integer(ip), intent(out) :: n              !< entries
       integer(ip), intent(inout) :: column(:)
       real(wp), intent(inout) :: value(:)
-      real(wp) :: direction(2)
+      real(wp) :: direction(2), vector(2)
       integer(ip) :: k, dof, node
 
       direction = direction_of(rows, line, i)
       n = 0
       do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
          node = rows%node(k)
+         vector = direction_of_entry(rows, line%point(i), k, direction)
          do dof = 1, 2
-            if (direction(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) == 0) cycle
+            if (vector(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) == 0) cycle
             n = n + 1
             column(n) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
-            value(n) = rows%coefficient(k)*direction(dof)
+            value(n) = rows%coefficient(k)*vector(dof)
          end do
       end do
    end subroutine displacements_of_row
@@ -99,7 +100,7 @@ contains
       integer(ip), intent(out) :: n              !< entries
       integer(ip), intent(inout) :: motion(:)
       real(wp), intent(inout) :: value(:)
-      real(wp) :: direction(2)
+      real(wp) :: direction(2), vector(2)
       integer(ip) :: k, node, b, mode, e, kept
 
       direction = direction_of(rows, line, i)
@@ -108,6 +109,7 @@ contains
          node = rows%node(k)
          b = fem%bodies%of_node(node)
          if (b == 0) cycle
+         vector = direction_of_entry(rows, line%point(i), k, direction)
          do mode = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
             do e = 1, n
                if (motion(e) == first_motion(b) + mode - 1) exit
@@ -117,7 +119,7 @@ contains
                motion(e) = first_motion(b) + mode - 1
                value(e) = 0.0_wp
             end if
-            value(e) = value(e) + rows%coefficient(k)*along_motion(fem, fem%bodies%list(b), mode, node, direction)
+            value(e) = value(e) + rows%coefficient(k)*along_motion(fem, fem%bodies%list(b), mode, node, vector)
          end do
       end do
       kept = 0
@@ -130,18 +132,18 @@ contains
       n = kept
    end subroutine motions_of_row
 
-   !> The displacement of a node along a direction in a rigid motion; 0 where the node is held.
-   pure real(wp) function along_motion(fem, body, mode, node, direction) result(z)
+   !> The displacement of a node along a vector in a rigid motion; 0 where the node is held.
+   pure real(wp) function along_motion(fem, body, mode, node, vector) result(z)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body
       integer(ip), intent(in) :: mode, node
-      real(wp), intent(in) :: direction(2)
+      real(wp), intent(in) :: vector(2)
       integer(ip) :: dof
 
       z = 0.0_wp
       do dof = 1, 2
          if (fem%bodies%equation(dof, node) == 0) cycle
-         z = z + direction(dof)*mode_at(body, body%modes(:, mode), fem%mesh%x(:, node), dof)
+         z = z + vector(dof)*mode_at(body, body%modes(:, mode), fem%mesh%x(:, node), dof)
       end do
    end function along_motion
 

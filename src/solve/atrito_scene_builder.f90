@@ -2,6 +2,7 @@
 module atrito_scene_builder
    use atrito_kinds, only: ip, wp
    use atrito_assembly, only: fem_t, grain_of
+   use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
    use atrito_body_names, only: name_bodies
    use atrito_incidence, only: list_holders
@@ -56,14 +57,29 @@ contains
 
       call find_bodies(fem%mesh, fem%bodies)
       call name_bodies(model, fem%bodies)
-      call list_contact_nodes(fem%bodies, points, first, contact_nodes)
+      call list_contact_nodes(fem%bodies, points, model%bilateral, first, contact_nodes)
       do i = 1, fem%bodies%n
          n_free = count(.not. held(:, fem%bodies%list(i)%nodes), kind=ip)
-         call number_equations(fem%mesh, fem%bodies, i, held, contact_nodes(first(i):first(i + 1) - 1), &
-                               needs_profile(asked, n_free))
+         call number_equations(fem%mesh, fem%bodies, i, held, enough_nodes(fem, i, contact_nodes(first(i):first(i + 1) - 1), &
+                                                                           model%bilateral%n > 0), needs_profile(asked, n_free))
          call find_rigid_modes(fem%mesh, fem%bodies%list(i), held)
       end do
    end subroutine build_bodies
+
+   !> A body that hangs on one node alone could turn about it while the others are eliminated: the one farthest from it stays, too.
+   pure function enough_nodes(fem, b, nodes, hangs) result(kept)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b, nodes(:)
+      logical, intent(in) :: hangs                             !< there are rows that single nodes hang on
+      integer(ip), allocatable :: kept(:)
+      integer(ip) :: i
+
+      kept = nodes
+      if (size(nodes) /= 1 .or. .not. hangs) return
+      associate (own => fem%bodies%list(b)%nodes, x => fem%mesh%x)
+         kept = [nodes, own(maxloc([(norm2(x(:, own(i)) - x(:, nodes(1))), i=1, size(own, kind=ip))], dim=1))]
+      end associate
+   end function enough_nodes
 
    pure subroutine list_prescribed(model, held, value)
       type(model_t), intent(in) :: model
@@ -79,10 +95,11 @@ contains
       end do
    end subroutine list_prescribed
 
-   !> The nodes of each body that take part in contact, each once, in the order of the points.
-   subroutine list_contact_nodes(bodies, points, first, nodes)
+   !> The nodes of each body that take part in contact and bilateral rows, each once, in the order of the points.
+   subroutine list_contact_nodes(bodies, points, bilateral, first, nodes)
       type(bodies_t), intent(in) :: bodies
       type(contact_points_t), intent(in) :: points(:)
+      type(bilateral_rows_t), intent(in) :: bilateral
       integer(ip), allocatable, intent(out) :: first(:)    !< (bodies + 1)
       integer(ip), allocatable, intent(out) :: nodes(:)    !< those of body i are nodes(first(i):first(i + 1) - 1)
       type(number_list_t) :: found
@@ -96,6 +113,11 @@ contains
             call take(points(i)%entry(j))
          end do
       end do
+      if (bilateral%n > 0) then
+         do j = 1, size(bilateral%node, kind=ip)
+            call take(bilateral%node(j))
+         end do
+      end if
       nodes = numbers_of(found)
       of_body = reshape(bodies%of_node(nodes), [1, size(nodes)])
       call list_holders(bodies%n, of_body, first, place)

@@ -2,6 +2,7 @@
 module atrito_scene_data
    use atrito_assembled_scene, only: assembled_scene_t, assemble_scene, set_scene_load
    use atrito_assembly, only: fem_t
+   use atrito_bilateral_rows, only: ROW_KIND_NAME
    use atrito_body_cache, only: body_cache_t, take_numbering
    use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_line, only: contact_line_t
@@ -65,9 +66,9 @@ contains
       data%solver_kind = asked%solver_kind
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
-      call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known)
+      call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
-      call build_rows(data%points, data%rows)
+      call build_rows(data%points, data%rows, model%bilateral)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)
@@ -85,7 +86,7 @@ contains
       logical :: seen(data%model%mesh%n_nodes)
       integer(ip) :: i, n, n_points
 
-      n = 0
+      n = data%model%bilateral%n
       seen = .false.
       n_points = sum(data%points%n)
       do i = 1, size(data%points, kind=ip)
@@ -110,7 +111,7 @@ contains
       data%is_assembled = .true.
    end subroutine assemble
 
-   !> Hard contact cannot take an overlap of prescribed dofs.
+   !> Hard contact cannot take an overlap of prescribed dofs, nor a bilateral row without compliance a difference of them.
    pure subroutine check_known_points(data, status)
       type(scene_data_t), intent(in) :: data
       type(status_t), intent(out) :: status
@@ -118,6 +119,11 @@ contains
 
       do j = 1, data%line%n
          if (data%line%normal(j) > 0 .or. data%line%delta(j) > 0.0_wp) cycle
+         if (j > data%line%n - data%line%n_bilateral) then
+            call check_known_row(data, j, status)
+            if (is_ok(status)) cycle
+            return
+         end if
          if (data%line%known_overlap(j) <= 1.0e-12_wp*(maxval(abs(data%fem%mesh%x)))) cycle
          call set_status(status, STATUS_DECK, 'node '//to_text(data%fem%mesh%node_id(data%rows%node(data%rows%first(j)))) &
                          //' is prescribed to penetrate a hard contact by '//to_text(data%line%known_overlap(j)) &
@@ -125,6 +131,27 @@ contains
          return
       end do
    end subroutine check_known_points
+
+   !> status: STATUS_DECK where all displacements of a bilateral row are prescribed, and not as it asks for.
+   pure subroutine check_known_row(data, j, status)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: j                          !< row
+      type(status_t), intent(out) :: status
+      real(wp), parameter :: ROUND_OFF = 1.0e-9_wp
+      real(wp) :: terms
+      integer(ip) :: i, k
+
+      terms = abs(data%rows%gap(j))
+      do k = data%rows%first(j), data%rows%first(j + 1) - 1
+         terms = terms + sum(abs(data%rows%vector(:, k - data%rows%before_vectors)*data%value(:, data%rows%node(k))))
+      end do
+      if (abs(data%line%known_overlap(j)) <= ROUND_OFF*terms) return
+      i = j - (data%rows%n - data%rows%n_bilateral)
+      call set_status(status, STATUS_DECK, 'the displacements of node ' &
+                      //to_text(data%fem%mesh%node_id(data%rows%node(data%rows%first(j)))) &
+                      //' and of those that its '//trim(ROW_KIND_NAME(data%model%bilateral%kind(i))) &
+                      //' joins it to are all prescribed, and contradict it by '//to_text(data%line%known_overlap(j))//' [L]')
+   end subroutine check_known_row
 
    !> Applied forces less those of the prescribed displacements.
    function free_load(data) result(load)

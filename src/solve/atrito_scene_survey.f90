@@ -40,6 +40,7 @@ contains
       end do
       call describe_pairs(data, scene)
       scene%n_normal = count(data%line%normal > 0, kind=ip)
+      scene%n_rows = count(data%line%normal(data%line%n - data%line%n_bilateral + 1:) > 0, kind=ip)
       scene%n_tangential = count(data%line%tangential > 0, kind=ip)
       scene%outer_loop = data%line%has_friction
       scene%contact_form = contact_form_name(data%contact_form)
@@ -153,7 +154,11 @@ contains
       type(scene_t), intent(inout) :: scene
 
       allocate (scene%left_out(0))
-      if (size(data%points) == 0) call append_string(scene%left_out, 'no contact pair: no contact line, one solve a body')
+      if (size(data%points) == 0 .and. scene%n_rows == 0) then
+         call append_string(scene%left_out, 'no contact pair: no contact line, one solve a body')
+      else if (size(data%points) == 0) then
+         call append_string(scene%left_out, 'no contact pair: nothing opens or slides, no iteration')
+      end if
       if (size(data%points) > 0 .and. .not. data%line%has_friction) then
          call append_string(scene%left_out, 'no friction: no tangential unknowns, no outer loop')
       end if

@@ -65,7 +65,8 @@ contains
       end do
       nodes = mesh%node_id(rows%node(rows%first(pack([(j, j=1, line%n)], is_shared))))
       if (size(nodes) == 0) return
-      call add_note('N-SHARED', shared_text(size(nodes, kind=ip), each_once(nodes)) &
+      call add_note('N-SHARED', shared_text(merge('points and joints', 'contact points   ', line%n_bilateral > 0), &
+                                                size(nodes, kind=ip), each_once(nodes)) &
                     //'; displacements and sums of the forces are, and of the forces the least are given')
    end subroutine note_shared_points
 
@@ -82,13 +83,14 @@ contains
       end do
    end function each_once
 
-   function shared_text(n, nodes) result(text)
+   function shared_text(things, n, nodes) result(text)
+      character(len=*), intent(in) :: things
       integer(ip), intent(in) :: n                   !< points
       integer(ip), intent(in) :: nodes(:)            !< the first ones and one more
       character(len=:), allocatable :: text
       integer(ip) :: i
 
-      text = 'contact points share what they ask, so that the force of '//to_text(n) &
+      text = trim(things)//' share what they ask, so that the force of '//to_text(n) &
              //trim(merge(' points', ' point ', n > 1))//' is not unique: '// &
              trim(merge('nodes', 'node ', size(nodes) > 1))//' '//to_text(nodes(1))
       do i = 2, min(size(nodes, kind=ip), MOST_NAMED)

@@ -1,0 +1,111 @@
+!> Rows that hold whatever the sign of their force: ties, equations, supports along any direction, springs.
+!>
+!> Row j asks for sum_k vector(:, k) . u(node(k)) = value(j) + compliance(j) q_j, k from first(j) to first(j+1) - 1, with a force
+!> q_j of any sign, which takes vector(:, k) q_j from the loads of node(k).
+module atrito_bilateral_rows
+   use atrito_growth, only: make_room, resize
+   use atrito_kinds, only: ip, wp
+   implicit none (type, external)
+   private
+   public :: bilateral_rows_t, begin_rows, add_row, trim_rows
+   public :: ROW_SUPPORT, ROW_EQUATION, ROW_TIE, ROW_SPRING, ROW_KIND_NAME
+
+   integer(ip), parameter :: ROW_SUPPORT = 1, ROW_EQUATION = 2, ROW_TIE = 3, ROW_SPRING = 4
+   character(len=8), parameter :: ROW_KIND_NAME(4) = ['support ', 'equation', 'tie     ', 'spring  ']
+
+   type :: bilateral_rows_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: first(:)           !< (n + 1)
+      integer(ip), allocatable :: node(:)
+      real(wp), allocatable :: vector(:, :)          !< (2, entries); none is 0
+      real(wp), allocatable :: value(:)              !< (n) right-hand side [L]
+      real(wp), allocatable :: compliance(:)         !< (n) 1/k of springs [L/F]
+      real(wp), allocatable :: weight(:)             !< (n) what shared forces are divided by [L^2]
+      integer(ip), allocatable :: kind(:)            !< (n) ROW_*
+      integer(ip), allocatable :: group(:)           !< (n) ascending from 1: rows that are judged by each other's forces
+      integer(ip), allocatable :: part(:)            !< (n) place in the model's list of ties, equations, supports or springs
+      integer(ip) :: n_groups = 0
+   end type bilateral_rows_t
+
+contains
+
+   pure subroutine begin_rows(rows)
+      type(bilateral_rows_t), intent(out) :: rows
+      integer(ip), parameter :: SOME = 16_ip
+
+      allocate (rows%first(SOME + 1), source=1_ip)
+      allocate (rows%node(SOME), rows%kind(SOME), rows%group(SOME), rows%part(SOME), source=0_ip)
+      allocate (rows%vector(2, SOME), rows%value(SOME), rows%compliance(SOME), rows%weight(SOME), source=0.0_wp)
+   end subroutine begin_rows
+
+   !> Appends a row; entries of one node are added up, and those that are 0 are left out.
+   pure subroutine add_row(nodes, vectors, value, compliance, weight, identity, rows)
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: vectors(:, :)          !< (2, entries)
+      real(wp), intent(in) :: value, compliance, weight
+      integer(ip), intent(in) :: identity(3)         !< kind, group, part
+      type(bilateral_rows_t), intent(inout) :: rows
+      integer(ip) :: k, at, last
+
+      call make_room_for_row(size(nodes, kind=ip), rows)
+      rows%n = rows%n + 1
+      last = rows%first(rows%n) - 1
+      do k = 1, size(nodes, kind=ip)
+         if (all(vectors(:, k) == 0.0_wp)) cycle
+         at = findloc(rows%node(rows%first(rows%n):last), nodes(k), dim=1, kind=ip) + rows%first(rows%n) - 1
+         if (at < rows%first(rows%n)) then
+            last = last + 1
+            at = last
+            rows%node(at) = nodes(k)
+            rows%vector(:, at) = 0.0_wp
+         end if
+         rows%vector(:, at) = rows%vector(:, at) + vectors(:, k)
+      end do
+      rows%first(rows%n + 1) = last + 1
+      rows%value(rows%n) = value
+      rows%compliance(rows%n) = compliance
+      rows%weight(rows%n) = weight
+      rows%kind(rows%n) = identity(1)
+      rows%group(rows%n) = identity(2)
+      rows%part(rows%n) = identity(3)
+      rows%n_groups = max(rows%n_groups, identity(2))
+   end subroutine add_row
+
+   !> Room for one more row with some entries.
+   pure subroutine make_room_for_row(entries, rows)
+      integer(ip), intent(in) :: entries
+      type(bilateral_rows_t), intent(inout) :: rows
+      integer(ip) :: n, used
+
+      n = rows%n
+      call make_room(rows%first, n + 1_ip, n + 2_ip)
+      call make_room(rows%value, n, n + 1_ip)
+      call make_room(rows%compliance, n, n + 1_ip)
+      call make_room(rows%weight, n, n + 1_ip)
+      call make_room(rows%kind, n, n + 1_ip)
+      call make_room(rows%group, n, n + 1_ip)
+      call make_room(rows%part, n, n + 1_ip)
+      used = rows%first(n + 1) - 1
+      call make_room(rows%node, used, used + entries)
+      if (size(rows%vector, 2) < size(rows%node)) call resize(rows%vector, used, size(rows%node, kind=ip))
+   end subroutine make_room_for_row
+
+   !> Gives back what was allocated for more rows and entries.
+   pure subroutine trim_rows(rows)
+      type(bilateral_rows_t), intent(inout) :: rows
+      integer(ip) :: n, entries
+
+      n = rows%n
+      entries = rows%first(n + 1) - 1
+      rows%first = rows%first(:n + 1)
+      rows%node = rows%node(:entries)
+      rows%vector = rows%vector(:, :entries)
+      rows%value = rows%value(:n)
+      rows%compliance = rows%compliance(:n)
+      rows%weight = rows%weight(:n)
+      rows%kind = rows%kind(:n)
+      rows%group = rows%group(:n)
+      rows%part = rows%part(:n)
+   end subroutine trim_rows
+
+end module atrito_bilateral_rows

@@ -1,0 +1,248 @@
+!> Bilateral rows of single nodes: supports along local axes, and *EQUATION.
+module atrito_build_equations
+   use atrito_bilateral_rows, only: bilateral_rows_t, begin_rows, add_row, ROW_SUPPORT, ROW_EQUATION
+   use atrito_build_context, only: build_context_t, ids_text
+   use atrito_build_loads, only: in_no_element
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_items, only: get_integer, get_real
+   use atrito_kinds, only: ip, wp
+   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
+   use atrito_local_axes, only: dof_direction, has_local_axes
+   use atrito_model, only: model_t, nodal_values_t
+   use atrito_references, only: find_nodes
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: turn_supports, build_equations, row_weight
+
+   integer(ip), parameter :: ITEMS_A_TERM = 3
+   character(len=*), parameter :: KEYWORD = 'EQUATION'
+   character(len=*), parameter :: TERM = 'terms of node, dof, coefficient, up to as many as announced'
+
+   !> One term of an equation: the same for all nodes of a set.
+   type :: term_t
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: dof = 0
+      real(wp) :: coefficient = 0.0_wp
+   end type term_t
+
+contains
+
+   !> What forces of rows are divided by where several may share a load [L^2].
+   pure real(wp) function row_weight(model) result(weight)
+      type(model_t), intent(in) :: model
+
+      weight = norm2(maxval(model%mesh%x(:, :model%mesh%n_nodes), dim=2) - minval(model%mesh%x(:, :model%mesh%n_nodes), dim=2))
+      if (.not. weight > 0.0_wp) weight = 1.0_wp
+      if (size(model%sections) > 0) weight = weight*model%sections(1)%thickness
+   end function row_weight
+
+   !> Prescribed displacements along local axes: both of a node become prescribed ones along x and y, a single one a row.
+   subroutine turn_supports(context)
+      type(build_context_t), intent(inout) :: context
+      type(nodal_values_t) :: local
+      integer(ip) :: i, other, axis
+      real(wp) :: direction(2), value(2)
+
+      call begin_rows(context%model%bilateral)
+      if (.not. allocated(context%axes)) return
+      local = context%model%prescribed
+      context%model%prescribed = nodal_values_t()
+      do i = 1, local%n
+         direction = dof_direction(context, local%node(i), local%dof(i))
+         other = context%dof_entry(3 - local%dof(i), local%node(i))
+         if (.not. has_local_axes(context, local%node(i))) then
+            call add_nodal_value(context%model%prescribed, local%node(i), local%dof(i), local%value(i))
+         else if (other > 0) then
+            value = local%value(i)*direction + local%value(other)*dof_direction(context, local%node(i), 3 - local%dof(i))
+            ! once, by the first of the two
+            if (i < other) then
+               do axis = 1, 2
+                  call add_nodal_value(context%model%prescribed, local%node(i), axis, value(axis))
+               end do
+            end if
+         else if (any(direction == 0.0_wp)) then
+            axis = merge(2_ip, 1_ip, direction(1) == 0.0_wp)
+            call add_nodal_value(context%model%prescribed, local%node(i), axis, local%value(i)*direction(axis))
+         else
+            call add_row(local%node(i:i), reshape(direction, [2, 1]), local%value(i), 0.0_wp, row_weight(context%model), &
+                         [ROW_SUPPORT, 1_ip, local%dof(i)], context%model%bilateral)
+         end if
+      end do
+      call trim_nodal_values(context%model%prescribed)
+   end subroutine turn_supports
+
+   !> All *EQUATION cards.
+   subroutine build_equations(context)
+      type(build_context_t), intent(inout) :: context
+      type(term_t), allocatable :: terms(:)
+      type(token_t) :: place
+      integer(ip) :: i, k, last, group
+      logical :: ok
+
+      do i = 1, context%deck%n_cards
+         associate (card => context%deck%cards(i))
+            if (keyword_name(card) /= KEYWORD .or. .not. card%ok) cycle
+            group = context%model%bilateral%n_groups + 1
+            k = card%first_line
+            last = card%first_line + card%n_lines - 1
+            do while (k <= last)
+               place = line_item(context%deck, context%deck%lines(k), 1_ip)
+               call read_terms(context, last, k, terms, ok)
+               if (.not. ok) exit                     ! where the next one begins is not known
+               call add_equations(context, place, terms, group)
+            end do
+         end associate
+      end do
+      call trim_nodal_values(context%model%equations)
+   end subroutine build_equations
+
+   !> One equation: a line with the number of its terms, and the lines of these. k: first line, and on return the one behind.
+   subroutine read_terms(context, last, k, terms, ok)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: last                  !< line of the card
+      integer(ip), intent(inout) :: k
+      type(term_t), allocatable, intent(out) :: terms(:)
+      logical, intent(out) :: ok
+      type(token_t) :: place
+      integer(ip) :: n, filled, items
+
+      allocate (terms(0))
+      place = line_item(context%deck, context%deck%lines(k), 1_ip)
+      ok = item_count(context, context%deck%lines(k)) == 1
+      if (.not. ok) call report_error(context%deck, place, 'E-ITEMS', 'an equation begins with the number of its terms, alone', &
+                                      expected='number of terms, an integer > 0', keyword=KEYWORD)
+      if (ok) call get_integer(context%deck, place, 'number of terms, an integer > 0', n, ok, keyword=KEYWORD)
+      if (ok .and. n < 1) then
+         ok = .false.
+         call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected='number of terms, an integer > 0', &
+                           keyword=KEYWORD)
+      end if
+      if (.not. ok) return
+      deallocate (terms)
+      allocate (terms(n))
+      filled = 0
+      do while (filled < n)
+         k = k + 1
+         if (k > last) then
+            call report_error(context%deck, place, 'E-LINES', to_text(filled)//' terms, where '//to_text(n)//' belong', &
+                              expected=TERM, keyword=KEYWORD)
+            ok = .false.
+            return
+         end if
+         items = item_count(context, context%deck%lines(k))
+         if (mod(items, ITEMS_A_TERM) /= 0 .or. items == 0 .or. filled + items/ITEMS_A_TERM > n) then
+            call report_error(context%deck, line_item(context%deck, context%deck%lines(k), 1_ip), 'E-ITEMS', to_text(items)// &
+                              ' items, where '//to_text(n - filled)//' of '//to_text(n)//' terms are missing', expected=TERM, &
+                              keyword=KEYWORD)
+            ok = .false.
+            return
+         end if
+         call read_term_line(context, context%deck%lines(k), terms(filled + 1:filled + items/ITEMS_A_TERM), ok)
+         filled = filled + items/ITEMS_A_TERM
+         if (.not. ok) return
+      end do
+      k = k + 1
+   end subroutine read_terms
+
+   !> Items of a line without empty ones at its end.
+   pure integer(ip) function item_count(context, line) result(n)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+
+      n = line%n_tokens
+      do while (n > 0)
+         if (.not. is_empty_token(context%deck%tokens(line%first_token + n - 1))) return
+         n = n - 1
+      end do
+   end function item_count
+
+   subroutine read_term_line(context, line, terms, ok)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      type(term_t), intent(inout) :: terms(:)
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
+      type(token_t) :: place
+      logical :: good(3)
+      integer(ip) :: i
+
+      ok = .true.
+      do i = 1, size(terms, kind=ip)
+         associate (item => ITEMS_A_TERM*(i - 1))
+            place = line_item(context%deck, line, item + 1)
+            call find_nodes(context, place, terms(i)%nodes, good(1), KEYWORD)
+            call get_integer(context%deck, line_item(context%deck, line, item + 2), WHAT_DOF, terms(i)%dof, good(2), &
+                             keyword=KEYWORD)
+            call get_real(context%deck, line_item(context%deck, line, item + 3), 'coefficient, a real', terms(i)%coefficient, &
+                          good(3), keyword=KEYWORD)
+            if (good(2) .and. (terms(i)%dof < 1 .or. terms(i)%dof > 2)) then
+               good(2) = .false.
+               call report_error(context%deck, line_item(context%deck, line, item + 2), 'E-DOF', 'dof '//to_text(terms(i)%dof)// &
+                                 ' does not exist in the plane', expected=WHAT_DOF, keyword=KEYWORD)
+            end if
+         end associate
+         if (good(1)) call check_nodes(context, place, terms(i)%nodes, good(1))
+         ok = ok .and. all(good)
+      end do
+   end subroutine read_term_line
+
+   subroutine check_nodes(context, place, nodes, ok)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: nodes(:)
+      logical, intent(out) :: ok
+
+      ok = .not. any(in_no_element(context, nodes))
+      if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'node '//ids_text(pack(context%model%mesh%node_id(nodes), &
+                                      in_no_element(context, nodes)))//' belongs to no element', expected='nodes of elements', &
+                                      keyword=KEYWORD)
+   end subroutine check_nodes
+
+   !> The equations of terms: one for each node of the first.
+   subroutine add_equations(context, place, terms, group)
+      type(build_context_t), intent(inout) :: context
+      type(token_t), intent(in) :: place
+      type(term_t), intent(in) :: terms(:)
+      integer(ip), intent(in) :: group
+      integer(ip) :: i, k, nodes(size(terms))
+      real(wp) :: vectors(2, size(terms))
+
+      associate (n => size(terms(1)%nodes, kind=ip))
+         if (any([(size(terms(i)%nodes) /= 1 .and. size(terms(i)%nodes) /= n, i=1, size(terms, kind=ip))])) then
+            call report_error(context%deck, place, 'E-EQUATION', 'the sets of this equation have different numbers of nodes', &
+                              expected='sets of as many nodes as the first, or single nodes', keyword=KEYWORD)
+            return
+         end if
+         do k = 1, n
+            do i = 1, size(terms, kind=ip)
+               nodes(i) = terms(i)%nodes(min(k, size(terms(i)%nodes, kind=ip)))
+               vectors(:, i) = terms(i)%coefficient*dof_direction(context, nodes(i), terms(i)%dof)
+            end do
+            if (is_empty(nodes, vectors)) then
+               call report_error(context%deck, place, 'E-VALUE', 'all coefficients of this equation are 0, or cancel', &
+                                 expected='a coefficient other than 0', keyword=KEYWORD)
+               return
+            end if
+            call add_nodal_value(context%model%equations, nodes(1), terms(1)%dof, terms(1)%coefficient)
+            call add_row(nodes, vectors, 0.0_wp, 0.0_wp, row_weight(context%model), &
+                         [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
+         end do
+      end associate
+   end subroutine add_equations
+
+   pure logical function is_empty(nodes, vectors)
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: vectors(:, :)
+      real(wp) :: total(2)
+      integer(ip) :: i, axis
+
+      is_empty = .true.
+      do i = 1, size(nodes, kind=ip)
+         total = [(sum(vectors(axis, :), mask=nodes == nodes(i)), axis=1, 2)]
+         is_empty = is_empty .and. all(total == 0.0_wp)
+      end do
+   end function is_empty
+
+end module atrito_build_equations

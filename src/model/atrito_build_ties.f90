@@ -1,0 +1,334 @@
+!> *TIE: surfaces that are joined. Reading, checks, the adjusting of the slave's nodes, and the bilateral rows.
+module atrito_build_ties
+   use atrito_bilateral_rows, only: add_row, ROW_TIE
+   use atrito_build_context, only: build_context_t, ids_text, is_invalid, has_errors
+   use atrito_check_shapes, only: check_shapes
+   use atrito_deck, only: card_t, data_line_t, option_t, token_t, token_text, line_item, keyword_name
+   use atrito_diagnostics, only: report_error, report_note, report_warning
+   use atrito_faces, only: face_list_t, chain_report_t
+   use atrito_items, only: find_option, option_text, option_real, option_word
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_nodes
+   use atrito_model, only: model_t, tie_t, QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR, SURFACE_SEGMENTS
+   use atrito_name_list, only: find_name
+   use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_pairing, only: pair_surfaces
+   use atrito_points, only: contact_points_t
+   use atrito_references, only: report_unknown
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_ties, check_ties, build_ties
+
+   character(len=*), parameter :: KEYWORD = 'TIE'
+   real(wp), parameter :: USUAL_TOLERANCE = 0.05_wp   !< of the mean face of the master
+
+contains
+
+   !> All *TIE cards: model%ties.
+   subroutine read_ties(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i, n
+
+      n = 0
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == KEYWORD) n = n + context%deck%cards(i)%n_lines
+      end do
+      allocate (context%model%ties(n), context%ties(n))
+      n = 0
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == KEYWORD) call read_tie_card(context%deck%cards(i), context, n)
+      end do
+      context%model%ties = context%model%ties(:n)
+   end subroutine read_ties
+
+   !> *TIE: slave, master.
+   subroutine read_tie_card(card, context, n)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(inout) :: n                  !< ties so far
+      type(tie_t) :: tie
+      logical :: found
+      integer(ip) :: i
+
+      call option_text(context%deck, card, 'NAME', tie%name, found)
+      if (.not. found .or. .not. card%ok) return
+      tie%adjusts = option_word(context%deck, card, 'ADJUST') /= 'NO'
+      select case (option_word(context%deck, card, 'TYPE'))
+      case ('NODE TO SURFACE')
+         tie%quadrature = QUADRATURE_NODAL
+      case ('SURFACE TO SURFACE')
+         tie%quadrature = QUADRATURE_MORTAR
+      end select
+      call read_tolerance(card, context, tie%tolerance, found)
+      if (.not. found) return
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         if (.not. context%deck%lines(i)%ok) cycle
+         call find_surface(context%deck%lines(i), 1_ip, context, tie%slave)
+         call find_surface(context%deck%lines(i), 2_ip, context, tie%master)
+         if (min(tie%slave, tie%master) == 0) cycle
+         n = n + 1
+         context%model%ties(n) = tie
+         context%ties(n) = line_item(context%deck, context%deck%lines(i), 1_ip)
+      end do
+   end subroutine read_tie_card
+
+   !> -1 where it is left out.
+   subroutine read_tolerance(card, context, tolerance, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      real(wp), intent(out) :: tolerance               !< [L]
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'tolerance of the position, a real >= 0 [L]'
+      type(option_t) :: option
+      logical :: found
+
+      tolerance = -1.0_wp
+      ok = .true.
+      call option_real(context%deck, card, 'POSITION TOLERANCE', WHAT, tolerance, found)
+      if (.not. found) return
+      ok = tolerance >= 0.0_wp
+      if (ok) return
+      call find_option(context%deck, card, 'POSITION TOLERANCE', option, found)
+      call report_error(context%deck, option%value, 'E-VALUE', 'POSITION TOLERANCE='//to_text(tolerance)//' is negative', &
+                        expected=WHAT, keyword=KEYWORD)
+   end subroutine read_tolerance
+
+   subroutine find_surface(line, item, context, surface)
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: item
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(out) :: surface              !< place; 0: unknown, reported
+      type(token_t) :: token
+
+      token = line_item(context%deck, line, item)
+      surface = find_name(context%surface_names, token_text(context%deck, token))
+      if (surface == 0) call report_unknown(context, token, 'surface', 'E-SURFACE', context%surface_names, KEYWORD)
+   end subroutine find_surface
+
+   !> What can be told of each tie without looking for its points.
+   subroutine check_ties(context, chains)
+      type(build_context_t), intent(in) :: context
+      type(chain_report_t), intent(in) :: chains(:)    !< of each surface
+      integer(ip) :: i
+
+      do i = 1, size(context%model%ties, kind=ip)
+         call check_sides(context, context%ties(i), context%model%ties(i), chains)
+      end do
+   end subroutine check_ties
+
+   subroutine check_sides(context, place, tie, chains)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      type(tie_t), intent(in) :: tie
+      type(chain_report_t), intent(in) :: chains(:)
+
+      associate (slave => context%model%surfaces(tie%slave), master => context%model%surfaces(tie%master))
+         if (is_invalid(context, slave%name) .or. is_invalid(context, master%name)) return
+         if (tie%slave == tie%master) then
+            call refuse(context, place, 'slave and master are the same surface', 'two surfaces that face each other')
+         else if (slave%kind == SURFACE_SEGMENTS .or. master%kind == SURFACE_SEGMENTS) then
+            call refuse(context, place, 'a drawn line cannot be tied', 'surfaces of element faces; *BOUNDARY holds nodes')
+         else if (has_errors()) then
+            return
+         else if (min(slave%faces%n, master%faces%n) == 0) then
+            call refuse(context, place, 'one of the surfaces has no faces: others join it everywhere', &
+                        'surfaces on the outlines of bodies')
+         else if (chains(tie%slave)%branch_node > 0 .or. chains(tie%slave)%loose_face > 0) then
+            call refuse(context, place, 'the slave is not one chain of faces', &
+                        'one connected chain of faces; otherwise a tie for each')
+         else
+            call check_shared_nodes(context, place, slave%faces, master%faces)
+         end if
+      end associate
+   end subroutine check_sides
+
+   subroutine refuse(context, place, text, expected)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      character(len=*), intent(in) :: text, expected
+
+      call report_error(context%deck, place, 'E-TIE', text, expected=expected, keyword=KEYWORD)
+   end subroutine refuse
+
+   subroutine check_shared_nodes(context, place, slave, master)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      type(face_list_t), intent(in) :: slave, master
+      type(number_list_t) :: shared
+      logical :: is_master(context%model%mesh%n_nodes), is_told(context%model%mesh%n_nodes)
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: i, k
+
+      is_master = .false.
+      is_told = .false.
+      associate (mesh => context%model%mesh)
+         do i = 1, master%n
+            is_master(face_nodes(mesh, master%element(i), master%face(i))) = .true.
+         end do
+         do i = 1, slave%n
+            nodes = face_nodes(mesh, slave%element(i), slave%face(i))
+            do k = 1, size(nodes, kind=ip)
+               if (.not. is_master(nodes(k)) .or. is_told(nodes(k))) cycle
+               is_told(nodes(k)) = .true.
+               call add_number(shared, mesh%node_id(nodes(k)))
+            end do
+         end do
+      end associate
+      if (shared%n > 0) call refuse(context, place, 'slave and master share node '//ids_text(numbers_of(shared)), &
+                                    'surfaces that have their own nodes')
+   end subroutine check_shared_nodes
+
+   !> The rows of all ties; for models without any error. Nodes of the slaves may move.
+   subroutine build_ties(context)
+      type(build_context_t), intent(inout) :: context
+      type(contact_points_t), allocatable :: points(:)
+      integer(ip) :: i, tied_by(context%model%mesh%n_nodes)
+      logical :: moved
+
+      if (size(context%model%ties) == 0) return
+      call set_tolerances(context%model)
+      call pair_ties(context%model, points)
+      moved = .false.
+      do i = 1, size(points, kind=ip)
+         call judge_points(context, i, points(i))
+         if (context%model%ties(i)%adjusts) call adjust_nodes(context, i, points(i), moved)
+      end do
+      if (moved) then
+         call check_shapes(context%model%mesh, context)
+         if (has_errors()) return
+         call pair_ties(context%model, points)
+      end if
+      tied_by = 0
+      do i = 1, size(points, kind=ip)
+         call add_tie(context, i, points(i), tied_by)
+      end do
+   end subroutine build_ties
+
+   subroutine pair_ties(model, points)
+      type(model_t), intent(in) :: model
+      type(contact_points_t), allocatable, intent(out) :: points(:)
+
+      call pair_surfaces(model, model%ties%slave, model%ties%master, model%ties%quadrature, points)
+   end subroutine pair_ties
+
+   !> Those that are left out: a part of the mean length of the master's faces.
+   pure subroutine set_tolerances(model)
+      type(model_t), intent(inout) :: model
+      integer(ip) :: i, k
+      real(wp) :: length
+
+      do i = 1, size(model%ties, kind=ip)
+         if (model%ties(i)%tolerance >= 0.0_wp) cycle
+         length = 0.0_wp
+         associate (faces => model%surfaces(model%ties(i)%master)%faces)
+            do k = 1, faces%n
+               associate (nodes => face_nodes(model%mesh, faces%element(k), faces%face(k)))
+                  length = length + norm2(model%mesh%x(:, nodes(2)) - model%mesh%x(:, nodes(1)))
+               end associate
+            end do
+            model%ties(i)%tolerance = USUAL_TOLERANCE*length/faces%n
+         end associate
+      end do
+   end subroutine set_tolerances
+
+   !> Whether a point is near enough to be tied; a gap that is round-off is.
+   pure elemental logical function is_near(gap, tolerance, size)
+      real(wp), intent(in) :: gap, tolerance           !< [L]
+      real(wp), intent(in) :: size                     !< of the face at the point [L]
+      real(wp), parameter :: NONE = 1.0e-9_wp
+
+      is_near = abs(gap) <= max(tolerance, NONE*size)
+   end function is_near
+
+   !> Tells of faces and nodes that are not tied.
+   subroutine judge_points(context, i, points)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i                     !< the tie
+      type(contact_points_t), intent(in) :: points
+      character(len=:), allocatable :: name
+      integer(ip) :: far, first
+      real(wp) :: tolerance
+
+      tolerance = context%model%ties(i)%tolerance
+      name = context%model%ties(i)%name
+      far = count(.not. is_near(points%gap, tolerance, points%length), kind=ip)
+      context%model%ties(i)%n_far = far
+      if (points%n == 0) then
+         call refuse(context, context%ties(i), 'the surfaces of tie '//name//' do not face each other', &
+                     'a master in front of the slave, its outward normal pointing back')
+      else if (far == points%n) then
+         call refuse(context, context%ties(i), 'no node of the slave lies within the tolerance of the master: the least '// &
+                     'distance is '//to_text(minval(abs(points%gap)), 4), 'POSITION TOLERANCE='// &
+                     to_text(minval(abs(points%gap)), 4)//' or more; it is '//to_text(tolerance, 4)//' here')
+      else if (far > 0) then
+         first = findloc(is_near(points%gap, tolerance, points%length), .false., dim=1, kind=ip)
+         call report_warning(context%deck, context%ties(i), 'W-TIE', to_text(far)//' of '//to_text(points%n)//' nodes of the '// &
+                             'slave are farther than '//to_text(tolerance, 4)//' from the master and are not tied, the first '// &
+                             'of them node '//to_text(context%model%mesh%node_id(points%node(first))), &
+                             expected='POSITION TOLERANCE=, if they are to be tied', keyword=KEYWORD)
+      end if
+      if (points%n > 0 .and. points%n_left_out > 0) then
+         call report_note(context%deck, context%ties(i), 'N-LEFT-OUT', to_text(points%n_left_out)//' of '// &
+                          to_text(points%n_faces)//' faces of the slave face no master and are not tied', keyword=KEYWORD)
+      end if
+   end subroutine judge_points
+
+   !> Moves the nodes of a slave onto the master, without strain.
+   subroutine adjust_nodes(context, i, points, moved)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i
+      type(contact_points_t), intent(in) :: points
+      logical, intent(inout) :: moved
+      real(wp), parameter :: NONE = 1.0e-9_wp          !< of the face
+      real(wp) :: farthest
+      integer(ip) :: j, n
+
+      n = 0
+      farthest = 0.0_wp
+      do j = 1, points%n
+         if (.not. is_near(points%gap(j), context%model%ties(i)%tolerance, points%length(j))) cycle
+         if (abs(points%gap(j)) <= NONE*points%length(j)) cycle
+         associate (x => context%model%mesh%x(:, points%node(j)))
+            x = x + points%gap(j)*points%normal(:, j)
+         end associate
+         n = n + 1
+         farthest = max(farthest, abs(points%gap(j)))
+      end do
+      if (n == 0) return
+      moved = .true.
+      call report_note(context%deck, context%ties(i), 'N-ADJUST', to_text(n)//trim(merge(' node of the slave is  ', &
+                       ' nodes of the slave are', n == 1))//' moved onto the master, by '//to_text(farthest, 4)// &
+                       ' [L] at the most; ADJUST=NO leaves them where they are', keyword=KEYWORD)
+   end subroutine adjust_nodes
+
+   !> Two rows for each point that is tied, along x and y.
+   subroutine add_tie(context, i, points, tied_by)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(inout) :: tied_by(:)         !< (n_nodes) tie whose slave has the node
+      type(number_list_t) :: twice
+      real(wp), allocatable :: vectors(:, :)
+      integer(ip) :: j, k, axis, group
+
+      group = context%model%bilateral%n_groups + 1
+      do j = 1, points%n
+         if (.not. is_near(points%gap(j), context%model%ties(i)%tolerance, points%length(j))) cycle
+         if (tied_by(points%node(j)) > 0) call add_number(twice, context%model%mesh%node_id(points%node(j)))
+         tied_by(points%node(j)) = i
+         associate (first => points%first(j), last => points%first(j + 1) - 1)
+            do axis = 1, 2
+               vectors = reshape([(0.0_wp, k=1, 2*(last - first + 1))], [2, last - first + 1])
+               vectors(axis, :) = points%coefficient(first:last)
+               call add_row(points%entry(first:last), vectors, 0.0_wp, 0.0_wp, points%weight(j), [ROW_TIE, group, i], &
+                            context%model%bilateral)
+            end do
+         end associate
+      end do
+      context%model%ties(i)%n_nodes = points%n - context%model%ties(i)%n_far
+      if (twice%n > 0) call refuse(context, context%ties(i), 'node '//ids_text(numbers_of(twice))// &
+                                   ' is a slave in two ties', 'each node in one slave; the other tie may have it as master')
+   end subroutine add_tie
+
+end module atrito_build_ties

@@ -1,0 +1,153 @@
+!> *TRANSFORM: local axes of nodes, along which supports, forces and equations are given.
+module atrito_local_axes
+   use atrito_build_context, only: build_context_t, ids_text
+   use atrito_deck, only: card_t, token_t, line_item, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_items, only: get_real, option_text, option_word
+   use atrito_kinds, only: ip, wp
+   use atrito_references, only: find_nodes
+   implicit none (type, external)
+   private
+   public :: read_local_axes, dof_direction, has_local_axes
+
+   real(wp), parameter :: SAME_AXIS = 1.0e-12_wp   !< sine of an angle that is none
+
+contains
+
+   !> All *TRANSFORM cards: context%axes, which is not allocated where there are none.
+   subroutine read_local_axes(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) /= 'TRANSFORM' .or. context%deck%cards(i)%n_lines == 0) cycle
+         if (.not. context%deck%lines(context%deck%cards(i)%first_line)%ok .or. .not. context%deck%cards(i)%ok) cycle
+         if (.not. allocated(context%axes)) allocate (context%axes(2, 2, context%model%mesh%n_nodes), source=0.0_wp)
+         call read_transform_card(context%deck%cards(i), context)
+      end do
+   end subroutine read_local_axes
+
+   subroutine read_transform_card(card, context)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: name
+      integer(ip), allocatable :: nodes(:)
+      type(token_t) :: place
+      real(wp) :: a(2), b(2), axes(2, 2)
+      logical :: found, ok
+      integer(ip) :: i
+
+      call option_text(context%deck, card, 'NSET', name, found, place)
+      call find_nodes(context, place, nodes, found, 'TRANSFORM')
+      call read_points(card, context, a, b, ok)
+      if (.not. (found .and. ok)) return
+      if (option_word(context%deck, card, 'TYPE') == 'R') then
+         call rectangular_axes(card, context, a, b, axes, ok)
+         if (ok) call take_axes(place, nodes, spread(axes, 3, size(nodes)), context)
+      else
+         associate (x => context%model%mesh%x)
+            if (any([(all(x(:, nodes(i)) == a), i=1, size(nodes, kind=ip))])) then
+               call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), 'E-VALUE', &
+                                 'a node of the set stands on the axis', expected='an axis away from the nodes', &
+                                 keyword='TRANSFORM')
+               return
+            end if
+            call take_axes(place, nodes, reshape([(axes_along(x(:, nodes(i)) - a), i=1, size(nodes, kind=ip))], &
+                                                 [2, 2, size(nodes)]), context)
+         end associate
+      end if
+   end subroutine read_transform_card
+
+   !> The two points of a card in the plane; b is a where it is left out.
+   subroutine read_points(card, context, a, b, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      real(wp), intent(out) :: a(2), b(2)            !< [L]
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'coordinate, a real [L]'
+      real(wp) :: z
+      logical :: good(6)
+
+      associate (line => context%deck%lines(card%first_line), deck => context%deck)
+         call get_real(deck, line_item(deck, line, 1_ip), WHAT, a(1), good(1), keyword='TRANSFORM')
+         call get_real(deck, line_item(deck, line, 2_ip), WHAT, a(2), good(2), keyword='TRANSFORM')
+         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z, good(3), 0.0_wp, 'TRANSFORM')
+         call get_real(deck, line_item(deck, line, 4_ip), WHAT, b(1), good(4), a(1), 'TRANSFORM')
+         call get_real(deck, line_item(deck, line, 5_ip), WHAT, b(2), good(5), a(2), 'TRANSFORM')
+         call get_real(deck, line_item(deck, line, 6_ip), WHAT, z, good(6), 0.0_wp, 'TRANSFORM')
+      end associate
+      ok = all(good)
+   end subroutine read_points
+
+   !> R: local x along a, local y to the side of b.
+   subroutine rectangular_axes(card, context, a, b, axes, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      real(wp), intent(in) :: a(2), b(2)
+      real(wp), intent(out) :: axes(2, 2)
+      logical, intent(out) :: ok
+      real(wp) :: side
+
+      ok = norm2(a) > 0.0_wp
+      axes = 0.0_wp
+      if (ok) axes = axes_along(a)
+      side = dot_product(axes(:, 2), b)
+      if (ok .and. any(b /= a)) ok = abs(side) > SAME_AXIS*norm2(b)
+      if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), 1_ip), 'E-VALUE', &
+                                      'these points give no axes: one is the origin, or both lie on a line with it', &
+                                      expected='a point on the local x axis, and one to its side', keyword='TRANSFORM')
+      if (side < 0.0_wp) axes(:, 2) = -axes(:, 2)
+   end subroutine rectangular_axes
+
+   !> A direction, and that turned by +90 degrees.
+   pure function axes_along(direction) result(axes)
+      real(wp), intent(in) :: direction(2)
+      real(wp) :: axes(2, 2)
+
+      axes(:, 1) = direction/norm2(direction)
+      axes(:, 2) = [-axes(2, 1), axes(1, 1)]
+   end function axes_along
+
+   subroutine take_axes(place, nodes, axes, context)
+      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: axes(:, :, :)
+      type(build_context_t), intent(inout) :: context
+      logical :: clashes(size(nodes))
+      integer(ip) :: i
+
+      do i = 1, size(nodes, kind=ip)
+         associate (own => context%axes(:, :, nodes(i)))
+            clashes(i) = any(own /= 0.0_wp) .and. any(abs(own - axes(:, :, i)) > SAME_AXIS)
+            own = axes(:, :, i)
+         end associate
+      end do
+      if (any(clashes)) call report_error(context%deck, place, 'E-CONFLICT', 'node '// &
+                                          ids_text(pack(context%model%mesh%node_id(nodes), clashes))// &
+                                          ' has other local axes already', expected='one *TRANSFORM for each node', &
+                                          keyword='TRANSFORM')
+   end subroutine take_axes
+
+   pure logical function has_local_axes(context, node)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node
+
+      has_local_axes = .false.
+      if (allocated(context%axes)) has_local_axes = any(context%axes(:, 1, node) /= 0.0_wp)
+   end function has_local_axes
+
+   !> The direction of a dof of a node.
+   pure function dof_direction(context, node, dof) result(direction)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node, dof
+      real(wp) :: direction(2)
+
+      if (has_local_axes(context, node)) then
+         direction = context%axes(:, dof, node)
+      else
+         direction = 0.0_wp
+         direction(dof) = 1.0_wp
+      end if
+   end function dof_direction
+
+end module atrito_local_axes
