@@ -72,7 +72,7 @@ contains
    subroutine dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
       integer(ip), intent(in) :: elements(:)     !< which
       integer(ip), intent(in), target :: nodes(:, :) !< (most nodes, all elements)
-      integer(ip), intent(in), target :: n_nodes_of(:) !< (all elements) nodes of each; the first four or all are its corners
+      integer(ip), intent(in), target :: n_nodes_of(:) !< (all elements) nodes of each; the first four or all stand for its corners
       real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
       logical, intent(in) :: wanted(:)           !< (all nodes); those that are belong to the elements
       type(dissection_guide_t), intent(in), target :: guide
