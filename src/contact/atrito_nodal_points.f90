@@ -104,8 +104,9 @@ contains
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-         if (STATES(mesh%state(slave%element(i)))%has_hoop) &
+         if (STATES(mesh%state(slave%element(i)))%has_hoop) then
             face = revolve_face(mesh, mesh%state(slave%element(i)), thickness(slave%element(i)), rule)
+         end if
          do k = 1, merge(rule%n, 0_ip, used(i))
             call add_point(mesh, rule%node(k), s + rule%s(k), points, place, j)
             of_node(k) = j

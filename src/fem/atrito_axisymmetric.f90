@@ -164,8 +164,9 @@ contains
          largest = max(largest, k(i, i))
       end do
       shift = 0.0_wp
-      if (largest >= 1.0_wp/huge(1.0_wp)/EPS_MACH) &
+      if (largest >= 1.0_wp/huge(1.0_wp)/EPS_MACH) then
          shift = 1.5_wp/EPS_MACH*set_exponent(1.0_wp, exponent(largest) - KEPT_BITS)
+      end if
       do b = 2, n
          do a = 1, b - 1
             k(2*a, 2*b - 1) = (k(2*a, 2*b - 1) + shift) - shift

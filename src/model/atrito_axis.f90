@@ -43,9 +43,10 @@ contains
                                          'u1 of node '//ids_text(numbers_of(moved))// &
                                          ' on the axis x1 = 0 is prescribed, not as 0', &
                                          expected='u1 = 0 [L] on the axis, or no *BOUNDARY there', keyword='BOUNDARY')
-      if (held%n > 0 .and. .not. has_errors()) &
+      if (held%n > 0 .and. .not. has_errors()) then
          call report_note(context%deck, place_token(context%deck, context%elements%place(element)), 'N-AXIS', &
                           'u1 of node '//ids_text(numbers_of(held))//' on the axis x1 = 0 is held at 0', keyword='ELEMENT')
+      end if
    end subroutine hold_axis
 
    !> The nodes of axisymmetric elements on the axis, rising, and the first of these elements.
@@ -81,7 +82,7 @@ contains
 
       if (first_of_kind(model, .true.) == 0) return
       associate (state => model%mesh%state)
-         first = first_of_kind(model, .not. STATES(state(1))%has_hoop)
+         first = first_of_kind(model,.not. STATES(state(1))%has_hoop)
          if (first > 0) then
             call report_error(context%deck, place_token(context%deck, context%elements%place(first)), 'E-STATE', 'element '// &
                               to_text(model%mesh%element_id(first))//' is '//trim(STATES(state(first))%name)//', element '// &
