@@ -5,15 +5,17 @@ module atrito_adjustment
    use atrito_deck, only: card_t, option_t, token_text
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: find_option, get_real
+   use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp
-   use atrito_master, only: master_t, sight_t, look_along, nearest_end, smooth_normal
+   use atrito_master, only: master_t, sight_t, look_along, look_at_end, nearest_end, smooth_normal
+   use atrito_mesh, only: mesh_t
    use atrito_model, only: pair_t
-   use atrito_nodal_points, only: pair_with_master
-   use atrito_pairing, only: make_master, element_thickness
+   use atrito_pairing, only: make_master
    use atrito_pieces, only: place_at
    use atrito_points, only: contact_points_t
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -24,6 +26,13 @@ module atrito_adjustment
    real(wp), parameter :: SAME_DIRECTION = 1.0e-14_wp
    !> A foot this near to a node of the master, in parts of the way to it, is that node.
    real(wp), parameter :: AT_NODE = 0.05_wp
+
+   !> The nodes of a slave; the length is 0 at other nodes.
+   type :: slave_nodes_t
+      real(wp), allocatable :: normal(:, :)            !< (2, n_nodes)
+      real(wp), allocatable :: length(:)               !< [L]
+      real(wp), allocatable :: turn(:)                 !< sine of the angle by which the normal is in doubt
+   end type slave_nodes_t
 
    !> The nodes of a pair that have been moved onto its master, or were there.
    type :: adjusted_t
@@ -76,41 +85,75 @@ contains
       type(build_context_t), intent(inout) :: context
       type(adjusted_t), intent(inout) :: adjusted
       type(master_t) :: master
-      type(contact_points_t) :: points
-      real(wp), allocatable :: thickness(:), before(:, :)
+      type(slave_nodes_t) :: slave
+      real(wp), allocatable :: foot(:, :)
       logical, allocatable :: is_member(:)
-      integer(ip) :: k
+      integer(ip) :: k, n_blind
 
       associate (model => context%model, pair => context%model%pairs(i))
          allocate (adjusted%node(model%mesh%n_nodes), is_member(model%mesh%n_nodes), source=.false.)
          if (pair%adjust_set > 0) is_member(model%node_sets%sets(pair%adjust_set)%members) = .true.
          call make_master(model, pair%master, master)
-         thickness = element_thickness(model)
-         before = model%mesh%x(:, :model%mesh%n_nodes)
-         call pair_with_master(model%mesh, thickness, model%surfaces(pair%slave)%faces, model%surfaces(pair%master)%faces, &
-                               master, points)
-         adjusted%node(pack(points%node(:points%n), is_to_move(points, pair, is_member))) = .true.
-         do k = 1, points%n
-            if (.not. adjusted%node(points%node(k))) cycle
-            model%mesh%x(:, points%node(k)) = foot_of(points%x(:, k), points%normal(:, k), 2*points%length(k), master)
+         call list_nodes(model%mesh, model%surfaces(pair%slave)%faces, slave)
+         foot = model%mesh%x(:, :model%mesh%n_nodes)
+         n_blind = 0
+         do k = 1, model%mesh%n_nodes
+            if (.not. slave%length(k) > 0.0_wp .or. (pair%adjust_set > 0 .and. .not. is_member(k))) cycle
+            call look_at_master(model%mesh%x(:, k), slave, k, master, foot(:, k), adjusted%node(k))
+            if (.not. adjusted%node(k)) n_blind = n_blind + 1
+            if (pair%adjust_set > 0) cycle
+            ! overlaps, however deep, and gaps up to the value
+            if (dot_product(foot(:, k) - model%mesh%x(:, k), slave%normal(:, k)) > pair%adjust) adjusted%node(k) = .false.
          end do
-         call tell_moves(context, i, adjusted%node, norm2(model%mesh%x(:, :model%mesh%n_nodes) - before, dim=1))
+         call tell_moves(context, i, adjusted%node, norm2(foot - model%mesh%x(:, :model%mesh%n_nodes), dim=1), &
+                         merge(n_blind, 0_ip, pair%adjust_set > 0))
+         do k = 1, model%mesh%n_nodes
+            if (adjusted%node(k)) model%mesh%x(:, k) = foot(:, k)
+         end do
       end associate
    end subroutine adjust_pair
 
-   !> Overlaps, however deep, and gaps up to the value; or the members of the set.
-   pure function is_to_move(points, pair, is_member) result(is_chosen)
-      type(contact_points_t), intent(in) :: points
-      type(pair_t), intent(in) :: pair
-      logical, intent(in) :: is_member(:)
-      logical :: is_chosen(points%n)
+   !> Normals and lengths at the nodes of a slave, as of its NODAL points, whether their faces find the master whole or not.
+   pure subroutine list_nodes(mesh, faces, slave)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: faces           !< in order
+      type(slave_nodes_t), intent(out) :: slave
+      type(nodal_rule_t) :: rule
+      integer(ip) :: i, k
 
-      if (pair%adjust_set > 0) then
-         is_chosen = is_member(points%node(:points%n))
-      else
-         is_chosen = points%gap(:points%n) <= pair%adjust
-      end if
-   end function is_to_move
+      allocate (slave%normal(2, mesh%n_nodes), slave%length(mesh%n_nodes), slave%turn(mesh%n_nodes), source=0.0_wp)
+      do i = 1, faces%n
+         rule = nodal_rule(mesh, faces%element(i), faces%face(i))
+         do k = 1, rule%n
+            associate (node => rule%node(k))
+               slave%normal(:, node) = slave%normal(:, node) + rule%weight(k)*rule%normal(:, k)
+               slave%length(node) = slave%length(node) + rule%weight(k)
+               slave%turn(node) = max(slave%turn(node), turn_at(mesh, faces, i, rule))
+            end associate
+         end do
+      end do
+      do i = 1, mesh%n_nodes
+         if (slave%length(i) > 0.0_wp) slave%normal(:, i) = slave%normal(:, i)/norm2(slave%normal(:, i))
+      end do
+   end subroutine list_nodes
+
+   !> The foot of a node, if it sees the master.
+   pure subroutine look_at_master(x, slave, node, master, foot, sees)
+      real(wp), intent(in) :: x(2)
+      type(slave_nodes_t), intent(in) :: slave
+      integer(ip), intent(in) :: node
+      type(master_t), intent(in) :: master
+      real(wp), intent(inout) :: foot(2)
+      logical, intent(out) :: sees
+      type(sight_t) :: sight
+      real(wp) :: reach
+
+      reach = 2*slave%length(node)
+      sight = look_along(x, slave%normal(:, node), reach, master)
+      if (sight%piece == 0) sight = look_at_end(x, slave%normal(:, node), reach, slave%turn(node), master)
+      sees = sight%piece > 0
+      if (sees) foot = foot_of(x, slave%normal(:, node), reach, master)
+   end subroutine look_at_master
 
    !> The place of the master that is nearest to a node: along the slave's normal first, then along the master's where that leads
    !> to. Next to a node of the master it is that node, so that the ends of both sides stay together.
@@ -141,14 +184,17 @@ contains
       end do
    end function foot_of
 
-   subroutine tell_moves(context, i, is_chosen, moves)
+   subroutine tell_moves(context, i, is_chosen, distances, n_blind)
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: i                     !< the pair
       logical, intent(in) :: is_chosen(:)
-      real(wp), intent(in) :: moves(:)                 !< of each node [L]
+      real(wp), intent(in) :: distances(:)             !< of each node from its foot [L]
+      integer(ip), intent(in) :: n_blind               !< members of its set that do not see the master
+      real(wp) :: moves(size(distances))
       character(len=:), allocatable :: text
       integer(ip) :: node
 
+      moves = merge(distances, 0.0_wp, is_chosen)
       text = 'ADJUST moves no node: '
       if (.not. any(is_chosen)) then
          text = text//'none of the slave is near enough'
@@ -159,6 +205,7 @@ contains
          text = 'ADJUST moves '//to_text(count(moves > 0.0_wp, kind=ip))//' nodes of the slave onto the master, at most by '// &
                 to_text(moves(node), 3)//' at node '//to_text(context%model%mesh%node_id(node))
       end if
+      if (n_blind > 0) text = text//'; '//to_text(n_blind)//' of the set face no master'
       call report_note(context%deck, context%slaves(i), 'N-ADJUST', text, keyword='CONTACT PAIR')
    end subroutine tell_moves
 

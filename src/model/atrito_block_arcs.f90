@@ -15,7 +15,7 @@ module atrito_block_arcs
    !> Places along and across at which a block is looked at for folds.
    integer(ip), parameter :: LOOKS = 32
    !> A Jacobian smaller than this part of the longest side squared is flat.
-   real(wp), parameter :: FLAT = 1.0e-6_wp
+   real(wp), parameter :: FLAT = 1.0e-12_wp
    !> Corners where each side begins and ends.
    integer(ip), parameter :: FROM(4) = [1_ip, 2_ip, 4_ip, 1_ip], TO(4) = [2_ip, 3_ip, 3_ip, 4_ip]
 
