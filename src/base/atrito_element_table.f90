@@ -55,14 +55,15 @@ module atrito_element_table
    !> that difference is least.
    integer(ip), parameter :: ERROR_POINTS_OF(MOST_NODES) = [0_ip, 0_ip, 3_ip, 4_ip, 0_ip, 6_ip, 0_ip, 9_ip, 9_ip]
 
-   type(element_kind_t), parameter :: KINDS(13) = &
+   type(element_kind_t), parameter :: KINDS(15) = &
                                       [element_kind_t('CPE3', 3, PLANE_STRAIN), element_kind_t('CPS3', 3, PLANE_STRESS), &
                                        element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
                                        element_kind_t('CPE6', 6, PLANE_STRAIN), element_kind_t('CPS6', 6, PLANE_STRESS), &
                                        element_kind_t('CPE8', 8, PLANE_STRAIN), element_kind_t('CPS8', 8, PLANE_STRESS), &
                                        element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), &
                                        element_kind_t('CPS9', 9, PLANE_STRESS, .true.), &
-                                       element_kind_t('CAX4', 4, AXISYMMETRIC), element_kind_t('CAX8', 8, AXISYMMETRIC), &
+                                       element_kind_t('CAX3', 3, AXISYMMETRIC), element_kind_t('CAX4', 4, AXISYMMETRIC), &
+                                       element_kind_t('CAX6', 6, AXISYMMETRIC), element_kind_t('CAX8', 8, AXISYMMETRIC), &
                                        element_kind_t('CAX9', 9, AXISYMMETRIC, .true.)]
 
 contains

@@ -12,7 +12,7 @@ module atrito_multiplier_step
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
-   use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_least_forces, only: find_least_forces
    use atrito_line_search, only: search_line
    use atrito_solve_history, only: solve_history_t, record_solve
@@ -304,15 +304,14 @@ contains
    end subroutine take_least_forces
 
    !> A pressure that is round-off is none: the point is open.
-   subroutine clear_round_off(shape, bounds, none, multipliers, state)
+   subroutine clear_round_off(shape, none, multipliers, state)
       type(bound_qp_t), intent(in) :: shape
-      type(box_bounds_t), intent(in) :: bounds
       logical, intent(in) :: none(:)             !< (m) of a pair without any force but round-off
       type(multiplier_t), intent(in) :: multipliers
       type(box_state_t), intent(inout) :: state
 
       associate (n => shape%n_normal)
-         where (state%state(:n) == FREE .and. bounds%lower(:n) > -HUGE_REAL .and. &
+         where (state%state(:n) == FREE .and. multipliers%pair(:n) <= multipliers%n_contact_pairs .and. &
                 (state%q(:n) <= multipliers%noise(:n) .or. none(:n)))
             state%q(:n) = 0.0_wp
             state%state(:n) = AT_LOWER

@@ -11,6 +11,8 @@ module atrito_build_equations
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_model, only: model_t, nodal_values_t
    use atrito_references, only: find_nodes
+   use atrito_refinement, only: is_refined
+   use atrito_set_partners, only: order_like
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -91,7 +93,8 @@ contains
                place = line_item(context%deck, context%deck%lines(k), 1_ip)
                call read_terms(context, last, k, terms, ok)
                if (.not. ok) exit                     ! where the next one begins is not known
-               call add_equations(context, place, terms, group)
+               call order_sets(context, place, terms, ok)
+               if (ok) call add_equations(context, place, terms, group)
             end do
          end associate
       end do
@@ -199,6 +202,24 @@ contains
                                       in_no_element(context, nodes)))//' belongs to no element', expected='nodes of elements', &
                                       keyword=KEYWORD)
    end subroutine check_nodes
+
+   !> On a refined mesh the nodes of sets are put into the order of those of the first.
+   subroutine order_sets(context, place, terms, ok)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      type(term_t), intent(inout) :: terms(:)
+      logical, intent(out) :: ok
+      integer(ip) :: i
+
+      ok = .true.
+      if (.not. is_refined(context%refinement)) return
+      do i = 2, size(terms, kind=ip)
+         if (size(terms(i)%nodes) == 1 .or. size(terms(i)%nodes) /= size(terms(1)%nodes)) cycle
+         if (ok) call order_like(context%refinement, terms(1)%nodes, terms(i)%nodes, ok)
+      end do
+      if (.not. ok) call report_error(context%deck, place, 'E-REFINE', 'the new nodes of these sets have no partners', &
+                                      expected='sets along edges of elements, in the same order', keyword=KEYWORD)
+   end subroutine order_sets
 
    !> The equations of terms: one for each node of the first.
    subroutine add_equations(context, place, terms, group)

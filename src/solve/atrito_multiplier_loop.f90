@@ -224,8 +224,7 @@ contains
                             to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
          return
       end if
-      call clear_round_off(shape, solution%bounds, forces_that_are_none(system, multipliers, solution%state%q), multipliers, &
-                           solution%state)
+      call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
                                                          solution%inner%undetermined)
       solution%p = pressure_of(line, solution%state%q)

@@ -136,4 +136,16 @@ sed 's/^\*DSLOAD/*BOUNDARY\nA-BOTTOM, 2, 2, 0.01\n*DSLOAD/; s/^A-BOTTOM, 2$//' p
 run 0 lifted.inp lifted --digits 17 --quiet
 near 'lifted: u_n' "$(moved lifted 3 | awk '{ printf "%.17g", -0.5*$1 + sqrt(0.75)*$2 }')" 0.01 1e-15
 near 'lifted: reaction' "$(awk '!/^#/ { x += $3; y += $4 } END { printf "%.17g", y + x*sqrt(3) }' lifted/reactions.tab)" 0 1e-10
+
+# 11. periodic edges: equations over two sets, whose new nodes stand in other orders on a refined mesh
+for level in 0 1 2; do
+   for type in CPS4 CPE9; do
+      sed "s/CPS4/$type/" "$here/periodic.inp" >periodic.inp
+      run 0 periodic.inp periodic --digits 17 --quiet --refine $level
+      below "periodic, level $level, $type: difference of the edges" "$(awk '
+         function off(a, b) { a -= b; if (a < 0) a = -a; if (a > worst) worst = a }
+         !/^#/ && ($3 == 0 || $3 == 4) { if ($4 in u) { n++; off(u[$4], $5); off(v[$4], $6) } u[$4] = $5; v[$4] = $6 }
+         END { if (n < 4) print "none"; else printf "%.17g", worst }' periodic/nodes.tab)" 1e-15
+   done
+done
 finish
