@@ -97,7 +97,8 @@ contains
          geometry%averages = has_mean_dilatation(section, geometry%state, geometry%shape)
       end associate
       if (geometry%averages .and. geometry%has_hoop) then
-         call mean_rows(geometry%x(:, :MOST_CORNERS), geometry%radius, 1.0_wp, geometry%state, geometry%mean, volume)
+         k = geometry%shape                      ! of the first degree: corners alone
+         call mean_rows(geometry%x(:, :k), geometry%radius, 1.0_wp, geometry%state, geometry%mean(:, :k), volume)
       else if (geometry%averages) then
          geometry%mean = mean_gradients(geometry%x(:, :MOST_CORNERS))
       end if
@@ -190,7 +191,7 @@ contains
          e22 = s(k, 2)
          e33 = (u + dot_product(rule%value(k, :n), way(1, :n)))/(geometry%radius + geometry%place(k, 1))
          if (geometry%averages) then             ! the mean dilatation, a third of it in each direction
-            excess = sum(geometry%mean*way(:, :MOST_CORNERS)) + u*sum(geometry%mean(1, :)) - (e11 + e22 + e33)
+            excess = sum(geometry%mean(:, :n)*way(:, :n)) + u*sum(geometry%mean(1, :n)) - (e11 + e22 + e33)
             e11 = e11 + excess/3
             e22 = e22 + excess/3
             e33 = e33 + excess/3
