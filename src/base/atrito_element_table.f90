@@ -5,11 +5,13 @@
 !> atrito_shape_functions.
 module atrito_element_table
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, FORMULATION_BBAR
+   use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, PLANE_STRAIN_REDUCED, PLANE_STRESS_REDUCED, &
+                                 IS_REDUCED, FORMULATION_BBAR
    implicit none (type, external)
    private
    public :: element_shape_t, element_kind_t, SHAPES, KINDS
-   public :: DEGREE_OF, BEST_OF, MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation
+   public :: DEGREE_OF, BEST_OF, MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation, &
+             point_count
 
    integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
 
@@ -26,7 +28,7 @@ module atrito_element_table
    end type element_shape_t
 
    type :: element_kind_t
-      character(len=4) :: name = ''              !< in decks
+      character(len=5) :: name = ''              !< in decks
       integer(ip) :: shape = 0                   !< place in SHAPES: the number of nodes
       integer(ip) :: state = 0                   !< place in STATES
       logical :: own = .false.                   !< Abaqus has none of this name
@@ -46,10 +48,15 @@ module atrito_element_table
    !> Columns by themselves: of all elements of a mesh, SHAPES(shape)%degree would copy the rows.
    integer(ip), parameter :: DEGREE_OF(MOST_NODES) = SHAPES%degree, BEST_OF(MOST_NODES) = SHAPES%n_best
 
-   type(element_kind_t), parameter :: KINDS(6) = &
+   type(element_kind_t), parameter :: KINDS(10) = &
                                       [element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
                                        element_kind_t('CPE8', 8, PLANE_STRAIN), element_kind_t('CPS8', 8, PLANE_STRESS), &
-                                   element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), element_kind_t('CPS9', 9, PLANE_STRESS, .true.)]
+                                       element_kind_t('CPE9', 9, PLANE_STRAIN, .true.), &
+                                       element_kind_t('CPS9', 9, PLANE_STRESS, .true.), &
+                                       element_kind_t('CPE4R', 4, PLANE_STRAIN_REDUCED), &
+                                       element_kind_t('CPS4R', 4, PLANE_STRESS_REDUCED), &
+                                       element_kind_t('CPE8R', 8, PLANE_STRAIN_REDUCED), &
+                                       element_kind_t('CPS8R', 8, PLANE_STRESS_REDUCED)]
 
 contains
 
@@ -67,12 +74,21 @@ contains
       kind_of = findloc(KINDS%shape == shape .and. KINDS%state == state, .true., dim=1, kind=ip)
    end function kind_of
 
+   !> Points at which an element's stiffness is integrated and its stresses are told.
+   pure integer(ip) function point_count(shape, state)
+      integer(ip), intent(in) :: shape, state
+
+      point_count = SHAPES(shape)%n_points
+      if (IS_REDUCED(state)) point_count = BEST_OF(shape)
+   end function point_count
+
    !> Whether the strains of an element may have one dilatation, its mean (B-bar): the first degree without strain across the plane.
-   !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock.
+   !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock, and with reduced
+   !> integration none does.
    pure logical function can_average(shape, state)
       integer(ip), intent(in) :: shape, state
 
-      can_average = SHAPES(shape)%degree == 1 .and. .not. STATES(state)%is_thin
+      can_average = SHAPES(shape)%degree == 1 .and. .not. (STATES(state)%is_thin .or. IS_REDUCED(state))
    end function can_average
 
    !> Whether the strains of an element have one dilatation, the mean of the element (B-bar).
