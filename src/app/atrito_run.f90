@@ -187,7 +187,7 @@ contains
          told = count_messages()
          if (count_messages(SEVERITY_ERROR) > 0) return
          if (is_ok(status) .and. .not. has_state(model, command%element)) then
-            call set_status(status, STATUS_USAGE, '--elements '//command%element// &
+            call set_status(status, STATUS_USAGE, '--elements '//trim(command%element)// &
                             ': the deck has elements of the other plane state')
          end if
       end if
