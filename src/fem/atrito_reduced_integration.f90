@@ -1,8 +1,8 @@
 !> Elements whose stiffness is integrated at fewer points: eight nodes at 2 x 2, four nodes in the middle alone.
 !>
 !> In the middle four nodes feel nothing of u ~ xi eta, the hourglass. Its strains are those that bending has (T. Belytschko and
-!> L. P. Bindeman, Comput. Methods Appl. Mech. Eng. 88, 1991, assumed strains of quintessential bending and incompressibility): along
-!> the axes 1', 2' of the element, with h = xi eta and q the amplitude of the hourglass,
+!> L. P. Bindeman, Comput. Methods Appl. Mech. Eng. 88, 1991, quintessential bending and incompressibility): along the
+!> axes 1', 2' of the element, with h = xi eta and q the amplitude of the hourglass,
 !>
 !>     e11 = h,1 q1 - m h,2 q2,   e22 = h,2 q2 - m h,1 q1,   2 e12 = 0,   m = mu (thin), mu/(1 - mu) (else)
 !>
