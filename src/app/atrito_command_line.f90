@@ -42,7 +42,8 @@ module atrito_command_line
       integer(ip) :: threads = 1
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
       integer(ip) :: shape = 0                      !< nodes of all elements, set by a study; 0: as in the deck
-      character(len=4) :: element = ''              !< their name, set by a study
+      integer(ip) :: state = 0                      !< and their state
+      character(len=5) :: element = ''              !< their name, set by a study
       integer(ip) :: levels = 0                     !< of a study
       type(string_t), allocatable :: elements(:)    !< of a study: cpe4, ...
       type(string_t), allocatable :: references(:)  !< of a study: QUANTITY or QUANTITY=VALUE

@@ -17,6 +17,7 @@ module atrito_run
    use atrito_model, only: model_t
    use atrito_option_table, only: SOLVERS, CONTACT_FORMS
    use atrito_page, only: page_t, print_page
+   use atrito_plane_state, only: FULL_STATE
    use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
@@ -176,7 +177,7 @@ contains
       code = STATUS_DECK
       if (is_ok(status) .or. status%code == STATUS_DECK) then
          call start_phase('mesh')
-         call build_model(deck, model, command%refine, shape=command%shape)
+         call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
          if (.not. has_hdf5()) call refuse_field_files(deck)
          call stop_phase('mesh')
          call sort_messages()
@@ -186,7 +187,7 @@ contains
          told = count_messages()
          if (count_messages(SEVERITY_ERROR) > 0) return
          if (is_ok(status) .and. .not. has_state(model, command%element)) then
-            call set_status(status, STATUS_USAGE, '--elements '//command%element// &
+            call set_status(status, STATUS_USAGE, '--elements '//trim(command%element)// &
                             ': the deck has elements of the other plane state')
          end if
       end if
@@ -200,7 +201,8 @@ contains
       character(len=*), intent(in) :: element       !< name of a kind, or empty
 
       has_state = .true.
-      if (len_trim(element) > 0) has_state = all(model%mesh%state == KINDS(kind_named(upper_case(trim(element))))%state)
+      if (len_trim(element) > 0) has_state = all(FULL_STATE(model%mesh%state) &
+                                                 == FULL_STATE(KINDS(kind_named(upper_case(trim(element))))%state))
    end function has_state
 
    pure function solve_options(command) result(options)

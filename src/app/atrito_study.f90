@@ -269,6 +269,7 @@ contains
       one%refine = command%refine + row%level
       if (row%element /= DECK_ELEMENTS) one%element = row%element
       one%shape = shape_of(one%element)
+      one%state = state_of(one%element)
       one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
    end subroutine make_command
 
@@ -279,6 +280,14 @@ contains
       shape_of = 0
       if (len_trim(element) > 0) shape_of = KINDS(kind_named(upper_case(trim(element))))%shape
    end function shape_of
+
+   !> The same of the state.
+   pure integer(ip) function state_of(element)
+      character(len=*), intent(in) :: element
+
+      state_of = 0
+      if (len_trim(element) > 0) state_of = KINDS(kind_named(upper_case(trim(element))))%state
+   end function state_of
 
    !> A quantity of the first pair, or of the step; `missing` where the summary has none.
    pure real(wp) function amount(summary, name, missing)

@@ -5,12 +5,13 @@
 !> atrito_shape_functions.
 module atrito_element_table
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, FORMULATION_BBAR
+   use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, &
+                                 PLANE_STRESS_REDUCED, IS_REDUCED, FORMULATION_BBAR
    implicit none (type, external)
    private
    public :: element_shape_t, element_kind_t, SHAPES, KINDS
    public :: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, ERROR_POINTS_OF
-   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation
+   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation, point_count
 
    integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
 
@@ -27,7 +28,7 @@ module atrito_element_table
    end type element_shape_t
 
    type :: element_kind_t
-      character(len=4) :: name = ''              !< in decks
+      character(len=5) :: name = ''              !< in decks
       integer(ip) :: shape = 0                   !< place in SHAPES: the number of nodes
       integer(ip) :: state = 0                   !< place in STATES
       logical :: own = .false.                   !< Abaqus has none of this name
@@ -55,7 +56,7 @@ module atrito_element_table
    !> that difference is least.
    integer(ip), parameter :: ERROR_POINTS_OF(MOST_NODES) = [0_ip, 0_ip, 3_ip, 4_ip, 0_ip, 6_ip, 0_ip, 9_ip, 9_ip]
 
-   type(element_kind_t), parameter :: KINDS(15) = &
+   type(element_kind_t), parameter :: KINDS(19) = &
                                       [element_kind_t('CPE3', 3, PLANE_STRAIN), element_kind_t('CPS3', 3, PLANE_STRESS), &
                                        element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
                                        element_kind_t('CPE6', 6, PLANE_STRAIN), element_kind_t('CPS6', 6, PLANE_STRESS), &
@@ -64,7 +65,12 @@ module atrito_element_table
                                        element_kind_t('CPS9', 9, PLANE_STRESS, .true.), &
                                        element_kind_t('CAX3', 3, AXISYMMETRIC), element_kind_t('CAX4', 4, AXISYMMETRIC), &
                                        element_kind_t('CAX6', 6, AXISYMMETRIC), element_kind_t('CAX8', 8, AXISYMMETRIC), &
-                                       element_kind_t('CAX9', 9, AXISYMMETRIC, .true.)]
+                                       element_kind_t('CAX9', 9, AXISYMMETRIC, .true.), &
+                                       element_kind_t('CPE4R', 4, PLANE_STRAIN_REDUCED), &
+                                       element_kind_t('CPS4R', 4, PLANE_STRESS_REDUCED), &
+                                       element_kind_t('CPE8R', 8, PLANE_STRAIN_REDUCED), &
+                                       element_kind_t('CPS8R', 8, PLANE_STRESS_REDUCED)]
+
 
 contains
 
@@ -82,13 +88,22 @@ contains
       kind_of = findloc(KINDS%shape == shape .and. KINDS%state == state, .true., dim=1, kind=ip)
    end function kind_of
 
+   !> Points at which an element's stiffness is integrated and its stresses are told.
+   pure integer(ip) function point_count(shape, state)
+      integer(ip), intent(in) :: shape, state
+
+      point_count = SHAPES(shape)%n_points
+      if (IS_REDUCED(state)) point_count = BEST_OF(shape)
+   end function point_count
+
    !> Whether the strains of an element may have one dilatation, its mean (B-bar): four nodes without strain across the plane.
-   !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock. The dilatation of three
+   !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock, and with reduced
+   !> integration none does. The dilatation of three
    !> nodes is constant anyway.
    pure logical function can_average(shape, state)
       integer(ip), intent(in) :: shape, state
 
-      can_average = shape == 4 .and. .not. STATES(state)%is_thin
+      can_average = shape == 4 .and. .not. (STATES(state)%is_thin .or. IS_REDUCED(state))
    end function can_average
 
    !> Whether the strains of an element have one dilatation, the mean of the element (B-bar).

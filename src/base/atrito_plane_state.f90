@@ -1,5 +1,7 @@
 !> The plane states, which all rooms ask: stresses and elasticity, what a point weighs, how a body moves without strain.
 !>
+!> A state says also how the stiffness of its elements is integrated, since that makes other strains of the same displacements.
+!>
 !> Strains are e11, e22, 2 e12, of linear isotropic elasticity; axisymmetric states have the hoop strain u1/x1 besides, whose stress
 !> goes by itself (atrito_axisymmetric), so that plane states pay nothing for it. A new state is a row of STATES and a branch in the
 !> procedures below; the strains of the shape functions are in strain_points (atrito_point_stress) and integrate_products
@@ -8,7 +10,8 @@ module atrito_plane_state
    use atrito_kinds, only: ip, wp, PI
    implicit none (type, external)
    private
-   public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, COMPONENTS, STRESS_NAMES
+   public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, PLANE_STRESS_REDUCED
+   public :: IS_REDUCED, FULL_STATE, COMPONENTS, STRESS_NAMES
    public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, depth_at
    public :: FORMULATION_STANDARD, FORMULATION_BBAR
 
@@ -19,13 +22,23 @@ module atrito_plane_state
       real(wp) :: depth(2) = [1.0_wp, 0.0_wp]    !< over the thickness at x1: depth(1) + depth(2) x1 [-, 1/L]
       logical :: moves(3) = .true.               !< rigid motions: translations along 1 and 2, rotation
       logical :: has_hoop = .false.              !< axisymmetric: x1 is a radius, u1/x1 a strain, s33 its stress
+      logical :: is_reduced = .false.            !< the stiffness is integrated at the points where stresses are best
+      integer(ip) :: full = 0_ip                 !< place of the same state with full integration
    end type plane_state_t
 
-   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2, AXISYMMETRIC = 3
-   type(plane_state_t), parameter :: STATES(3) = [plane_state_t('CPE', 'plane strain', .false.), &
-                                                  plane_state_t('CPS', 'plane stress', .true.), &
+   integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2, AXISYMMETRIC = 3, PLANE_STRAIN_REDUCED = 4, &
+                             PLANE_STRESS_REDUCED = 5
+   type(plane_state_t), parameter :: STATES(5) = [plane_state_t('CPE', 'plane strain', .false., full=1_ip), &
+                                                  plane_state_t('CPS', 'plane stress', .true., full=2_ip), &
                                                   plane_state_t('CAX', 'axisymmetric', .false., [0.0_wp, 2*PI], &
-                                                                [.false., .true., .false.], .true.)]
+                                                                [.false., .true., .false.], .true., full=3_ip), &
+                                                  plane_state_t('CPE', 'plane strain', .false., is_reduced=.true., full=1_ip), &
+                                                  plane_state_t('CPS', 'plane stress', .true., is_reduced=.true., full=2_ip)]
+
+   !> A column by itself: STATES(state)%is_reduced would copy the row.
+   logical, parameter :: IS_REDUCED(size(STATES)) = STATES%is_reduced
+   !> And the same state with full integration.
+   integer(ip), parameter :: FULL_STATE(size(STATES)) = STATES%full
 
    integer(ip), parameter :: COMPONENTS = 3      !< of the stresses that work on strains: s11, s22, s12
    character(len=5), parameter :: STRESS_NAMES(5) = ['s11  ', 's22  ', 's33  ', 's12  ', 'mises'] !< in tables and fields

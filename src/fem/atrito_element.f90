@@ -6,11 +6,12 @@ module atrito_element
    use atrito_axisymmetric, only: axisymmetric_stiffness
    use atrito_element_table, only: SHAPES, MOST_NODES, has_mean_dilatation
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at, STATES
+   use atrito_plane_state, only: elastic_t, elasticity_matrix, IS_REDUCED, COMPONENTS, depth_at, STATES
+   use atrito_reduced_integration, only: hourglass_stiffness
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
                                      gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, &
                                      S2_ETA_SLOPES, Q2_WEIGHTS, T1_XI_SLOPES, T1_ETA_SLOPES, T2_XI_SLOPES, T2_ETA_SLOPES, &
-                                     T1_WEIGHT, T2_WEIGHT
+                                     T1_WEIGHT, T2_WEIGHT, Q1R_XI_SLOPES, Q1R_ETA_SLOPES, S2R_XI_SLOPES, S2R_ETA_SLOPES
    implicit none (type, external)
    private
    public :: element_stiffness, mean_gradients, pressure_load, body_load
@@ -47,7 +48,7 @@ contains
       do i = 1, n
          relative(:, i) = x(:, i) - x(:, 1)
       end do
-      call integrate_products(n, relative, upper)
+      call integrate_products(n, IS_REDUCED(state), relative, upper)
       d = elasticity_matrix(section, state)
       bulk = (d(1, 2) + d(3, 3))*section%thickness
       shear = d(3, 3)*section%thickness
@@ -57,6 +58,7 @@ contains
       else
          call combine_products(n, bulk, shear, upper)
       end if
+      if (IS_REDUCED(state) .and. n == 4) call add_hourglass(relative, section, state, upper)
       call balance_stiffness(n, upper)
       do j = 1, 2*n
          do i = 1, j
@@ -67,14 +69,17 @@ contains
    end subroutine element_stiffness
 
    !> The integrals over the element of ga gb', a < b.
-   pure subroutine integrate_products(n, x, products)
+   pure subroutine integrate_products(n, is_reduced, x, products)
       integer(ip), intent(in) :: n
+      logical, intent(in) :: is_reduced
       real(wp), intent(in) :: x(2, MOST_NODES)       !< less those of the first node [L]
       real(wp), intent(out) :: products(MOST_DOFS, MOST_DOFS) !< blocks a < b; others are undefined
       integer(ip) :: i
 
       products(:2*n, :2*n) = 0.0_wp
-      if (n == 4) then
+      if (is_reduced) then
+         call integrate_reduced(n, x, products)
+      else if (n == 4) then
          do i = 1, size(Q1_XI_SLOPES, 2, kind=ip)
             call add_products(n, x, Q1_XI_SLOPES(:, i), Q1_ETA_SLOPES(:, i), 1.0_wp, products)
          end do
@@ -94,6 +99,39 @@ contains
          end do
       end if
    end subroutine integrate_products
+
+   !> The same at fewer points: 2 x 2 of eight nodes, the middle of four.
+   pure subroutine integrate_reduced(n, x, products)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: x(2, MOST_NODES)
+      real(wp), intent(inout) :: products(MOST_DOFS, MOST_DOFS)
+      integer(ip) :: i
+
+      if (n == 4) then
+         call add_products(n, x, Q1R_XI_SLOPES, Q1R_ETA_SLOPES, 4.0_wp, products)
+      else
+         do i = 1, size(S2R_XI_SLOPES, 2, kind=ip)
+            call add_products(n, x, S2R_XI_SLOPES(:, i), S2R_ETA_SLOPES(:, i), 1.0_wp, products)
+         end do
+      end if
+   end subroutine integrate_reduced
+
+   !> What of the stiffness of four nodes the middle does not feel, in the blocks a < b.
+   pure subroutine add_hourglass(x, section, state, k)
+      real(wp), intent(in) :: x(2, MOST_NODES)
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state
+      real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
+      real(wp) :: shape(4), amount(2, 2)
+      integer(ip) :: a, b
+
+      call hourglass_stiffness(x(:, :4), section, state, shape, amount)
+      do b = 2, 4
+         do a = 1, b - 1
+            k(2*a - 1:2*a, 2*b - 1:2*b) = k(2*a - 1:2*a, 2*b - 1:2*b) + shape(a)*shape(b)*amount
+         end do
+      end do
+   end subroutine add_hourglass
 
    !> What a Gauss point gives to the integrals. Arrays of a fixed length, since the compiler makes more of them.
    pure subroutine add_products(n, x, dxi, deta, weight, products)

@@ -6,7 +6,8 @@ module atrito_point_stress
    use atrito_element, only: mean_gradients
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elasticity_matrix, COMPONENTS, STATES
+   use atrito_plane_state, only: elasticity_matrix, IS_REDUCED, COMPONENTS, STATES
+   use atrito_reduced_integration, only: spread_gradients
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
@@ -103,6 +104,9 @@ contains
          geometry%mean = mean_gradients(geometry%x(:, :MOST_CORNERS))
       end if
       call map_points(rule, geometry)
+      if (IS_REDUCED(geometry%state)) then
+         call spread_gradients(rule%n, geometry%shape, geometry%x, geometry%gradient)
+      end if
    end subroutine fetch_geometry
 
    !> Places, Jacobians and gradients at the points.

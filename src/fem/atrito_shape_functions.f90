@@ -11,6 +11,7 @@ module atrito_shape_functions
    public :: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, gauss_point, rule_point
    public :: T1_XI_SLOPES, T1_ETA_SLOPES, T2_XI_SLOPES, T2_ETA_SLOPES, T1_WEIGHT, T2_WEIGHT
    public :: Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, S2_ETA_SLOPES, Q2_WEIGHTS
+   public :: Q1R_XI_SLOPES, Q1R_ETA_SLOPES, S2R_XI_SLOPES, S2R_ETA_SLOPES
 
    !> Places of the nodes in the tensor grid: index along xi and along eta (1: -1, 2: 0 or +1 for Q1, 3: +1).
    integer(ip), parameter :: Q1_NODES = 4, S2_NODES = 8, Q2_NODES = 9
@@ -40,6 +41,17 @@ module atrito_shape_functions
                           spread(OF_CENTRE, 2, 9)*spread(Q2_XI_SLOPES(Q2_NODES, :), 1, S2_NODES)
    real(wp), parameter :: S2_ETA_SLOPES(S2_NODES, 9) = Q2_ETA_SLOPES(:S2_NODES, :) + &
                           spread(OF_CENTRE, 2, 9)*spread(Q2_ETA_SLOPES(Q2_NODES, :), 1, S2_NODES)
+   !> The same at four points, for reduced integration; and of four nodes in the middle.
+   real(wp), parameter :: V3R(3, 2) = transpose(reshape([0.5_wp*T2*(T2 - 1), (1 - T2)*(1 + T2), 0.5_wp*T2*(T2 + 1)], [2, 3]))
+   real(wp), parameter :: D3R(3, 2) = transpose(reshape([T2 - 0.5_wp, -2*T2, T2 + 0.5_wp], [2, 3]))
+   real(wp), parameter :: R2_XI_SLOPES(Q2_NODES, 4) = D3R(Q2_GRID(1, :), Q1_POINTS(:, 1))*V3R(Q2_GRID(2, :), Q1_POINTS(:, 2))
+   real(wp), parameter :: R2_ETA_SLOPES(Q2_NODES, 4) = V3R(Q2_GRID(1, :), Q1_POINTS(:, 1))*D3R(Q2_GRID(2, :), Q1_POINTS(:, 2))
+   real(wp), parameter :: S2R_XI_SLOPES(S2_NODES, 4) = R2_XI_SLOPES(:S2_NODES, :) + &
+                          spread(OF_CENTRE, 2, 4)*spread(R2_XI_SLOPES(Q2_NODES, :), 1, S2_NODES)
+   real(wp), parameter :: S2R_ETA_SLOPES(S2_NODES, 4) = R2_ETA_SLOPES(:S2_NODES, :) + &
+                          spread(OF_CENTRE, 2, 4)*spread(R2_ETA_SLOPES(Q2_NODES, :), 1, S2_NODES)
+   real(wp), parameter :: Q1R_XI_SLOPES(Q1_NODES) = [-0.25_wp, 0.25_wp, 0.25_wp, -0.25_wp]
+   real(wp), parameter :: Q1R_ETA_SLOPES(Q1_NODES) = [-0.25_wp, -0.25_wp, 0.25_wp, 0.25_wp]
    !> Weights of the nine points; those of the four are 1.
    real(wp), parameter :: Q2_WEIGHTS(9) = W3(Q2_POINTS(:, 1))*W3(Q2_POINTS(:, 2))
 

@@ -12,7 +12,7 @@ module atrito_stress_recovery
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
-   use atrito_plane_state, only: stress_33, von_mises, COMPONENTS, STRESS_NAMES
+   use atrito_plane_state, only: stress_33, von_mises, IS_REDUCED, COMPONENTS, STRESS_NAMES
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
@@ -274,6 +274,10 @@ contains
       real(wp) :: first(2), s(MOST_POINTS, COMPONENTS)
       integer(ip) :: point
 
+      if (IS_REDUCED(fem%mesh%state(e))) then
+         call add_best_points(fem, i, e, work, fit)  ! there are no others
+         return
+      end if
       first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
       associate (rule => work%all(fem%mesh%shape(e)))
          call fetch_geometry(fem, e, rule, geometry)

@@ -188,7 +188,7 @@ contains
          end if
       end do
       if (inside%n > 0) call report_warning(context%deck, line_item(context%deck, line, 2_ip), 'W-FACE', 'the ' &
-                         //trim(merge('traction', 'pressure', kind == LOAD_TRACTION))//' acts inside the mesh, too, on face ' &
+                              //trim(merge('traction', 'pressure', kind == LOAD_TRACTION))//' acts inside the mesh, too, on face ' &
                                             //label(len(label):)//' of element '//ids_text(numbers_of(inside)), &
                                             expected='elements on the outline of the body', keyword='DLOAD')
    end subroutine load_faces

@@ -33,6 +33,7 @@ module atrito_build_model
    use atrito_messages, only: message_mark_t, mark_messages, forget_messages
    use atrito_model, only: model_t
    use atrito_pairing, only: order_slaves, pair_all
+   use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_strings, only: deck_name
@@ -50,15 +51,16 @@ contains
    !>
    !> With levels > 0 every element is refined into 4**levels, and with a shape all become elements of that shape. The model is
    !> built without it first: what is wrong with a deck is told of the elements that stand in it.
-   subroutine build_model(deck, model, levels, memory, shape)
+   subroutine build_model(deck, model, levels, memory, shape, state)
       type(deck_t), intent(in) :: deck                 !< read and checked by read_deck
       type(model_t), intent(out) :: model
       integer(ip), intent(in), optional :: levels      !< of refinement, >= 0; default 0
       integer(lp), intent(in), optional :: memory      !< that the mesh may take [bytes]; default what the machine has
       integer(ip), intent(in), optional :: shape       !< of all elements, place in SHAPES; default 0: as in the deck
+      integer(ip), intent(in), optional :: state       !< of all elements with a shape, for its integration; default 0
       type(message_mark_t) :: mark
       integer(lp) :: limit
-      integer(ip) :: depth, kind
+      integer(ip) :: depth, kind, own
 
       if (present(memory)) then
          limit = memory
@@ -69,16 +71,23 @@ contains
       if (present(levels)) depth = levels
       kind = 0
       if (present(shape)) kind = shape
+      own = 0
+      if (present(state)) own = state
       mark = mark_messages()
-      call build_once(deck, 0_ip, 0_ip, limit, model)
-      if (has_errors() .or. (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)))) return
+      call build_once(deck, 0_ip, 0_ip, 0_ip, limit, model)
+      if (has_errors()) return
+      if (own > 0) then                                ! only how the same state is integrated may change
+         if (any(FULL_STATE(model%mesh%state) /= FULL_STATE(own))) own = 0
+      end if
+      if (depth == 0 .and. (kind == 0 .or. all(model%mesh%shape == kind)) &
+          .and. (own == 0 .or. all(model%mesh%state == own))) return
       call forget_messages(mark)
-      call build_once(deck, depth, kind, limit, model)
+      call build_once(deck, depth, kind, own, limit, model)
    end subroutine build_model
 
-   subroutine build_once(deck, levels, shape, memory, model)
+   subroutine build_once(deck, levels, shape, state, memory, model)
       type(deck_t), intent(in), target :: deck
-      integer(ip), intent(in) :: levels, shape
+      integer(ip), intent(in) :: levels, shape, state
       integer(lp), intent(in) :: memory
       type(model_t), intent(out), target :: model
       type(build_context_t) :: context
@@ -99,6 +108,7 @@ contains
       call trim_mesh(model%mesh)
       context%around = list_node_elements(model%mesh)
       if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
+      if (state > 0) model%mesh%state = state
       call build_surfaces(context)
       call build_materials(context)
       call build_contact(context)

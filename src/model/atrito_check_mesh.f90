@@ -9,7 +9,7 @@ module atrito_check_mesh
    use atrito_mesh, only: mesh_t, side_count, face_end, has_side, middle_node
    use atrito_model, only: model_t, FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_plane_state, only: STATES
+   use atrito_plane_state, only: STATES, IS_REDUCED
    use atrito_refinement, only: is_refined
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -77,6 +77,7 @@ contains
          associate (section => model%sections(model%section_of(e)))
             if (STATES(model%mesh%state(e))%is_thin) cycle
             state(section%material) = model%mesh%state(e)
+            if (IS_REDUCED(model%mesh%state(e))) cycle
             if (SHAPES(model%mesh%shape(e))%degree > 1) then
                oscillates(section%material) = .true.
             else if (model%mesh%shape(e) == 3) then

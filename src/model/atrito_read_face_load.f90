@@ -69,7 +69,7 @@ contains
       if (has_no_rest) return
       call report_error(context%deck, line_item(context%deck, line, most + 1), 'E-ITEMS', to_text(line%n_tokens) &
                         //' items, where '//to_text(most)//' belong', expected=trim(merge('surface', 'element', &
-                        keyword == 'DSLOAD'))//', '//label//', '//magnitude_of(label)//rest, keyword=keyword)
+                                               keyword == 'DSLOAD'))//', '//label//', '//magnitude_of(label)//rest, keyword=keyword)
    end function has_no_rest
 
    pure function magnitude_of(label) result(what)

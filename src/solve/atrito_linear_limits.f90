@@ -41,9 +41,9 @@ contains
       if (deforms .or. rotates) then
          call measure_deformation(fem, results%u, deforms, LARGE_ROTATION, largest)
          if (largest%strain > LARGE_STRAIN) results%large_strain = extreme_t(largest%strain, &
-                                                                   fem%mesh%element_id(largest%strain_element), largest%strain_x)
+                                                                      fem%mesh%element_id(largest%strain_element), largest%strain_x)
          if (largest%rotation > LARGE_ROTATION) results%large_rotation = extreme_t(largest%rotation, &
-                                                               fem%mesh%element_id(largest%rotation_element), largest%rotation_x)
+                                                                  fem%mesh%element_id(largest%rotation_element), largest%rotation_x)
       end if
       call measure_masters(model, shortest, longest)
       do i = 1, size(results%contact, kind=ip)
@@ -147,14 +147,14 @@ contains
 
       if (results%large_strain%value > 0.0_wp) call add_warning('W-LARGE', 'the largest strain is '// &
                value_text(results%large_strain, 'element')//': above '//to_text(LARGE_STRAIN)//' lengths and areas change so much' &
-                    //' that the linear theory, which takes them as they are without loads, does not know the true equilibrium')
+                        //' that the linear theory, which takes them as they are without loads, does not know the true equilibrium')
       if (results%large_rotation%value > 0.0_wp) call add_warning('W-LARGE', 'the largest rotation is '// &
             value_text(results%large_rotation, 'element')//': above '//to_text(LARGE_ROTATION)//' rad the linear theory, in which' &
-                              //' forces and normals keep their directions and a rotation makes strains, does not know the motion')
+                               //' forces and normals keep their directions and a rotation makes strains, does not know the motion')
       if (results%large_slip%value > 0.0_wp) call add_warning('W-LARGE', 'the largest slip of a closed point is '// &
-               value_text(results%large_slip, 'node')//': beyond a face of the master, or '//to_text(LARGE_SLIP) &
-                       //' of the slave''s body, the linear theory, in which a point faces what it faced without loads, does not' &
-                                                            //' know what it has come to')
+                                 value_text(results%large_slip, 'node')//': beyond a face of the master, or '//to_text(LARGE_SLIP) &
+                        //' of the slave''s body, the linear theory, in which a point faces what it faced without loads, does not' &
+                                                              //' know what it has come to')
    end subroutine warn_of_large
 
    !> `0.12 at element 7 (1.5, 0)`

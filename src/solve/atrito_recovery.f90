@@ -8,12 +8,12 @@ module atrito_recovery
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
-   use atrito_element_table, only: SHAPES, POINTS_OF, MOST_NODES
+   use atrito_element_table, only: BEST_OF, POINTS_OF, MOST_NODES, point_count
    use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_plane_state, only: COMPONENTS, STRESS_NAMES, stress_33, von_mises
+   use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STRESS_NAMES, stress_33, von_mises
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_points, only: contact_points_t
    use atrito_range, only: unit_of
@@ -227,7 +227,7 @@ contains
       type(model_t), intent(in) :: model
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
-      type(point_rule_t) :: rules(MOST_NODES)
+      type(point_rule_t) :: rules(MOST_NODES, 2)     !< of full and of reduced integration
       logical, allocatable :: wanted(:)
       integer(ip) :: rows(chunk_count(fem%mesh%n_elements) + 1) !< filled before each chunk of elements
       integer(ip) :: chunk
@@ -238,7 +238,8 @@ contains
          if (requests%stress) wanted = requests%element_s
          if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
       end associate
-      call make_point_rules(POINTS_OF, rules)
+      call make_point_rules(POINTS_OF, rules(:, 1))
+      if (any(IS_REDUCED(fem%mesh%state))) call make_point_rules(BEST_OF, rules(:, 2))
       call count_rows(fem, wanted, rows)
       associate (n => rows(size(rows)))
          allocate (results%stress_element(n), results%stress_point(n), results%stress_x(2, n), &
@@ -262,7 +263,7 @@ contains
          call find_chunk(chunk, fem%mesh%n_elements, first, last)
          rows(chunk + 1) = rows(chunk)
          do e = first, last
-            if (wanted(e)) rows(chunk + 1) = rows(chunk + 1) + SHAPES(fem%mesh%shape(e))%n_points
+            if (wanted(e)) rows(chunk + 1) = rows(chunk + 1) + point_count(fem%mesh%shape(e), fem%mesh%state(e))
          end do
       end do
    end subroutine count_rows
@@ -272,7 +273,7 @@ contains
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: chunk
       logical, intent(in) :: wanted(:)
-      type(point_rule_t), intent(in) :: rules(MOST_NODES)
+      type(point_rule_t), intent(in) :: rules(MOST_NODES, 2)
       integer(ip), intent(in) :: filled              !< rows before those of this chunk
       type(results_t), intent(inout) :: results
       type(point_geometry_t) :: geometry
@@ -281,7 +282,8 @@ contains
       row = filled
       call find_chunk(chunk, fem%mesh%n_elements, first, last)
       do e = first, last
-         if (wanted(e)) call add_element(fem, e, rules(fem%mesh%shape(e)), geometry, row, results)
+         if (wanted(e)) call add_element(fem, e, rules(fem%mesh%shape(e), merge(2, 1, IS_REDUCED(fem%mesh%state(e)))), &
+                                         geometry, row, results)
       end do
    end subroutine add_stresses
 

@@ -7,7 +7,7 @@
 !> Ring: Lame's solution, phi = A z/2 and psi = B/z.
 module exact_fields
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elastic_t, PLANE_STRESS
+   use atrito_plane_state, only: elastic_t, FULL_STATE, PLANE_STRESS
    implicit none (type, external)
    private
    public :: field_t, make_field, exact_solution
@@ -63,7 +63,7 @@ contains
          error stop 'exact_fields: no such field'
       end select
       kappa = 3 - 4*section%poisson
-      if (state == PLANE_STRESS) kappa = (3 - section%poisson)/(1 + section%poisson)
+      if (FULL_STATE(state) == PLANE_STRESS) kappa = (3 - section%poisson)/(1 + section%poisson)
       shear = section%young/(2*(1 + section%poisson))
       displacement = (kappa*phi(0) - z*conjg(phi(1)) - conjg(psi(0)))/(2*shear)
       u = [real(displacement, wp), aimag(displacement)]

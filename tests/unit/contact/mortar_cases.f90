@@ -53,6 +53,7 @@ contains
       logical, intent(in) :: nodal
       type(mortar_case_t), intent(out) :: scene
       real(wp), allocatable :: depth(:)
+      integer(ip) :: i
 
       call begin_scene(scene%mesh)
       call add_strip(scene%mesh, upper, gap, .false., order, 0.0_wp, scene%slave)
@@ -63,7 +64,8 @@ contains
       if (nodal) then
          call pair_with_master(scene%mesh, depth, scene%slave, scene%faces, scene%master, scene%points)
       else
-         call pair_by_mortar(scene%mesh, depth, scene%slave, scene%faces, scene%master, scene%points)
+         call pair_by_mortar(scene%mesh, depth, scene%slave, scene%faces, scene%master, [(1.0_wp, i=1, scene%slave%n)], &
+                             [(1.0_wp, i=1, scene%faces%n)], scene%points)
       end if
    end subroutine revolved_strips
 

@@ -58,9 +58,9 @@ skewed() {
    }' </dev/null
 }
 
-for type in CPE4 CPE9 CPE8 CPE3 CPE6; do
+for type in CPE4 CPE9 CPE8 CPE3 CPE6 CPE4R CPE8R; do
    l2=3; energy=2
-   case $type in *[34]) l2=2; energy=1 ;; esac
+   case $type in *[34] | *4R) l2=2; energy=1 ;; esac
    for map in square trapezoids arched; do
       for n in 4 8 16 32; do
          { printf '*HEADING\nWaves\n'; awk -v type=$type -v n=$n -v m=$n -v map=$map -f "$mesh"; waves; } >deck.inp
@@ -68,7 +68,7 @@ for type in CPE4 CPE9 CPE8 CPE3 CPE6; do
       done
       case ${type}_$map in
       # eight nodes lose up to an order on meshes that stay distorted (D. N. Arnold, D. Boffi, R. S. Falk, Math. Comp. 71, 2002)
-      CPE8_trapezoids) orders waves.txt CPE8_trapezoids 2.5 1.5 0.5 ;;
+      CPE8*_trapezoids) orders waves.txt ${type}_trapezoids 2.5 1.5 0.5 ;;
       *) orders waves.txt ${type}_$map $l2 $energy ;;
       esac
    done
@@ -76,7 +76,7 @@ for type in CPE4 CPE9 CPE8 CPE3 CPE6; do
    { printf '*HEADING\nWaves\n'; awk -v type=$type -v n=2 -v m=2 -v map=arched -f "$mesh"; waves; } >arched.inp
    for level in 1 2 3 4; do row waves.txt ${type}_skewed,_refined $level skewed.inp waves 2 1 0.5; done
    orders waves.txt ${type}_skewed,_refined $l2 $energy
-   case $type in *[34]) continue ;; esac
+   case $type in *[34] | *4R) continue ;; esac
    for level in 1 2 3 4; do row waves.txt ${type}_arched,_refined $level arched.inp waves 2 1 0.5; done
    orders waves.txt ${type}_arched,_refined $l2 $energy
 done
@@ -102,8 +102,8 @@ U
 S
 *END STEP"
 }
-for type in CPE4 CPS4 CPE9 CPS9 CPE8 CPS8 CPE3 CPS3 CPE6 CPS6; do
-   case $type in *[34]) l2=2 energy=1 ;; *) l2=3 energy=2 ;; esac
+for type in CPE4 CPS4 CPE9 CPS9 CPE8 CPS8 CPE3 CPS3 CPE6 CPS6 CPE4R CPS4R CPE8R CPS8R; do
+   case $type in *[34] | *4R) l2=2 energy=1 ;; *) l2=3 energy=2 ;; esac
    for n in 4 8 16 32; do
       ring $type $n >deck.inp
       row ring.txt ${type}_ring 0 deck.inp ring 1 2 1 0

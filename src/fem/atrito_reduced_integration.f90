@@ -1,0 +1,135 @@
+!> Elements whose stiffness is integrated at fewer points: eight nodes at 2 x 2, four nodes in the middle alone.
+!>
+!> In the middle four nodes feel nothing of u ~ xi eta, the hourglass. Its strains are those that bending has (T. Belytschko and
+!> L. P. Bindeman, Comput. Methods Appl. Mech. Eng. 88, 1991, quintessential bending and incompressibility): along the
+!> axes 1', 2' of the element, with h = xi eta and q the amplitude of the hourglass,
+!>
+!>     e11 = h,1 q1 - m h,2 q2,   e22 = h,2 q2 - m h,1 q1,   2 e12 = 0,   m = mu (thin), mu/(1 - mu) (else)
+!>
+!> so that s11 = E' h,1 q1 and s22 = E' h,2 q2, E' the modulus of a strip: nothing shears in bending, and nothing changes its volume
+!> at mu = 1/2. No parameter is left to choose.
+module atrito_reduced_integration
+   use atrito_element_table, only: BEST_OF, MOST_NODES
+   use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: elastic_t, compliance_matrix, COMPONENTS
+   use atrito_shape_functions, only: rule_point, shape_gradients, Q1_XI_SLOPES, Q1_ETA_SLOPES
+   implicit none (type, external)
+   private
+   public :: hourglass_stiffness, spread_gradients
+
+   !> xi eta at four nodes, and its derivatives at 2 x 2 points in the order of Q1_XI_SLOPES.
+   real(wp), parameter :: HOURGLASS(4) = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
+
+contains
+
+   !> K_ab = shape(a) shape(b) amount for the 2 x 2 blocks of nodes a, b.
+   pure subroutine hourglass_stiffness(x, section, state, shape, amount)
+      real(wp), intent(in) :: x(2, 4)              !< less those of the first node [L]
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state             !< place in STATES
+      real(wp), intent(out) :: shape(4)            !< the hourglass less what of it is a linear field: q = sum of shape u
+      real(wp), intent(out) :: amount(2, 2)        !< [F/L]
+      real(wp) :: axes(2, 2), h(2, 2), c(COMPONENTS, COMPONENTS), ratio
+
+      call amplitude(x, shape)
+      axes = element_axes(x)
+      h = matmul(transpose(axes), matmul(products_of_slopes(x), axes))
+      c = compliance_matrix(section, state)
+      ratio = -c(1, 2)/c(1, 1)
+      amount = h
+      amount(1, 2) = -ratio*h(1, 2)
+      amount(2, 1) = amount(1, 2)
+      amount = (section%thickness/c(1, 1))*matmul(axes, matmul(amount, transpose(axes)))
+   end subroutine hourglass_stiffness
+
+   !> (h - (h.x1) b1 - (h.x2) b2)/4, b the gradients in the middle.
+   pure subroutine amplitude(x, shape)
+      real(wp), intent(in) :: x(2, 4)
+      real(wp), intent(out) :: shape(4)
+      real(wp) :: d(2), e(2), b(2, 4), of_x(2)
+
+      d = x(:, 3) - x(:, 1)
+      e = x(:, 4) - x(:, 2)
+      b(:, 1) = [-e(2), e(1)]/(d(1)*e(2) - d(2)*e(1))
+      b(:, 2) = [d(2), -d(1)]/(d(1)*e(2) - d(2)*e(1))
+      b(:, 3) = -b(:, 1)
+      b(:, 4) = -b(:, 2)
+      of_x = matmul(x, HOURGLASS)
+      shape = 0.25_wp*(HOURGLASS - of_x(1)*b(1, :) - of_x(2)*b(2, :))
+   end subroutine amplitude
+
+   !> Orthogonal axes that turn with the element and do not depend on which node is the first: as far from the direction of xi on
+   !> one side as from that of eta on the other.
+   pure function element_axes(x) result(axes)
+      real(wp), intent(in) :: x(2, 4)
+      real(wp) :: axes(2, 2)                       !< (component, axis)
+      real(wp) :: along_xi(2), along_eta(2)
+
+      along_xi = x(:, 2) + x(:, 3) - x(:, 1) - x(:, 4)
+      along_eta = x(:, 3) + x(:, 4) - x(:, 1) - x(:, 2)
+      along_xi = along_xi/norm2(along_xi)
+      along_eta = along_eta/norm2(along_eta)
+      axes(:, 1) = along_xi + [along_eta(2), -along_eta(1)]
+      axes(:, 1) = axes(:, 1)/norm2(axes(:, 1))
+      axes(:, 2) = [-axes(2, 1), axes(1, 1)]
+   end function element_axes
+
+   !> The integrals of h,i h,j by 2 x 2 points.
+   pure function products_of_slopes(x) result(h)
+      real(wp), intent(in) :: x(2, 4)
+      real(wp) :: h(2, 2)
+      real(wp) :: along_xi(2), along_eta(2), slopes(2), g(2), jacobian
+      integer(ip) :: i
+
+      h = 0.0_wp
+      do i = 1, 4
+         along_xi = matmul(x, Q1_XI_SLOPES(:, i))
+         along_eta = matmul(x, Q1_ETA_SLOPES(:, i))
+         jacobian = along_xi(1)*along_eta(2) - along_eta(1)*along_xi(2)
+         slopes = [dot_product(HOURGLASS, Q1_XI_SLOPES(:, i)), dot_product(HOURGLASS, Q1_ETA_SLOPES(:, i))]
+         g = [along_eta(2)*slopes(1) - along_xi(2)*slopes(2), along_xi(1)*slopes(2) - along_eta(1)*slopes(1)]
+         h(:, 1) = h(:, 1) + g*(g(1)/jacobian)
+         h(:, 2) = h(:, 2) + g*(g(2)/jacobian)
+      end do
+   end function products_of_slopes
+
+   !> Gradients of the shape functions at n points from those at the points of the stiffness: the strains of an element with reduced
+   !> integration are what they are there, constant (one point) or linear along xi and eta (four).
+   pure subroutine spread_gradients(n, n_nodes, x, gradient)
+      integer(ip), intent(in) :: n                 !< points: 1, 4 or 9
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(in) :: x(2, MOST_NODES)     !< less those of the first node [L]
+      real(wp), intent(inout) :: gradient(:, :, :) !< (points, 2, nodes) [1/L]
+      real(wp) :: own(2, n_nodes, 4), slopes(n_nodes, 2), j(2, 2), xi(2), weight, share
+      integer(ip) :: i, k, m
+
+      m = BEST_OF(n_nodes)
+      do k = 1, m
+         call rule_point(m, k, xi, weight)
+         slopes = shape_gradients(n_nodes, xi)
+         j = matmul(x(:, :n_nodes), slopes)
+         own(1, :, k) = (j(2, 2)*slopes(:, 1) - j(2, 1)*slopes(:, 2))/(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1))
+         own(2, :, k) = (j(1, 1)*slopes(:, 2) - j(1, 2)*slopes(:, 1))/(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1))
+      end do
+      gradient(:n, :, :n_nodes) = 0.0_wp
+      do i = 1, n
+         do k = 1, m
+            share = share_of_point(m, k, n, i)
+            gradient(i, :, :n_nodes) = gradient(i, :, :n_nodes) + share*own(:, :, k)
+         end do
+      end do
+   end subroutine spread_gradients
+
+   !> The value at point i of n of the function that is 1 at point k of m and 0 at the others.
+   pure real(wp) function share_of_point(m, k, n, i) result(share)
+      integer(ip), intent(in) :: m, k, n, i
+      real(wp) :: here(2), own(2), weight
+
+      share = 1.0_wp
+      if (m == 1) return
+      call rule_point(m, k, own, weight)
+      call rule_point(n, i, here, weight)
+      share = 0.25_wp*(1 + 3*own(1)*here(1))*(1 + 3*own(2)*here(2))   ! own is 1/sqrt(3) on either side
+   end function share_of_point
+
+end module atrito_reduced_integration
