@@ -71,7 +71,6 @@ module atrito_element_table
                                        element_kind_t('CPE8R', 8, PLANE_STRAIN_REDUCED), &
                                        element_kind_t('CPS8R', 8, PLANE_STRESS_REDUCED)]
 
-
 contains
 
    !> Place in KINDS of a name in capitals; 0: there is none.

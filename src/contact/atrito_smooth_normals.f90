@@ -12,8 +12,6 @@ module atrito_smooth_normals
 
    !> A smaller turn of the normal [rad] is rounding of the coordinates: the surface is straight there.
    real(wp), parameter :: NO_TURN = 1.0e-6_wp
-   !> Slope at an end of a face that no other continues.
-   real(wp), parameter :: NO_SLOPE = huge(1.0_wp)
 
 contains
 
@@ -27,8 +25,8 @@ contains
       real(wp), allocatable, intent(out) :: bend(:)       !< (faces) [1/L] > 0: convex
       type(id_map_t) :: begins                      ! face of its first node
       real(wp) :: turn(faces%n), joints(faces%n), slope(2, faces%n), own(2, 2)
-      integer(ip) :: n_joints(faces%n), last(faces%n), i, k
-      logical :: known
+      integer(ip) :: n_joints(faces%n), beside(2, faces%n), last(faces%n), i, k
+      logical :: is_chord(faces%n), known
 
       allocate (ends(2, 2, faces%n), curvature(faces%n), bend(faces%n))
       do i = 1, faces%n
@@ -36,6 +34,7 @@ contains
             ends(:, 1, i) = outward_normal(mesh%x(:, nodes), -1.0_wp)
             ends(:, 2, i) = outward_normal(mesh%x(:, nodes), 1.0_wp)
             curvature(i) = 1/norm2(mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)))
+            is_chord(i) = size(nodes) == 2
             last(i) = nodes(2)
             call add_id(begins, nodes(1), i, known)
          end associate
@@ -44,7 +43,8 @@ contains
       end do
       joints = 0.0_wp
       n_joints = 0
-      slope = NO_SLOPE
+      beside = 0
+      slope = 0.0_wp
       do i = 1, faces%n
          k = find_id(begins, last(i))
          if (k == 0) cycle
@@ -52,13 +52,13 @@ contains
          if (sine(own(:, 1), own(:, 2)) > CORNER) cycle
          joints([i, k]) = joints([i, k]) + asin(sine(own(:, 1), own(:, 2)))
          n_joints([i, k]) = n_joints([i, k]) + 1
+         beside(2, i) = k
+         beside(1, k) = i
          call share_turn(own, 1/curvature(i), 1/curvature(k), slope(2, i), slope(1, k))
          ends(:, 2, i) = (own(:, 1) + own(:, 2))/norm2(own(:, 1) + own(:, 2))
          ends(:, 1, k) = ends(:, 2, i)
       end do
-      do i = 1, faces%n
-         if (size(face_nodes(mesh, faces%element(i), faces%face(i))) == 2) bend(i) = 2*flatter(slope(:, i))*curvature(i)
-      end do
+      call bend_chords(is_chord, beside, slope, curvature, bend)
       turn = turn + joints/max(n_joints, 1_ip)
       curvature = merge(turn*curvature, 0.0_wp, turn > NO_TURN)
    end subroutine smooth_surface
@@ -84,17 +84,32 @@ contains
       if (abs(turn) <= NO_TURN) turn = 0.0_wp
    end function turn_between
 
-   !> Of the slopes at the ends of a face the smaller one, so that a straight face beside a curved one stays straight.
-   pure real(wp) function flatter(slope)
-      real(wp), intent(in) :: slope(2)
-      real(wp) :: both(2)
+   !> The curvature of chords by the slopes at their ends. At the end of a chain the chord has that of its neighbour besides: two
+   !> chords alone are no curve.
+   pure subroutine bend_chords(is_chord, beside, slope, per_length, bend)
+      logical, intent(in) :: is_chord(:)            !< (faces)
+      integer(ip), intent(in) :: beside(:, :)       !< (2, faces) the face before and behind; 0: none
+      real(wp), intent(in) :: slope(:, :)           !< (2, faces)
+      real(wp), intent(in) :: per_length(:)         !< (faces) [1/L]
+      real(wp), intent(inout) :: bend(:)            !< (faces) [1/L] those of chords are set
+      logical :: inside(size(bend))
+      integer(ip) :: i, k
 
-      both = slope
-      if (abs(both(1)) >= NO_SLOPE) both(1) = both(2)
-      if (abs(both(2)) >= NO_SLOPE) both(2) = both(1)
-      flatter = 0.0_wp
-      if (abs(both(1)) >= NO_SLOPE .or. both(1)*both(2) <= 0.0_wp) return
-      flatter = both(minloc(abs(both), dim=1))
+      inside = .not. is_chord .or. all(beside > 0, dim=1)
+      where (is_chord) bend = merge(2*flatter(slope(1, :), slope(2, :))*per_length, 0.0_wp, inside)
+      do i = 1, size(bend, kind=ip)
+         k = maxval(beside(:, i))
+         if (inside(i) .or. k == 0) cycle
+         if (inside(k)) bend(i) = flatter(2*sum(slope(:, i))*per_length(i), bend(k))
+      end do
+   end subroutine bend_chords
+
+   !> The smaller of two slopes, so that a straight face beside a curved one stays straight.
+   elemental real(wp) function flatter(a, b)
+      real(wp), intent(in) :: a, b
+
+      flatter = sign(min(abs(a), abs(b)), a)
+      if (.not. a*b > 0.0_wp) flatter = 0.0_wp
    end function flatter
 
    !> The direction in which two surfaces touch, out of the slave: of their normals the mean with the radii as weights, so that for

@@ -105,7 +105,7 @@ contains
 
       m = BEST_OF(n_nodes)
       do k = 1, m
-         call rule_point(m, k, xi, weight)
+         call rule_point(4_ip, m, k, xi, weight)
          slopes = shape_gradients(n_nodes, xi)
          j = matmul(x(:, :n_nodes), slopes)
          own(1, :, k) = (j(2, 2)*slopes(:, 1) - j(2, 1)*slopes(:, 2))/(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1))
@@ -127,8 +127,8 @@ contains
 
       share = 1.0_wp
       if (m == 1) return
-      call rule_point(m, k, own, weight)
-      call rule_point(n, i, here, weight)
+      call rule_point(4_ip, m, k, own, weight)
+      call rule_point(4_ip, n, i, here, weight)
       share = 0.25_wp*(1 + 3*own(1)*here(1))*(1 + 3*own(2)*here(2))   ! own is 1/sqrt(3) on either side
    end function share_of_point
 

@@ -199,7 +199,7 @@ contains
 
       ok = .not. any(in_no_element(context, nodes))
       if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'node '//ids_text(pack(context%model%mesh%node_id(nodes), &
-                                      in_no_element(context, nodes)))//' belongs to no element', expected='nodes of elements', &
+                                          in_no_element(context, nodes)))//' belongs to no element', expected='nodes of elements', &
                                       keyword=KEYWORD)
    end subroutine check_nodes
 
