@@ -298,7 +298,7 @@ contains
       if (n == 0) return
       moved = .true.
       call report_note(context%deck, context%ties(i), 'N-ADJUST', to_text(n)//trim(merge(' node of the slave is  ', &
-                       ' nodes of the slave are', n == 1))//' moved onto the master, by '//to_text(farthest, 4)// &
+                                        ' nodes of the slave are', n == 1))//' moved onto the master, by '//to_text(farthest, 4)// &
                        ' [L] at the most; ADJUST=NO leaves them where they are', keyword=KEYWORD)
    end subroutine adjust_nodes
 

@@ -66,7 +66,7 @@ contains
       nodes = mesh%node_id(rows%node(rows%first(pack([(j, j=1, line%n)], is_shared))))
       if (size(nodes) == 0) return
       call add_note('N-SHARED', shared_text(merge('points and joints', 'contact points   ', line%n_bilateral > 0), &
-                                                size(nodes, kind=ip), each_once(nodes)) &
+                                            size(nodes, kind=ip), each_once(nodes)) &
                     //'; displacements and sums of the forces are, and of the forces the least are given')
    end subroutine note_shared_points
 
