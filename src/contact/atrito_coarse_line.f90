@@ -60,7 +60,8 @@ contains
          do j = first, last
             in_pair = mod(j - first, STRIDE)
             interpolation%share(j) = 0.0_wp
-            if (in_pair == 0 .or. j == last) then
+            ! forces of bilateral rows are no field
+            if (in_pair == 0 .or. j == last .or. j > line%n - line%n_bilateral) then
                n = n + 1
                chosen(n) = j
             else
@@ -82,6 +83,7 @@ contains
       integer(ip) :: j, c
 
       coarse%n = size(interpolation%point, kind=ip)
+      coarse%n_bilateral = line%n_bilateral
       associate (point => interpolation%point)
          coarse%delta = line%delta(point)
          coarse%law = line%law(point)

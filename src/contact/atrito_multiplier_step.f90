@@ -117,6 +117,7 @@ contains
       real(wp) :: rho, z, e(system%rows%n)
 
       call multiply_rows(system%rows, multipliers%x, e, multipliers%noise)
+      if (any(multipliers%pair > multipliers%n_contact_pairs)) call raise_noise(system, multipliers)
       if (present(de)) then
          multipliers%e = multipliers%e + de
       else
@@ -140,6 +141,27 @@ contains
       end do
       state%a = multipliers%x(system%n - system%k + 1:)
    end subroutine set_forces
+
+   !> A bilateral row may hold displacements that are none: their round-off is that of the other displacements of the body.
+   subroutine raise_noise(system, multipliers)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(inout) :: multipliers
+      real(wp) :: of_body(system%n_bodies)
+      integer(ip) :: i, k
+
+      of_body = 0.0_wp
+      do i = 1, system%n - system%k
+         of_body(system%body(i)) = max(of_body(system%body(i)), abs(multipliers%x(i)))
+      end do
+      do i = 1, system%rows%n
+         if (multipliers%pair(i) <= multipliers%n_contact_pairs) cycle
+         do k = system%rows%first(i), system%rows%first(i + 1) - 1
+            if (system%rows%column(k) > system%n - system%k) cycle
+            multipliers%noise(i) = multipliers%noise(i) &
+                                   + abs(system%rows%value(k))*of_body(system%body(system%rows%column(k)))
+         end do
+      end do
+   end subroutine raise_noise
 
    !> f - A x - kappa (a - a_o) - B' q.
    subroutine residual_of(system, multipliers, q, residual)

@@ -48,7 +48,10 @@ contains
       character(len=:), allocatable :: word
 
       word = packed(name)
+      i = 0
+      if (len(word) == 0) return
       do i = size(table), 1, -1
+         if (table(i)%name(1:1) /= word(1:1)) cycle          ! packing takes longer than this
          if (packed(table(i)%name) == word) return
       end do
    end function find_keyword

@@ -109,21 +109,11 @@ contains
       type(term_t), allocatable, intent(out) :: terms(:)
       logical, intent(out) :: ok
       type(token_t) :: place
-      integer(ip) :: n, filled, items
+      integer(ip) :: n, filled, more
 
-      allocate (terms(0))
       place = line_item(context%deck, context%deck%lines(k), 1_ip)
-      ok = item_count(context, context%deck%lines(k)) == 1
-      if (.not. ok) call report_error(context%deck, place, 'E-ITEMS', 'an equation begins with the number of its terms, alone', &
-                                      expected='number of terms, an integer > 0', keyword=KEYWORD)
-      if (ok) call get_integer(context%deck, place, 'number of terms, an integer > 0', n, ok, keyword=KEYWORD)
-      if (ok .and. n < 1) then
-         ok = .false.
-         call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected='number of terms, an integer > 0', &
-                           keyword=KEYWORD)
-      end if
+      call read_count(context, context%deck%lines(k), n, ok)
       if (.not. ok) return
-      deallocate (terms)
       allocate (terms(n))
       filled = 0
       do while (filled < n)
@@ -134,20 +124,52 @@ contains
             ok = .false.
             return
          end if
-         items = item_count(context, context%deck%lines(k))
-         if (mod(items, ITEMS_A_TERM) /= 0 .or. items == 0 .or. filled + items/ITEMS_A_TERM > n) then
-            call report_error(context%deck, line_item(context%deck, context%deck%lines(k), 1_ip), 'E-ITEMS', to_text(items)// &
-                              ' items, where '//to_text(n - filled)//' of '//to_text(n)//' terms are missing', expected=TERM, &
-                              keyword=KEYWORD)
-            ok = .false.
-            return
-         end if
-         call read_term_line(context, context%deck%lines(k), terms(filled + 1:filled + items/ITEMS_A_TERM), ok)
-         filled = filled + items/ITEMS_A_TERM
+         call count_terms(context, context%deck%lines(k), n - filled, more, ok)
+         if (ok) call read_term_line(context, context%deck%lines(k), terms(filled + 1:filled + more), ok)
          if (.not. ok) return
+         filled = filled + more
       end do
       k = k + 1
    end subroutine read_terms
+
+   !> The line with the number of terms.
+   subroutine read_count(context, line, n, ok)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(out) :: n
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'number of terms, an integer > 0'
+      type(token_t) :: place
+
+      n = 0
+      place = line_item(context%deck, line, 1_ip)
+      ok = item_count(context, line) == 1
+      if (.not. ok) then
+         call report_error(context%deck, place, 'E-ITEMS', 'an equation begins with the number of its terms, alone', &
+                           expected=WHAT, keyword=KEYWORD)
+         return
+      end if
+      call get_integer(context%deck, place, WHAT, n, ok, keyword=KEYWORD)
+      if (.not. ok .or. n > 0) return
+      ok = .false.
+      call report_error(context%deck, place, 'E-VALUE', to_text(n)//' terms', expected=WHAT, keyword=KEYWORD)
+   end subroutine read_count
+
+   !> How many terms a line has, of which so many are missing.
+   subroutine count_terms(context, line, missing, n, ok)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: missing
+      integer(ip), intent(out) :: n
+      logical, intent(out) :: ok
+
+      n = item_count(context, line)/ITEMS_A_TERM
+      ok = n > 0 .and. n <= missing .and. mod(item_count(context, line), ITEMS_A_TERM) == 0
+      if (ok) return
+      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-ITEMS', to_text(item_count(context, line))// &
+                        ' items, where '//to_text(missing)//trim(merge(' term is  ', ' terms are', missing == 1))//' missing', &
+                        expected=TERM, keyword=KEYWORD)
+   end subroutine count_terms
 
    !> Items of a line without empty ones at its end.
    pure integer(ip) function item_count(context, line) result(n)

@@ -94,7 +94,7 @@ contains
 
       if (quadrature /= QUADRATURE_MORTAR) then
          call pair_with_master(model%mesh, thickness, slave, master_faces, master, points)
-         if (quadrature == QUADRATURE_NODAL .or. points%matching .or. points%rigid) return
+         if (quadrature == QUADRATURE_NODAL .or. points%rigid .or. (points%matching .and. points%n > 0)) return
       end if
       call pair_by_mortar(model%mesh, thickness, slave, master_faces, master, face_compliance(model, slave), &
                           face_compliance(model, master_faces), points)

@@ -9,9 +9,8 @@ module atrito_set_partners
 
 contains
 
-   !> Puts the nodes of `other` into the order of those of `set`: the nodes of the deck correspond as they stand, new ones
-   !> between two
-   !> of them to those between their partners. ok: .false. where there are none.
+   !> Puts the nodes of `other` into the order of those of `set`: the nodes of the deck correspond as they stand, new ones between
+   !> two of them to those between their partners. ok: .false. where there are none.
    pure subroutine order_like(refinement, set, other, ok)
       type(refinement_t), intent(in) :: refinement
       integer(ip), intent(in) :: set(:)

@@ -43,6 +43,7 @@ module atrito_multiplier_loop
    real(wp), parameter :: MOST_MIXING = 5.0_wp        !< times Picard's bound
    integer(ip), parameter :: MANY_STEPS = 100_ip      !< after which states that still change ask for smaller steps:
    real(wp), parameter :: SLOW_R = 1.0_wp             !< rho over the flexibility of a row then
+   real(wp), parameter :: FAST_R = 1.0e-3_wp          !< without contact points
    integer(ip), parameter :: SLOW_STANDS = 3_ip       !< steps without a change of states before the mixing begins then
    real(wp), parameter :: LESS = 0.7_wp, MORE = 1.2_wp !< of the share of a point whose bound oscillates, and of one whose does not
    real(wp), parameter :: LEAST_SHARE = 0.05_wp
@@ -280,7 +281,10 @@ contains
       if (allocated(line%pair)) multipliers%n_pairs = maxval([line%pair, 0_ip])
       if (line%n_bilateral > 0) multipliers%n_contact_pairs = line%pair(line%n - line%n_bilateral + 1) - 1
       ! where nothing can be open no body waits for what will hold it
-      if (line%n_bilateral == line%n) multipliers%kappa = LEAST_PULL
+      if (line%n_bilateral == line%n) then
+         multipliers%kappa = LEAST_PULL
+         multipliers%r = FAST_R
+      end if
       allocate (solution%tau(line%n), source=0.0_wp)
       where (line%tangential > 0) solution%tau = HUGE_REAL
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)

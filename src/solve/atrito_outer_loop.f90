@@ -87,7 +87,7 @@ contains
    pure logical function has_coarse_start(line)
       type(contact_line_t), intent(in) :: line
 
-      has_coarse_start = line%n > MOST_PLAIN .and. line%n_bilateral == 0   ! whose forces are no field
+      has_coarse_start = line%n > MOST_PLAIN
       if (has_coarse_start) has_coarse_start = has_coarse_line(line)
    end function has_coarse_start
 

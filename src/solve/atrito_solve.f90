@@ -1,6 +1,5 @@
 !> One static step, from the model to the results.
 module atrito_solve
-   use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT, ROW_SPRING, ROW_EQUATION
    use atrito_blas_info, only: is_reference_blas
    use atrito_body_cache, only: body_cache_t
    use atrito_body_sums, only: sum_bodies
@@ -21,10 +20,11 @@ module atrito_solve
    use atrito_messages, only: add_note, add_warning
    use atrito_model, only: controls_t, model_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
    use atrito_outer_loop, only: FREE_MOTION
-   use atrito_recovery, only: contact_forces, add_bilateral_forces, add_rigid_motions, recover_contact, recover_stress, &
+   use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, &
                               estimate_error
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: balance_t, results_t, scene_t, pair_scene_t
+   use atrito_results, only: results_t, scene_t, pair_scene_t
+   use atrito_row_forces, only: share_out_rows, clear_balance
    use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
@@ -325,53 +325,6 @@ contains
       call judge_balance(data%fem, data%held, data%rows, data%line, data%f, results%scene%pairs, results%verdict, status)
    end subroutine judge_failed_check
 
-   !> The forces of the bilateral rows: those of supports become reactions, those of others stay with the contact.
-   subroutine share_out_rows(data, solution, reaction, contact, results, others)
-      type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
-      real(wp), intent(inout) :: reaction(:, :)            !< (2, n_nodes) [F]
-      real(wp), intent(inout) :: contact(:, :)             !< (2, n_nodes) with all rows; without supports on return [F]
-      type(results_t), intent(inout) :: results
-      real(wp), intent(out) :: others(2)                   !< resultant of springs and equations [F]
-      real(wp) :: q(data%rows%n), to_ground(2, data%fem%mesh%n_nodes)
-
-      associate (kind => data%model%bilateral%kind, n => data%rows%n - data%rows%n_bilateral)
-         q = data%line%weight*solution%p
-         results%row_force = q(n + 1:)
-         results%row_x = data%fem%mesh%x(:, data%rows%node(data%rows%first(n + 1:data%rows%n)))
-         to_ground = 0.0_wp
-         call add_bilateral_forces(data%rows, kind == ROW_SUPPORT, q, to_ground)
-         contact = contact - to_ground
-         reaction = reaction - to_ground
-         call mark_supports(data%model%bilateral, results%prescribed)
-         to_ground = 0.0_wp
-         call add_bilateral_forces(data%rows, kind == ROW_SPRING .or. kind == ROW_EQUATION, q, to_ground)
-         others = sum(to_ground, dim=2)
-      end associate
-   end subroutine share_out_rows
-
-   !> What bodies that are tied do to each other adds up to round-off.
-   pure subroutine clear_balance(balance)
-      type(balance_t), intent(inout) :: balance
-      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
-      real(wp) :: all_forces
-
-      all_forces = sum(abs(balance%applied) + abs(balance%reactions) + abs(balance%rigid) + abs(balance%rows))
-      where (abs(balance%rigid) <= ROUND_OFF*all_forces) balance%rigid = 0.0_wp
-      where (abs(balance%rows) <= ROUND_OFF*all_forces) balance%rows = 0.0_wp
-   end subroutine clear_balance
-
-   !> Nodes with a support along another direction have reactions along both axes.
-   pure subroutine mark_supports(bilateral, prescribed)
-      type(bilateral_rows_t), intent(in) :: bilateral
-      logical, intent(inout) :: prescribed(:, :)           !< (2, n_nodes)
-      integer(ip) :: j
-
-      do j = 1, bilateral%n
-         if (bilateral%kind(j) == ROW_SUPPORT) prescribed(:, bilateral%node(bilateral%first(j))) = .true.
-      end do
-   end subroutine mark_supports
-
    !> Displacements, reactions, stresses, contact fields, energies and balances.
    subroutine recover(data, solution, u, results)
       type(scene_data_t), intent(in) :: data
@@ -399,7 +352,7 @@ contains
       results%strain_energy = equilibrium%energy
       others = 0.0_wp
       results%prescribed = data%held
-      if (data%rows%n_bilateral > 0) call share_out_rows(data, solution, results%reaction, contact, results, others)
+      if (data%rows%n_bilateral > 0) call share_out_rows(data, solution, contact, results, others)
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
       results%balance%is_revolved = is_revolved(data%fem%mesh)
       results%balance%rows = others

@@ -137,7 +137,20 @@ run 0 lifted.inp lifted --digits 17 --quiet
 near 'lifted: u_n' "$(moved lifted 3 | awk '{ printf "%.17g", -0.5*$1 + sqrt(0.75)*$2 }')" 0.01 1e-15
 near 'lifted: reaction' "$(awk '!/^#/ { x += $3; y += $4 } END { printf "%.17g", y + x*sqrt(3) }' lifted/reactions.tab)" 0 1e-10
 
-# 11. periodic edges: equations over two sets, whose new nodes stand in other orders on a refined mesh
+# 11. corners of tied blocks that touch the same node of a wall: what they ask depends on each other
+for form in dense sparse; do
+   run 0 "$here/wall.inp" "wall-$form" --digits 17 --contact $form
+   says "wall, $form" "wall-$form.err" 'N-SHARED'
+done
+same_tables 'wall' wall-dense/nodes.tab wall-sparse/nodes.tab 1e-8
+same_tables 'wall' wall-dense/ties.tab wall-sparse/ties.tab 1e-7
+
+# 12. what a spring on a prescribed node takes is in the reaction
+run 0 "$here/known.inp" known --digits 17 --quiet
+near 'known: reaction' "$(awk '!/^#/ && $2 == 3 { print $4 }' known/reactions.tab)" -55 1e-12
+near 'known: spring' "$(column known/springs.tab force)" -5 1e-12
+
+# 13. periodic edges: equations over two sets, whose new nodes stand in other orders on a refined mesh
 for level in 0 1 2; do
    for type in CPS4 CPE9; do
       sed "s/CPS4/$type/" "$here/periodic.inp" >periodic.inp

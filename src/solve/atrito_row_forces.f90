@@ -1,0 +1,62 @@
+!> The forces of bilateral rows in the resultants: those of inclined supports are reactions, those of springs and equations may go
+!> to the ground.
+module atrito_row_forces
+   use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT, ROW_SPRING, ROW_EQUATION
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip, wp
+   use atrito_recovery, only: add_bilateral_forces
+   use atrito_results, only: balance_t, results_t
+   use atrito_scene_data, only: scene_data_t
+   implicit none (type, external)
+   private
+   public :: share_out_rows, clear_balance
+
+contains
+
+   !> The forces of the bilateral rows: those of supports become reactions, those of others stay with the contact.
+   subroutine share_out_rows(data, solution, contact, results, others)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(inout) :: contact(:, :)             !< (2, n_nodes) with all rows; without supports on return [F]
+      type(results_t), intent(inout) :: results
+      real(wp), intent(out) :: others(2)                   !< resultant of springs and equations [F]
+      real(wp) :: q(data%rows%n), to_ground(2, data%fem%mesh%n_nodes)
+
+      associate (kind => data%model%bilateral%kind, n => data%rows%n - data%rows%n_bilateral)
+         q = data%line%weight*solution%p
+         results%row_force = q(n + 1:)
+         results%row_x = data%fem%mesh%x(:, data%rows%node(data%rows%first(n + 1:data%rows%n)))
+         to_ground = 0.0_wp
+         call add_bilateral_forces(data%rows, kind == ROW_SUPPORT, q, to_ground)
+         contact = contact - to_ground
+         results%reaction = results%reaction - to_ground
+         call mark_supports(data%model%bilateral, results%prescribed)
+         to_ground = 0.0_wp
+         call add_bilateral_forces(data%rows, kind == ROW_SPRING .or. kind == ROW_EQUATION, q, to_ground)
+         others = sum(to_ground, dim=2)
+      end associate
+   end subroutine share_out_rows
+
+   !> Nodes with a support along another direction have reactions along both axes.
+   pure subroutine mark_supports(bilateral, prescribed)
+      type(bilateral_rows_t), intent(in) :: bilateral
+      logical, intent(inout) :: prescribed(:, :)           !< (2, n_nodes)
+      integer(ip) :: j
+
+      do j = 1, bilateral%n
+         if (bilateral%kind(j) == ROW_SUPPORT) prescribed(:, bilateral%node(bilateral%first(j))) = .true.
+      end do
+   end subroutine mark_supports
+
+   !> What bodies that are tied do to each other adds up to round-off.
+   pure subroutine clear_balance(balance)
+      type(balance_t), intent(inout) :: balance
+      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
+      real(wp) :: all_forces
+
+      all_forces = sum(abs(balance%applied) + abs(balance%reactions) + abs(balance%rigid) + abs(balance%rows))
+      where (abs(balance%rigid) <= ROUND_OFF*all_forces) balance%rigid = 0.0_wp
+      where (abs(balance%rows) <= ROUND_OFF*all_forces) balance%rows = 0.0_wp
+   end subroutine clear_balance
+
+end module atrito_row_forces
