@@ -135,6 +135,7 @@ near 'ring: displacement of the inner edge, as of a thick tube' "$(moved ring 1 
 sed 's/^\*DSLOAD/*BOUNDARY\nA-BOTTOM, 2, 2, 0.01\n*DSLOAD/; s/^A-BOTTOM, 2$//' patch-3-2-CPS4-0-dense.inp | grep -v '^$' >lifted.inp
 run 0 lifted.inp lifted --digits 17 --quiet
 near 'lifted: u_n' "$(moved lifted 3 | awk '{ printf "%.17g", -0.5*$1 + sqrt(0.75)*$2 }')" 0.01 1e-15
+near 'lifted: sum of the reactions' "$(awk '!/^#/ { x += $3; y += $4 } END { printf "%.17g", sqrt(x*x + y*y) }' lifted/reactions.tab)" 30 1e-10
 near 'lifted: reaction' "$(awk '!/^#/ { x += $3; y += $4 } END { printf "%.17g", y + x*sqrt(3) }' lifted/reactions.tab)" 0 1e-10
 
 # 11. corners of tied blocks that touch the same node of a wall: what they ask depends on each other
