@@ -41,6 +41,23 @@ contains
       word = capitals(:n)
    end function packed
 
+   !> Whether a name of the tables is a word that is packed; quick, without a copy of the name: most differ in the first letters.
+   pure logical function is_packed_as(name, word)
+      character(len=*), intent(in) :: name, word
+      integer :: i, n
+
+      is_packed_as = .false.
+      n = 0
+      do i = 1, len(name)
+         if (name(i:i) == ' ' .or. name(i:i) == achar(9)) cycle
+         n = n + 1
+         if (n > len(word)) return
+         if (name(i:i) == word(n:n)) cycle
+         if (upper_case(name(i:i)) /= word(n:n)) return
+      end do
+      is_packed_as = n == len(word)
+   end function is_packed_as
+
    !> Index of a keyword, 0 when it is unknown.
    pure integer function find_keyword(table, name) result(i)
       type(keyword_t), intent(in) :: table(:)
@@ -49,7 +66,7 @@ contains
 
       word = packed(name)
       do i = size(table), 1, -1
-         if (packed(table(i)%name) == word) return
+         if (is_packed_as(table(i)%name, word)) return
       end do
    end function find_keyword
 
@@ -61,7 +78,7 @@ contains
 
       word = packed(name)
       do i = size(keyword%options), 1, -1
-         if (packed(keyword%options(i)%name) == word) return
+         if (is_packed_as(keyword%options(i)%name, word)) return
       end do
    end function find_option_spec
 
@@ -69,9 +86,11 @@ contains
    pure integer function find_choice(choices, word) result(i)
       type(choice_t), intent(in) :: choices(:)
       character(len=*), intent(in) :: word
+      character(len=:), allocatable :: wanted
 
+      wanted = packed(word)
       do i = size(choices), 1, -1
-         if (packed(choices(i)%name) == packed(word)) return
+         if (is_packed_as(choices(i)%name, wanted)) return
       end do
    end function find_choice
 
