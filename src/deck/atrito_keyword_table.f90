@@ -1,6 +1,6 @@
 !> The one table of all keywords that the program knows.
 module atrito_keyword_table
-   use atrito_keyword, only: keyword_t, keyword_list_t, choice_t, option_spec_t, finish_keyword
+   use atrito_keyword, only: keyword_t, keyword_list_t, choice_t, option_spec_t, take_keywords
    use atrito_mesh_keywords, only: define_mesh_keywords
    use atrito_scene_keywords, only: define_scene_keywords
    use atrito_step_keywords, only: define_step_keywords, define_harmless_keywords
@@ -20,8 +20,7 @@ contains
       call define_scene_keywords(keywords)
       call define_step_keywords(keywords)
       call define_harmless_keywords(keywords)
-      call finish_keyword(keywords)
-      table = keywords%list(:keywords%n)
+      call take_keywords(keywords, table)
    end function keyword_table
 
    !> A keyword without its blanks and in capitals: they do not matter (`*ENDSTEP`).
