@@ -9,7 +9,7 @@ module atrito_keyword
    implicit none (type, external)
    private
    public :: keyword_t, keyword_list_t, option_spec_t, choice_t, form_t, item_t
-   public :: define_keyword, finish_keyword, add_option, add_form, add_item, add_word_item, add_example
+   public :: define_keyword, take_keywords, add_option, add_form, add_item, add_word_item, add_example
    public :: LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER
    public :: KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, &
              KIND_TEXT, KIND_REAL_OR_NAME
@@ -122,22 +122,51 @@ contains
       end associate
    end subroutine define_keyword
 
-   !> Gives the last keyword its options and forms.
+   !> Hands over all keywords when the last one is defined.
+   subroutine take_keywords(keywords, table)
+      type(keyword_list_t), intent(inout) :: keywords
+      type(keyword_t), allocatable, intent(out) :: table(:)
+      integer :: i
+
+      call finish_keyword(keywords)
+      allocate (table(keywords%n))
+      do i = 1, keywords%n
+         call move_keyword(keywords%list(i), table(i))
+      end do
+   end subroutine take_keywords
+
+   !> Gives the last keyword its options and forms. What is defined is moved, not copied: a table has thousands of texts.
    subroutine finish_keyword(keywords)
       type(keyword_list_t), intent(inout) :: keywords
+      integer :: i
 
       if (keywords%n == 0) return
       call finish_form(keywords)
-      keywords%list(keywords%n)%options = keywords%options(:keywords%n_options)
-      keywords%list(keywords%n)%forms = keywords%forms(:keywords%n_forms)
+      associate (keyword => keywords%list(keywords%n))
+         allocate (keyword%options(keywords%n_options), keyword%forms(keywords%n_forms))
+         do i = 1, keywords%n_options
+            call move_option(keywords%options(i), keyword%options(i))
+         end do
+         do i = 1, keywords%n_forms
+            call move_form(keywords%forms(i), keyword%forms(i))
+         end do
+      end associate
       keywords%n_options = 0
       keywords%n_forms = 0
    end subroutine finish_keyword
 
    subroutine finish_form(keywords)
       type(keyword_list_t), intent(inout) :: keywords
+      integer :: i
 
-      if (keywords%n_forms > 0) keywords%forms(keywords%n_forms)%items = keywords%items(:keywords%n_items)
+      if (keywords%n_forms > 0) then
+         associate (form => keywords%forms(keywords%n_forms))
+            allocate (form%items(keywords%n_items))
+            do i = 1, keywords%n_items
+               call move_item(keywords%items(i), form%items(i))
+            end do
+         end associate
+      end if
       keywords%n_items = 0
    end subroutine finish_form
 
@@ -182,22 +211,22 @@ contains
       integer, intent(in) :: min_lines, max_lines
       character(len=*), intent(in), optional :: when, word
       logical, intent(in), optional :: built, harmless
-      type(form_t) :: form
 
-      form%doc = doc
-      form%min_lines = min_lines
-      form%max_lines = max_lines
-      form%word = text_or(word)
-      if (present(built)) form%built = built
-      if (present(harmless)) form%harmless = harmless
-      call set_condition(form, text_or(when))
-      if (len(form%word) > 0) then
-         form%min_items = 1
-         form%max_items = 1
-      end if
       call finish_form(keywords)
       keywords%n_forms = keywords%n_forms + 1
-      keywords%forms(keywords%n_forms) = form
+      associate (form => keywords%forms(keywords%n_forms))
+         form%doc = doc
+         form%min_lines = min_lines
+         form%max_lines = max_lines
+         form%word = text_or(word)
+         form%built = .true.
+         form%harmless = .false.
+         if (present(built)) form%built = built
+         if (present(harmless)) form%harmless = harmless
+         call set_condition(form, text_or(when))
+         form%min_items = merge(1, 0, len(form%word) > 0)
+         form%max_items = form%min_items
+      end associate
    end subroutine add_form
 
    subroutine set_condition(form, when)
@@ -318,5 +347,60 @@ contains
       given = ''
       if (present(text)) given = text
    end function text_or
+
+   subroutine move_keyword(from, to)
+      type(keyword_t), intent(inout) :: from, to
+
+      to%level = from%level
+      to%own = from%own
+      to%built = from%built
+      to%harmless = from%harmless
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%parent, to%parent)
+      call move_alloc(from%summary, to%summary)
+      call move_alloc(from%doc, to%doc)
+      call move_alloc(from%options, to%options)
+      call move_alloc(from%forms, to%forms)
+      call move_alloc(from%example, to%example)
+   end subroutine move_keyword
+
+   subroutine move_option(from, to)
+      type(option_spec_t), intent(inout) :: from, to
+
+      call move_item(from%item_t, to%item_t)
+      to%own = from%own
+      to%built = from%built
+      call move_alloc(from%needs, to%needs)
+   end subroutine move_option
+
+   subroutine move_item(from, to)
+      type(item_t), intent(inout) :: from, to
+
+      to%kind = from%kind
+      to%required = from%required
+      to%harmless = from%harmless
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%default, to%default)
+      call move_alloc(from%dimension, to%dimension)
+      call move_alloc(from%doc, to%doc)
+      call move_alloc(from%choices, to%choices)
+   end subroutine move_item
+
+   subroutine move_form(from, to)
+      type(form_t), intent(inout) :: from, to
+
+      to%absent = from%absent
+      to%min_lines = from%min_lines
+      to%max_lines = from%max_lines
+      to%min_items = from%min_items
+      to%max_items = from%max_items
+      to%built = from%built
+      to%harmless = from%harmless
+      call move_alloc(from%option, to%option)
+      call move_alloc(from%values, to%values)
+      call move_alloc(from%word, to%word)
+      call move_alloc(from%doc, to%doc)
+      call move_alloc(from%items, to%items)
+   end subroutine move_form
 
 end module atrito_keyword

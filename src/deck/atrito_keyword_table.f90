@@ -1,6 +1,6 @@
 !> The one table of all keywords that the program knows.
 module atrito_keyword_table
-   use atrito_keyword, only: keyword_t, keyword_list_t, choice_t, option_spec_t, finish_keyword
+   use atrito_keyword, only: keyword_t, keyword_list_t, choice_t, option_spec_t, take_keywords
    use atrito_mesh_keywords, only: define_mesh_keywords
    use atrito_scene_keywords, only: define_scene_keywords
    use atrito_step_keywords, only: define_step_keywords, define_harmless_keywords
@@ -20,8 +20,7 @@ contains
       call define_scene_keywords(keywords)
       call define_step_keywords(keywords)
       call define_harmless_keywords(keywords)
-      call finish_keyword(keywords)
-      table = keywords%list(:keywords%n)
+      call take_keywords(keywords, table)
    end function keyword_table
 
    !> A keyword without its blanks and in capitals: they do not matter (`*ENDSTEP`).
@@ -41,6 +40,23 @@ contains
       word = capitals(:n)
    end function packed
 
+   !> Whether a name of the tables is a word that is packed; quick, without a copy of the name: most differ in the first letters.
+   pure logical function is_packed_as(name, word)
+      character(len=*), intent(in) :: name, word
+      integer :: i, n
+
+      is_packed_as = .false.
+      n = 0
+      do i = 1, len(name)
+         if (name(i:i) == ' ' .or. name(i:i) == achar(9)) cycle
+         n = n + 1
+         if (n > len(word)) return
+         if (name(i:i) == word(n:n)) cycle
+         if (upper_case(name(i:i)) /= word(n:n)) return
+      end do
+      is_packed_as = n == len(word)
+   end function is_packed_as
+
    !> Index of a keyword, 0 when it is unknown.
    pure integer function find_keyword(table, name) result(i)
       type(keyword_t), intent(in) :: table(:)
@@ -51,8 +67,7 @@ contains
       i = 0
       if (len(word) == 0) return
       do i = size(table), 1, -1
-         if (table(i)%name(1:1) /= word(1:1)) cycle          ! packing takes longer than this
-         if (packed(table(i)%name) == word) return
+         if (is_packed_as(table(i)%name, word)) return
       end do
    end function find_keyword
 
@@ -64,7 +79,7 @@ contains
 
       word = packed(name)
       do i = size(keyword%options), 1, -1
-         if (packed(keyword%options(i)%name) == word) return
+         if (is_packed_as(keyword%options(i)%name, word)) return
       end do
    end function find_option_spec
 
@@ -72,9 +87,11 @@ contains
    pure integer function find_choice(choices, word) result(i)
       type(choice_t), intent(in) :: choices(:)
       character(len=*), intent(in) :: word
+      character(len=:), allocatable :: wanted
 
+      wanted = packed(word)
       do i = size(choices), 1, -1
-         if (packed(choices(i)%name) == packed(word)) return
+         if (is_packed_as(choices(i)%name, wanted)) return
       end do
    end function find_choice
 
