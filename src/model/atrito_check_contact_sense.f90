@@ -3,10 +3,12 @@ module atrito_check_contact_sense
    use atrito_build_context, only: build_context_t, ids_text
    use atrito_deck, only: line_item
    use atrito_diagnostics, only: report_warning
+   use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: face_nodes
+   use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, LOAD_BODY
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_smooth_normals, only: smooth_surface
    use atrito_sorting, only: each_once
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -15,6 +17,8 @@ module atrito_check_contact_sense
 
    !> Overlap below this part of the largest coordinate is rounding: ten printed digits, and what cutting faces adds to it.
    real(wp), parameter :: ROUNDING = 1.0e-8_wp
+   !> Faces of two meshes of one curve overlap by a part of their rise over the chord; below this part of it they fit.
+   real(wp), parameter :: FITTING = 0.01_wp
 
 contains
 
@@ -38,7 +42,9 @@ contains
       do i = 1, size(model%pairs, kind=ip)
          if (model%points(i)%n == 0 .or. model%pairs(i)%gap_is_given) cycle
          overlap = -minval(model%points(i)%gap)
-         if (overlap > slack) n = n + 1
+         if (overlap <= slack) cycle
+         if (overlap <= slack + FITTING*largest_rise(model, i)) cycle
+         n = n + 1
          if (overlap <= largest) cycle
          largest = overlap
          worst = i
@@ -56,6 +62,31 @@ contains
                              keyword='CONTACT PAIR')
       end associate
    end subroutine warn_of_overlap
+
+   !> How far the curves that both sides of a pair stand for rise over the chords of their faces at most [L].
+   pure real(wp) function largest_rise(model, i) result(rise)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< the pair
+
+      rise = max(rise_of(model%mesh, model%surfaces(model%pairs(i)%slave)%faces), &
+                 rise_of(model%mesh, model%surfaces(model%pairs(i)%master)%faces))
+   end function largest_rise
+
+   pure real(wp) function rise_of(mesh, faces) result(rise)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: faces           !< none of a drawn surface
+      real(wp), allocatable :: ends(:, :, :), curvature(:), bend(:)
+      integer(ip) :: k
+
+      rise = 0.0_wp
+      if (faces%n == 0) return
+      call smooth_surface(mesh, faces, ends, curvature, bend)
+      do k = 1, faces%n
+         associate (nodes => face_nodes(mesh, faces%element(k), faces%face(k)))
+            rise = max(rise, abs(bend(k))*sum((mesh%x(:, nodes(2)) - mesh%x(:, nodes(1)))**2)/8)
+         end associate
+      end do
+   end function rise_of
 
    !> Loads on faces where slave and master face each other; for models without any error. A message a line of the deck.
    subroutine warn_of_loaded_contact(model, context)

@@ -69,6 +69,24 @@ for layers in $two $three; do
       done
    done
 done
+# every other plane element, the two forms of the contact system in turns; with mu = 0.3 on inclined supports
+form=dense
+for layers in CPS3:3_CPS6:2 CPS8:7_CPS8:5 CPE8:1_CPE4R:10 CPE4R:3_CPE4R:2 CPE8R:10_CPE8:1 CPS4R:20:1_CPS8R:23:2 \
+   CPE8R:1_CPE3:10 CPS9:7:3_CPS8:5:11_CPS4R:9:4 CPS8R:2_CPS4:3_CPS6:5; do
+   for roles in 0 1; do
+      for law in HARD PENALTY; do
+         for mu in 0 0.3; do
+            name=$layers-$roles-$law-$mu
+            stack "$name" $form layers="$(echo "$layers" | tr _ ' ')" angle=30 roles=$roles law=$law mu=$mu
+            uniform "$name" 30 0
+            balanced "$name" 30
+            joints "$name" 20 0
+            [ $form = dense ] && form=sparse || form=dense
+         done
+         [ $form = dense ] && form=sparse || form=dense
+      done
+   done
+done
 # points at nodes do not pass it, which these assertions notice
 stack nodal auto layers='CPE4:3 CPE4:2' angle=30 quadrature=NODAL
 awk -v w="$(worst_stress nodal 30 0)" 'BEGIN { exit !(w > 1) }' </dev/null || complain 'NODAL passes the patch test'

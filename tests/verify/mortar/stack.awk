@@ -7,6 +7,7 @@
 # load: uniform  the pressure p on the upper side of the stack
 #       wave     p (1 + cos(pi x/len)/2), by consistent nodal forces
 # shear: a traction along the upper side, in parts of the pressure, by nodal forces; nu: friction, with rho nonlocal
+# mu: Poisson's ratio; if not 0, the lowest side slides along, and the left ones across, the stack (*TRANSFORM)
 # sides=1: the same traction on the sides of all layers, so that a uniform shear stress is in equilibrium
 # slide: displacement along x1 that the upper side is given, instead of the traction there
 function random() { seed = (seed*16807)%2147483647; return seed/2147483647 }
@@ -21,7 +22,7 @@ function cut_layer(   i, at) {
 }
 function write_layer(k,   i, j, a, c) {
    print "*NODE"
-   for (j = 0; j <= order*rows; j++) for (i = 0; i <= order*n; i++)
+   for (j = 0; j <= order*rows; j++) for (i = 0; i <= order*n; i++) if (centred || i%2 == 0 || j%2 == 0)
       print node(k, i, j) ", " place(x_of(i), k - 1 + j/(order*rows))
    print "*ELEMENT, TYPE=" type ", ELSET=L" k
    for (j = 0; j < rows; j++) for (i = 0; i < n; i++) {
@@ -36,13 +37,13 @@ function write_layer(k,   i, j, a, c) {
       }
       printf "%d, %d, %d, %d, %d", k*1000000 + j*n + i + 1, node(k, a, c), node(k, a + order, c), node(k, a + order, c + order), \
          node(k, a, c + order)
-      if (order == 2) printf ", %d, %d, %d, %d, %d", node(k, a + 1, c), node(k, a + 2, c + 1), node(k, a + 1, c + 2), \
-         node(k, a, c + 1), node(k, a + 1, c + 1)
-      print ""
+      if (order == 2) printf ", %d, %d, %d, %d", node(k, a + 1, c), node(k, a + 2, c + 1), node(k, a + 1, c + 2), node(k, a, c + 1)
+      print (order == 2 && centred) ? ", " node(k, a + 1, c + 1) : ""
    }
    print "*SURFACE, NAME=B" k; for (i = 1; i <= n; i++) print k*1000000 + per*(i - 1) + 1 ", S1"
    print "*SURFACE, NAME=T" k; for (i = 1; i <= n; i++) print k*1000000 + per*((rows - 1)*n + i) ", S" (4 - per)
    print "*NSET, NSET=T" k; for (i = 0; i <= order*n; i++) print node(k, i, order*rows)
+   print "*NSET, NSET=A" k; for (j = 0; j <= order*rows; j++) print node(k, 0, j)
    if (k == 1) { print "*NSET, NSET=BASE"; for (i = 0; i <= order*n; i++) print node(k, i, 0) }
    print "*SOLID SECTION, ELSET=L" k ", MATERIAL=M"
    if (sides) for (j = 0; j <= order*rows; j++) {
@@ -85,10 +86,14 @@ BEGIN {
    n_layers = split(layers, list, " ")
    for (k = 1; k <= n_layers; k++) {
       seeded = (split(list[k], what, ":") == 3); type = what[1]; n = what[2]; seed = what[3]
-      order = (type ~ /[69]/) ? 2 : 1; triangles = (type ~ /[36]/); per = 1 + triangles
+      order = (type ~ /[689]/) ? 2 : 1; centred = (type !~ /8/); triangles = (type ~ /[36]/); per = 1 + triangles
       cut_layer(); write_layer(k)
    }
    k = n_layers
+   if (mu) {
+      print "*NSET, NSET=INCLINED"; for (i = 1; i <= k; i++) print "A" i; print "BASE"
+      printf "*TRANSFORM, NSET=INCLINED\n%.17g, %.17g, 0, %.17g, %.17g, 0\n", co, si, -si, co
+   }
    print "*SURFACE INTERACTION, NAME=R"
    if (law == "PENALTY") print "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=PENALTY\n1e-5"
    if (law == "LINEAR") print "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e5"
@@ -97,7 +102,8 @@ BEGIN {
    for (i = 1; i < n_layers; i++) print (roles == 0) ? "B" i + 1 ", T" i : "T" i ", B" i + 1
    print "*STEP\n*STATIC"
    if (nu) print "*CONTROLS, TOLERANCE=1e-13"
-   print "*BOUNDARY\nBASE, 1, 2"
+   print "*BOUNDARY\nBASE, " (mu ? 2 : "1, 2")
+   if (mu) for (i = 1; i <= n_layers; i++) print "A" i ", 1"
    if (slide) print "T" k ", 1, 1, " slide
    if (load == "wave" || shear) write_forces(); else print "*DSLOAD\nT" k ", P, " p
    print "*NODE PRINT\nU\n*EL PRINT\nS\n*CONTACT PRINT\n*BODY PRINT\n*JOINT PRINT\n*END STEP"
