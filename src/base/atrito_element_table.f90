@@ -6,7 +6,7 @@
 module atrito_element_table
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, &
-                                 PLANE_STRESS_REDUCED, IS_REDUCED, FORMULATION_BBAR
+                                 PLANE_STRESS_REDUCED, AXISYMMETRIC_REDUCED, IS_REDUCED, FORMULATION_BBAR
    implicit none (type, external)
    private
    public :: element_shape_t, element_kind_t, SHAPES, KINDS
@@ -56,7 +56,7 @@ module atrito_element_table
    !> that difference is least.
    integer(ip), parameter :: ERROR_POINTS_OF(MOST_NODES) = [0_ip, 0_ip, 3_ip, 4_ip, 0_ip, 6_ip, 0_ip, 9_ip, 9_ip]
 
-   type(element_kind_t), parameter :: KINDS(19) = &
+   type(element_kind_t), parameter :: KINDS(21) = &
                                       [element_kind_t('CPE3', 3, PLANE_STRAIN), element_kind_t('CPS3', 3, PLANE_STRESS), &
                                        element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
                                        element_kind_t('CPE6', 6, PLANE_STRAIN), element_kind_t('CPS6', 6, PLANE_STRESS), &
@@ -69,7 +69,9 @@ module atrito_element_table
                                        element_kind_t('CPE4R', 4, PLANE_STRAIN_REDUCED), &
                                        element_kind_t('CPS4R', 4, PLANE_STRESS_REDUCED), &
                                        element_kind_t('CPE8R', 8, PLANE_STRAIN_REDUCED), &
-                                       element_kind_t('CPS8R', 8, PLANE_STRESS_REDUCED)]
+                                       element_kind_t('CPS8R', 8, PLANE_STRESS_REDUCED), &
+                                       element_kind_t('CAX4R', 4, AXISYMMETRIC_REDUCED), &
+                                       element_kind_t('CAX8R', 8, AXISYMMETRIC_REDUCED)]
 
 contains
 

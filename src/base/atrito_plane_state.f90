@@ -10,7 +10,8 @@ module atrito_plane_state
    use atrito_kinds, only: ip, wp, PI
    implicit none (type, external)
    private
-   public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, PLANE_STRESS_REDUCED
+   public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, PLANE_STRESS_REDUCED, &
+             AXISYMMETRIC_REDUCED
    public :: IS_REDUCED, FULL_STATE, COMPONENTS, STRESS_NAMES
    public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, depth_at
    public :: FORMULATION_STANDARD, FORMULATION_BBAR
@@ -27,13 +28,15 @@ module atrito_plane_state
    end type plane_state_t
 
    integer(ip), parameter :: PLANE_STRAIN = 1, PLANE_STRESS = 2, AXISYMMETRIC = 3, PLANE_STRAIN_REDUCED = 4, &
-                             PLANE_STRESS_REDUCED = 5
-   type(plane_state_t), parameter :: STATES(5) = [plane_state_t('CPE', 'plane strain', .false., full=1_ip), &
+                             PLANE_STRESS_REDUCED = 5, AXISYMMETRIC_REDUCED = 6
+   type(plane_state_t), parameter :: STATES(6) = [plane_state_t('CPE', 'plane strain', .false., full=1_ip), &
                                                   plane_state_t('CPS', 'plane stress', .true., full=2_ip), &
                                                   plane_state_t('CAX', 'axisymmetric', .false., [0.0_wp, 2*PI], &
                                                                 [.false., .true., .false.], .true., full=3_ip), &
                                                   plane_state_t('CPE', 'plane strain', .false., is_reduced=.true., full=1_ip), &
-                                                  plane_state_t('CPS', 'plane stress', .true., is_reduced=.true., full=2_ip)]
+                                                  plane_state_t('CPS', 'plane stress', .true., is_reduced=.true., full=2_ip), &
+                                                  plane_state_t('CAX', 'axisymmetric', .false., [0.0_wp, 2*PI], &
+                                                                [.false., .true., .false.], .true., .true., 3_ip)]
 
    !> A column by itself: STATES(state)%is_reduced would copy the row.
    logical, parameter :: IS_REDUCED(size(STATES)) = STATES%is_reduced

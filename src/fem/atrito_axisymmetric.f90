@@ -7,13 +7,14 @@
 !>
 !> Gauss points lie inside the element, never on the axis, so r > 0 there.
 module atrito_axisymmetric
-   use atrito_element_table, only: SHAPES, MOST_NODES, has_mean_dilatation
+   use atrito_element_table, only: SHAPES, MOST_NODES, has_mean_dilatation, point_count
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at
-   use atrito_shape_functions, only: shape_values, shape_gradients, gauss_point
+   use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
    public :: axisymmetric_stiffness, mean_rows, add_hoop_stress
+   public :: strain_rows_t, strain_rows, mean_strain_rows, add_point, balance_axis
 
    !> Bits of the largest entry of a stiffness that are kept, as in atrito_element.
    integer, parameter :: KEPT_BITS = digits(1.0_wp) - 4
@@ -28,7 +29,7 @@ module atrito_axisymmetric
 
 contains
 
-   !> Stiffness [F/L] of the full circle, full Gauss integration; with FORMULATION=BBAR of the strains with the mean dilatation.
+   !> Stiffness [F/L] of the full circle, full Gauss integration or eight nodes at 2 x 2 points; with FORMULATION=BBAR of the strains with the mean dilatation.
    !>
    !> D is lambda of the dilatation err + ezz + ett and 2 G of the strains. With the mean dilatation theta_m = sum m u the work is
    !> kappa V theta_m^2 and that of the deviator: lambda = -2/3 G of the dilatation itself, kappa = lambda + 2/3 G.
@@ -51,8 +52,8 @@ contains
       averages = has_mean_dilatation(section, state, n)
       lambda = merge(-2*shear/3, d(1, 2), averages)
       k = 0.0_wp
-      do point = 1, SHAPES(n)%n_points
-         rows = strain_rows(x, origin, section%thickness, state, point)
+      do point = 1, point_count(n, state)
+         rows = strain_rows(x, origin, section%thickness, state, point_count(n, state), point)
          call add_point(n, rows, lambda, shear, k)
       end do
       if (averages) then
@@ -62,10 +63,10 @@ contains
       call balance_axis(n, k)
    end subroutine axisymmetric_stiffness
 
-   !> Strains at a Gauss point of the stiffness.
-   pure function strain_rows(x, origin, thickness, state, point) result(rows)
+   !> Strains at a point of the rule of n_points.
+   pure function strain_rows(x, origin, thickness, state, n_points, point) result(rows)
       real(wp), intent(in) :: x(:, :), origin, thickness
-      integer(ip), intent(in) :: state, point
+      integer(ip), intent(in) :: state, n_points, point
       type(strain_rows_t) :: rows
       real(wp) :: xi(2), weight, n(size(x, 2)), slopes(size(x, 2), 2), j(2, 2), jacobian, r, relative(2, size(x, 2))
       integer(ip) :: n_nodes, i
@@ -74,7 +75,7 @@ contains
       do i = 1, n_nodes                            ! a distance from the origin along the axis costs no digits
          relative(:, i) = x(:, i) - x(:, 1)
       end do
-      call gauss_point(n_nodes, point, xi, weight)
+      call rule_point(n_nodes, n_points, point, xi, weight)
       n = shape_values(n_nodes, xi)
       slopes = shape_gradients(n_nodes, xi)
       j = matmul(relative, slopes)
@@ -129,13 +130,31 @@ contains
       mean = 0.0_wp
       volume = 0.0_wp
       do point = 1, SHAPES(n)%n_points
-         rows = strain_rows(x, origin, thickness, state, point)
+         rows = strain_rows(x, origin, thickness, state, SHAPES(n)%n_points, point)
          mean(1, :) = mean(1, :) + rows%weight*(rows%g(1, :n) + rows%h(:n))
          mean(2, :) = mean(2, :) + rows%weight*rows%g(2, :n)
          volume = volume + rows%weight
       end do
       mean = mean/volume
    end subroutine mean_rows
+
+   !> The means of all strains over the volume of an element, whose weight is the volume.
+   pure function mean_strain_rows(x, origin, thickness, state) result(mean)
+      real(wp), intent(in) :: x(:, :), origin, thickness
+      integer(ip), intent(in) :: state
+      type(strain_rows_t) :: mean, rows
+      integer(ip) :: point, n
+
+      n = size(x, 2, kind=ip)
+      do point = 1, SHAPES(n)%n_points
+         rows = strain_rows(x, origin, thickness, state, SHAPES(n)%n_points, point)
+         mean%g = mean%g + rows%weight*rows%g
+         mean%h = mean%h + rows%weight*rows%h
+         mean%weight = mean%weight + rows%weight
+      end do
+      mean%g = mean%g/mean%weight
+      mean%h = mean%h/mean%weight
+   end function mean_strain_rows
 
    !> The work of the mean dilatation.
    pure subroutine add_mean(n, mean, bulk, k)

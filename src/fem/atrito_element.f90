@@ -4,12 +4,13 @@
 !> round-off, which far from the origin would cost digits.
 module atrito_element
    use atrito_axisymmetric, only: axisymmetric_stiffness
-   use atrito_element_table, only: SHAPES, MOST_NODES, has_mean_dilatation
+   use atrito_element_table, only: MOST_NODES, POINTS_OF, ERROR_POINTS_OF, has_mean_dilatation
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_plane_state, only: elastic_t, elasticity_matrix, IS_REDUCED, COMPONENTS, depth_at, STATES
    use atrito_reduced_integration, only: hourglass_stiffness
+   use atrito_reduced_rings, only: reduced_ring_stiffness
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
-                                     gauss_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, &
+                                     rule_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, &
                                      S2_ETA_SLOPES, Q2_WEIGHTS, T1_XI_SLOPES, T1_ETA_SLOPES, T2_XI_SLOPES, T2_ETA_SLOPES, &
                                      T1_WEIGHT, T2_WEIGHT, Q1R_XI_SLOPES, Q1R_ETA_SLOPES, S2R_XI_SLOPES, S2R_ETA_SLOPES
    implicit none (type, external)
@@ -41,7 +42,11 @@ contains
       integer(ip) :: n, i, j
 
       if (STATES(state)%has_hoop) then
-         call axisymmetric_stiffness(x, section, state, k, radius)
+         if (IS_REDUCED(state) .and. size(x, 2) == 4) then
+            call reduced_ring_stiffness(x, section, state, k, radius)
+         else
+            call axisymmetric_stiffness(x, section, state, k, radius)
+         end if
          return
       end if
       n = size(x, 2, kind=ip)
@@ -340,12 +345,14 @@ contains
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< (2, n)
       real(wp) :: xi(2), weight, j(2, 2), jacobian, n(size(x, 2))
-      integer(ip) :: point, n_nodes
+      integer(ip) :: point, n_points, n_nodes
 
       n_nodes = size(x, 2, kind=ip)
       f = 0.0_wp
-      do point = 1, SHAPES(n_nodes)%n_points
-         call gauss_point(n_nodes, point, xi, weight)
+      n_points = POINTS_OF(n_nodes)
+      if (STATES(state)%has_hoop) n_points = ERROR_POINTS_OF(n_nodes) ! r N is of a higher degree
+      do point = 1, n_points
+         call rule_point(n_nodes, n_points, point, xi, weight)
          j = matmul(from_first(x), shape_gradients(n_nodes, xi))
          jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
          n = shape_values(n_nodes, xi)

@@ -113,6 +113,23 @@ contains
                            *sum(weight(:n)*geometry%steepness(:n))
    end subroutine add_element
 
+   !> A bound of the strains of an axisymmetric element at the points: the root of s11^2 + s22^2 + s33^2 + 2 s12^2 over the least of 2G
+   !> and 2G + 3 lambda.
+   pure real(wp) function largest_spatial_strain(n, d, s, hoop)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: d(COMPONENTS, COMPONENTS) !< elasticity matrix [F/L^2]
+      real(wp), intent(in) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS) !< [F/L^2]
+      real(wp) :: square, compliance
+      integer(ip) :: i
+
+      square = 0.0_wp
+      compliance = 1/(2*d(3, 3) + 3*min(d(1, 2), 0.0_wp))
+      do i = 1, n
+         square = max(square, sum((s(i, 1:2)*compliance)**2) + (hoop(i)*compliance)**2 + 2*(s(i, 3)*compliance)**2)
+      end do
+      largest_spatial_strain = sqrt(square)
+   end function largest_spatial_strain
+
    !> A bound of the strains at the points: the root of s11^2 + s22^2 + 2 s12^2 over the least of 2G and 2(G + lambda).
    pure real(wp) function largest_strain(n, compliance, s)
       integer(ip), intent(in) :: n
@@ -144,6 +161,7 @@ contains
 
       c = compliance_matrix(fem%sections(geometry%section), geometry%state)
       call point_stresses(fem, e, u, rule, geometry, s, hoop)
+      energies%strain = max(energies%strain, largest_spatial_strain(rule%n, geometry%d, s*per_unit, hoop*per_unit))
       associate (place => field%place(:geometry%shape, e))
          do i = 1, rule%n
             flat = (s(i, 1) + s(i, 2))*per_unit

@@ -1,5 +1,5 @@
 !> Where a displacement field is larger than a linear theory knows: strains and rotations at the points of the elements where they
-!> are most accurate (four nodes: the middle; more: 2 x 2 Gauss points).
+!> are most accurate (four nodes: the middle; more: 2 x 2 Gauss points). The hoop strain u1/x1 of a ring is one of its strains.
 !>
 !> What is small everywhere is found small by much less than that: strains by a bound that the error estimate has at hand, rotations
 !> by the diagonals of the elements.
@@ -7,8 +7,8 @@ module atrito_large_deformation
    use atrito_assembly, only: fem_t
    use atrito_element_table, only: BEST_OF, CORNERS_OF, DEGREE_OF, MOST_NODES
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t
-   use atrito_point_stress, only: point_rule_t, point_geometry_t, make_point_rules, fetch_geometry
+   use atrito_mesh, only: mesh_t, is_revolved
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, make_point_rules, fetch_geometry, hoop_strain
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
@@ -16,7 +16,7 @@ module atrito_large_deformation
 
    !> The largest strain and rotation, and where.
    type :: deformation_t
-      real(wp) :: strain = 0.0_wp                  !< largest absolute principal strain in the plane
+      real(wp) :: strain = 0.0_wp                  !< largest absolute principal strain in the plane, or round the circle
       real(wp) :: rotation = 0.0_wp                !< largest |du2/dx1 - du1/dx2|/2 [rad]
       integer(ip) :: strain_element = 0, rotation_element = 0
       real(wp) :: strain_x(2) = 0.0_wp, rotation_x(2) = 0.0_wp !< [L]
@@ -99,7 +99,7 @@ contains
             call measure_middle(fem%mesh, u, e, CORNERS_OF(fem%mesh%shape(e)), largest)
          else
             call fetch_geometry(fem, e, rules(fem%mesh%shape(e)), geometry)
-            call measure_points(fem%mesh, u, e, rules(fem%mesh%shape(e))%n, geometry, largest)
+            call measure_points(fem%mesh, u, e, rules(fem%mesh%shape(e)), geometry, largest)
          end if
       end do
    end subroutine measure_deformation
@@ -133,26 +133,37 @@ contains
       x = 0.25_wp*(mesh%x(:, i1) + mesh%x(:, i2) + mesh%x(:, i3) + mesh%x(:, i4))
       if (n_corners == 3) x = (mesh%x(:, i1) + mesh%x(:, i3) + mesh%x(:, i4))/3
       call note_gradient(h, e, x, largest)
+      if (is_revolved(mesh)) then
+         associate (corners => mesh%nodes(:n_corners, e))
+            call note_strain(abs(sum(u(1, corners))/sum(mesh%x(1, corners))), e, x, largest)
+         end associate
+      end if
    end subroutine measure_middle
 
-   pure subroutine measure_points(mesh, u, e, n, geometry, largest)
+   pure subroutine measure_points(mesh, u, e, rule, geometry, largest)
       type(mesh_t), intent(in) :: mesh
       real(wp), intent(in) :: u(:, :)
-      integer(ip), intent(in) :: e, n              !< n: points
+      integer(ip), intent(in) :: e
+      type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
       type(deformation_t), intent(inout) :: largest
-      real(wp) :: h(2, 2), way(2)
+      real(wp) :: h(2, 2), way(2, MOST_NODES)
       integer(ip) :: i, k, first
 
       first = mesh%nodes(1, e)
-      do i = 1, n
+      do k = 1, geometry%shape
+         way(:, k) = u(:, mesh%nodes(k, e)) - u(:, first)
+      end do
+      do i = 1, rule%n
          h = 0.0_wp
          do k = 2, geometry%shape
-            way = u(:, mesh%nodes(k, e)) - u(:, first)
-            h(:, 1) = h(:, 1) + way*geometry%gradient(i, 1, k)
-            h(:, 2) = h(:, 2) + way*geometry%gradient(i, 2, k)
+            h(:, 1) = h(:, 1) + way(:, k)*geometry%gradient(i, 1, k)
+            h(:, 2) = h(:, 2) + way(:, k)*geometry%gradient(i, 2, k)
          end do
-         call note_gradient(h, e, mesh%x(:, first) + geometry%place(i, :), largest)
+         associate (x => mesh%x(:, first) + geometry%place(i, :))
+            call note_gradient(h, e, x, largest)
+            if (geometry%has_hoop) call note_strain(abs(hoop_strain(rule, geometry, i, way, u(1, first))), e, x, largest)
+         end associate
       end do
    end subroutine measure_points
 
@@ -166,16 +177,24 @@ contains
 
       strain = 0.5_wp*(abs(h(1, 1) + h(2, 2)) + sqrt((h(1, 1) - h(2, 2))**2 + (h(1, 2) + h(2, 1))**2))
       rotation = 0.5_wp*abs(h(2, 1) - h(1, 2))
-      if (strain > largest%strain) then
-         largest%strain = strain
-         largest%strain_element = e
-         largest%strain_x = x
-      end if
+      call note_strain(strain, e, x, largest)
       if (rotation > largest%rotation) then
          largest%rotation = rotation
          largest%rotation_element = e
          largest%rotation_x = x
       end if
    end subroutine note_gradient
+
+   pure subroutine note_strain(strain, e, x, largest)
+      real(wp), intent(in) :: strain
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: x(2)                 !< [L]
+      type(deformation_t), intent(inout) :: largest
+
+      if (strain <= largest%strain) return
+      largest%strain = strain
+      largest%strain_element = e
+      largest%strain_x = x
+   end subroutine note_strain
 
 end module atrito_large_deformation

@@ -8,10 +8,12 @@ module atrito_point_stress
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: elasticity_matrix, IS_REDUCED, COMPONENTS, STATES
    use atrito_reduced_integration, only: spread_gradients
+   use atrito_reduced_rings, only: spread_ring_strains
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
    public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, make_point_rule, fetch_geometry, point_stresses
+   public :: hoop_strain
 
    integer(ip), parameter :: MOST_POINTS = 9
 
@@ -38,6 +40,7 @@ module atrito_point_stress
       real(wp) :: jacobian(MOST_POINTS) = 0.0_wp !< [L^2]
       real(wp) :: steepness(MOST_POINTS) = 0.0_wp           !< sum of the squares of dxi/dx [1/L^2]
       real(wp) :: gradient(MOST_POINTS, 2, MOST_NODES) = 0.0_wp !< dN/dx of all nodes but the first [1/L]
+      real(wp) :: hoop(MOST_POINTS, MOST_NODES) = 0.0_wp    !< of rings with reduced integration: u1/x1 = hoop u1 [1/L]
    end type point_geometry_t
 
 contains
@@ -104,7 +107,10 @@ contains
          geometry%mean = mean_gradients(geometry%x(:, :MOST_CORNERS))
       end if
       call map_points(rule, geometry)
-      if (IS_REDUCED(geometry%state)) then
+      if (IS_REDUCED(geometry%state) .and. geometry%has_hoop) then
+         k = geometry%shape
+         call spread_ring_strains(rule%n, geometry%x(:, :k), geometry%radius, geometry%state, geometry%gradient, geometry%hoop)
+      else if (IS_REDUCED(geometry%state)) then
          call spread_gradients(rule%n, geometry%shape, geometry%x, geometry%gradient)
       end if
    end subroutine fetch_geometry
@@ -193,7 +199,7 @@ contains
       do k = 1, rule%n
          e11 = s(k, 1)
          e22 = s(k, 2)
-         e33 = (u + dot_product(rule%value(k, :n), way(1, :n)))/(geometry%radius + geometry%place(k, 1))
+         e33 = hoop_strain(rule, geometry, k, way, u)
          if (geometry%averages) then             ! the mean dilatation, a third of it in each direction
             excess = sum(geometry%mean(:, :n)*way(:, :n)) + u*sum(geometry%mean(1, :n)) - (e11 + e22 + e33)
             e11 = e11 + excess/3
@@ -206,6 +212,23 @@ contains
          if (present(hoop)) hoop(k) = s33
       end do
    end subroutine axisymmetric_stresses
+
+   !> u1/x1 at a point of an axisymmetric element.
+   pure real(wp) function hoop_strain(rule, geometry, k, way, u)
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry
+      integer(ip), intent(in) :: k
+      real(wp), intent(in) :: way(2, MOST_NODES) !< displacements less those of the first node [L]
+      real(wp), intent(in) :: u                  !< the first node's, along the radius [L]
+
+      associate (n => geometry%shape)
+         if (IS_REDUCED(geometry%state)) then
+            hoop_strain = dot_product(geometry%hoop(k, :n), u + way(1, :n))
+         else
+            hoop_strain = (u + dot_product(rule%value(k, :n), way(1, :n)))/(geometry%radius + geometry%place(k, 1))
+         end if
+      end associate
+   end function hoop_strain
 
    pure subroutine strain_points(n, shape, gradient, way, e)
       integer(ip), intent(in) :: n, shape

@@ -15,7 +15,7 @@ module atrito_reduced_integration
    use atrito_shape_functions, only: rule_point, shape_gradients, Q1_XI_SLOPES, Q1_ETA_SLOPES
    implicit none (type, external)
    private
-   public :: hourglass_stiffness, spread_gradients
+   public :: hourglass_stiffness, spread_gradients, share_of_point, hourglass_amplitude, element_axes
 
    !> xi eta at four nodes, and its derivatives at 2 x 2 points in the order of Q1_XI_SLOPES.
    real(wp), parameter :: HOURGLASS(4) = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
@@ -31,7 +31,7 @@ contains
       real(wp), intent(out) :: amount(2, 2)        !< [F/L]
       real(wp) :: axes(2, 2), h(2, 2), c(COMPONENTS, COMPONENTS), ratio
 
-      call amplitude(x, shape)
+      call hourglass_amplitude(x, shape)
       axes = element_axes(x)
       h = matmul(transpose(axes), matmul(products_of_slopes(x), axes))
       c = compliance_matrix(section, state)
@@ -43,7 +43,7 @@ contains
    end subroutine hourglass_stiffness
 
    !> (h - (h.x1) b1 - (h.x2) b2)/4, b the gradients in the middle.
-   pure subroutine amplitude(x, shape)
+   pure subroutine hourglass_amplitude(x, shape)
       real(wp), intent(in) :: x(2, 4)
       real(wp), intent(out) :: shape(4)
       real(wp) :: d(2), e(2), b(2, 4), of_x(2)
@@ -56,7 +56,7 @@ contains
       b(:, 4) = -b(:, 2)
       of_x = matmul(x, HOURGLASS)
       shape = 0.25_wp*(HOURGLASS - of_x(1)*b(1, :) - of_x(2)*b(2, :))
-   end subroutine amplitude
+   end subroutine hourglass_amplitude
 
    !> Orthogonal axes that turn with the element and do not depend on which node is the first: as far from the direction of xi on
    !> one side as from that of eta on the other.

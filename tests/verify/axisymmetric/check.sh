@@ -31,9 +31,12 @@ S
 
 # Lame's cylinder: orders; the stresses of the finest level at the Gauss points, to h (1/96) or h^2 (1/48); the strain energy
 # p pi a u(a) of the full circle
-for type in CAX4 CAX8 CAX9; do
+for type in CAX3 CAX4 CAX4R CAX6 CAX8 CAX8R CAX9; do
    lame $type >lame-$type.inp
-   case $type in *4) l2=2 energy=1 finest=5 bound=2e-2 ;; *) l2=3 energy=2 finest=4 bound=4e-4 ;; esac
+   case $type in
+   *[34] | *4R) l2=2 energy=1 finest=5 bound=2e-2 ;;
+   *) l2=3 energy=2 finest=4 bound=4e-4 ;;
+   esac
    for level in 0 1 2 3 4; do
       row lame.txt $type $level lame-$type.inp ring 1 2 1 0
    done
@@ -106,7 +109,7 @@ pressed() {
    near "$what: normal resultant" "$(summary pressed normal_resultant)" "$(value "10*$area")" $within
    near "$what: reactions" "$(column pressed/reactions.tab r2 | awk '{ s += $1 } END { printf "%.17g", s }')" "$(value "10*$area")" $within
 }
-for type in CAX4 CAX8 CAX9; do
+for type in CAX3 CAX4 CAX4R CAX6 CAX8 CAX8R CAX9; do
    for inner in 0 1; do
       for slave in up low; do
          pressed $type $inner 3 $slave NODAL HARD ''
@@ -198,6 +201,14 @@ for type in CAX8 CAX9; do
       hertz $type $slave MORTAR 40 31 0 5e-3
    done
 done
+
+# Triangles and reduced integration are of second order on the axis, too, with a larger constant
+for type in CAX6 CAX8R; do
+   hertz $type A NODAL 64 64 1 2e-3
+   hertz $type A MORTAR 64 60 0 5e-3
+   hertz $type B NODAL 64 64 0 5e-3
+done
+hertz CAX4R A MORTAR 40 31 0 3e-2
 
 # The same elements in CalculiX, of the largest displacement. It solves a wedge of 2 degrees, which costs radial displacements
 # 1 - cos(1 degree) = 1.5e-4; along the axis they agree to the 7 digits that it prints.
