@@ -84,7 +84,7 @@ contains
       type(energies_t), intent(inout) :: energies
       real(wp), dimension(MOST_POINTS, COMPONENTS) :: s, d
       real(wp) :: c(COMPONENTS, COMPONENTS), weight(MOST_POINTS), largest
-      integer(ip) :: i, k, n
+      integer(ip) :: k, n
 
       n = rule%n
       c = compliance_matrix(fem%sections(geometry%section), geometry%state)
@@ -101,14 +101,10 @@ contains
             d(:n, 3) = d(:n, 3) + value*(at_node(3)*per_unit)
          end associate
       end do
-      weight(:n) = rule%weight(:n)*geometry%jacobian(:n)
-      do i = 1, n
-         weight(i) = weight(i)*depth_at(geometry%state, fem%sections(geometry%section)%thickness, &
-                                        fem%mesh%x(1, fem%mesh%nodes(1, e)) + geometry%place(i, 1))
-      end do
+      call find_volumes(fem, e, rule, geometry, weight)
       energies%solution = energies%solution + integral(n, c, s, weight)
       energies%error = energies%error + integral(n, c, d, weight)
-      if (geometry%has_hoop) call add_hoop(fem, e, u, field, per_unit, rule, geometry, weight, energies)
+      if (geometry%has_hoop) call add_hoop(fem, e, u, field, per_unit, rule, geometry, energies)
       energies%round_off = energies%round_off + (geometry%d(1, 1)*(EPS_MACH*(largest*per_unit))**2) &
                            *sum(weight(:n)*geometry%steepness(:n))
    end subroutine add_element
@@ -145,8 +141,25 @@ contains
       largest_strain = sqrt(square)
    end function largest_strain
 
+   !> The volumes that the points of an element stand for [L^3].
+   pure subroutine find_volumes(fem, e, rule, geometry, volume)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry
+      real(wp), intent(inout) :: volume(MOST_POINTS) !< the first rule%n are set
+      real(wp) :: thickness, x1
+      integer(ip) :: i
+
+      thickness = fem%sections(geometry%section)%thickness
+      x1 = fem%mesh%x(1, fem%mesh%nodes(1, e))
+      do i = 1, rule%n
+         volume(i) = rule%weight(i)*geometry%jacobian(i)*depth_at(geometry%state, thickness, x1 + geometry%place(i, 1))
+      end do
+   end subroutine find_volumes
+
    !> What the hoop stress adds to an element's integrals: c11 s33^2 + 2 c12 s33 (s11 + s22), besides that of the others.
-   pure subroutine add_hoop(fem, e, u, field, per_unit, rule, geometry, weight, energies)
+   pure subroutine add_hoop(fem, e, u, field, per_unit, rule, geometry, energies)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: u(:, :)
@@ -154,11 +167,12 @@ contains
       real(wp), intent(in) :: per_unit
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
-      real(wp), intent(in) :: weight(MOST_POINTS)
       type(energies_t), intent(inout) :: energies
       real(wp) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS), c(COMPONENTS, COMPONENTS), flat, round
+      real(wp) :: weight(MOST_POINTS)
       integer(ip) :: i
 
+      call find_volumes(fem, e, rule, geometry, weight)
       c = compliance_matrix(fem%sections(geometry%section), geometry%state)
       call point_stresses(fem, e, u, rule, geometry, s, hoop)
       energies%strain = max(energies%strain, largest_spatial_strain(rule%n, geometry%d, s*per_unit, hoop*per_unit))
