@@ -11,7 +11,7 @@ module atrito_element_table
    private
    public :: element_shape_t, element_kind_t, SHAPES, KINDS
    public :: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, ERROR_POINTS_OF
-   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation, point_count
+   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation, POINT_COUNT
 
    integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
 
@@ -56,6 +56,10 @@ module atrito_element_table
    !> that difference is least.
    integer(ip), parameter :: ERROR_POINTS_OF(MOST_NODES) = [0_ip, 0_ip, 3_ip, 4_ip, 0_ip, 6_ip, 0_ip, 9_ip, 9_ip]
 
+   !> Points at which an element's stiffness is integrated and its stresses are told, by shape and state.
+   integer(ip), parameter :: POINT_COUNT(MOST_NODES, size(STATES)) = &
+                             reshape([(merge(BEST_OF, POINTS_OF, IS_REDUCED(i)), i=1, size(STATES))], [MOST_NODES, size(STATES)])
+
    type(element_kind_t), parameter :: KINDS(21) = &
                                       [element_kind_t('CPE3', 3, PLANE_STRAIN), element_kind_t('CPS3', 3, PLANE_STRESS), &
                                        element_kind_t('CPE4', 4, PLANE_STRAIN), element_kind_t('CPS4', 4, PLANE_STRESS), &
@@ -88,14 +92,6 @@ contains
 
       kind_of = findloc(KINDS%shape == shape .and. KINDS%state == state, .true., dim=1, kind=ip)
    end function kind_of
-
-   !> Points at which an element's stiffness is integrated and its stresses are told.
-   pure integer(ip) function point_count(shape, state)
-      integer(ip), intent(in) :: shape, state
-
-      point_count = SHAPES(shape)%n_points
-      if (IS_REDUCED(state)) point_count = BEST_OF(shape)
-   end function point_count
 
    !> Whether the strains of an element may have one dilatation, its mean (B-bar): four nodes without strain across the plane.
    !> In plane stress the thickness gives way and nothing locks; elements of the second degree hardly lock, and with reduced

@@ -82,7 +82,7 @@ contains
    !> The largest strain and rotation at the best points, of all elements or of those that may rotate by more than a bound.
    subroutine measure_deformation(fem, u, whole, bound, largest)
       type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
+      real(wp), contiguous, intent(in) :: u(:, :)  !< (2, n_nodes) [L]
       logical, intent(in) :: whole                 !< all elements
       real(wp), intent(in) :: bound                !< else those that may rotate by more [rad]
       type(deformation_t), intent(out) :: largest
@@ -107,7 +107,7 @@ contains
    !> The middle of an element whose nodes are its corners.
    pure subroutine measure_middle(mesh, u, e, n_corners, largest)
       type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: u(:, :)
+      real(wp), contiguous, intent(in) :: u(:, :)
       integer(ip), intent(in) :: e, n_corners
       type(deformation_t), intent(inout) :: largest
       integer(ip) :: i1, i2, i3, i4
@@ -130,6 +130,7 @@ contains
       h(2, 1) = (a2*e2 - b2*d2)*per
       h(1, 2) = (b1*d1 - a1*e1)*per
       h(2, 2) = (b2*d1 - a2*e1)*per
+      if (.not. (is_larger(h, largest) .or. is_revolved(mesh))) return
       x = 0.25_wp*(mesh%x(:, i1) + mesh%x(:, i2) + mesh%x(:, i3) + mesh%x(:, i4))
       if (n_corners == 3) x = (mesh%x(:, i1) + mesh%x(:, i3) + mesh%x(:, i4))/3
       call note_gradient(h, e, x, largest)
@@ -142,7 +143,7 @@ contains
 
    pure subroutine measure_points(mesh, u, e, rule, geometry, largest)
       type(mesh_t), intent(in) :: mesh
-      real(wp), intent(in) :: u(:, :)
+      real(wp), contiguous, intent(in) :: u(:, :)
       integer(ip), intent(in) :: e
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
@@ -167,7 +168,28 @@ contains
       end do
    end subroutine measure_points
 
-   !> Strain and rotation of a gradient h(i, j) = du_i/dx_j.
+   !> Whether strain or rotation of a gradient h(i, j) = du_i/dx_j is the largest so far.
+   pure logical function is_larger(h, largest)
+      real(wp), intent(in) :: h(2, 2)
+      type(deformation_t), intent(in) :: largest
+
+      is_larger = strain_of(h) > largest%strain .or. rotation_of(h) > largest%rotation
+   end function is_larger
+
+   !> The largest absolute principal strain in the plane.
+   pure real(wp) function strain_of(h)
+      real(wp), intent(in) :: h(2, 2)
+
+      strain_of = 0.5_wp*(abs(h(1, 1) + h(2, 2)) + sqrt((h(1, 1) - h(2, 2))**2 + (h(1, 2) + h(2, 1))**2))
+   end function strain_of
+
+   pure real(wp) function rotation_of(h)
+      real(wp), intent(in) :: h(2, 2)
+
+      rotation_of = 0.5_wp*abs(h(2, 1) - h(1, 2))
+   end function rotation_of
+
+   !> Strain and rotation of a gradient.
    pure subroutine note_gradient(h, e, x, largest)
       real(wp), intent(in) :: h(2, 2)
       integer(ip), intent(in) :: e
@@ -175,8 +197,8 @@ contains
       type(deformation_t), intent(inout) :: largest
       real(wp) :: strain, rotation
 
-      strain = 0.5_wp*(abs(h(1, 1) + h(2, 2)) + sqrt((h(1, 1) - h(2, 2))**2 + (h(1, 2) + h(2, 1))**2))
-      rotation = 0.5_wp*abs(h(2, 1) - h(1, 2))
+      strain = strain_of(h)
+      rotation = rotation_of(h)
       call note_strain(strain, e, x, largest)
       if (rotation > largest%rotation) then
          largest%rotation = rotation

@@ -148,7 +148,7 @@ contains
          if (patches%first(k + 1) > patches%first(k)) patches%owner(k) = patches%element(patches%first(k))
       end do
       !$omp end parallel do
-      if (all(DEGREE_OF(mesh%shape(:mesh%n_elements)) == 1)) return
+      if (size(patches%place, 1) == MOST_CORNERS) return  ! all nodes are corners
       do e = mesh%n_elements, 1, -1
          do k = CORNERS_OF(mesh%shape(e)) + 1, mesh%shape(e)
             patches%owner(patches%place(k, e)) = e
@@ -226,9 +226,11 @@ contains
       integer(ip) :: k
 
       patches_at = 0
-      do k = 1, CORNERS_OF(mesh%shape(e))
+      do k = 1, 3                                 ! a length that the compiler knows
          if (patches%kind(patches%place(k, e)) /= PATCH_NONE) patches_at = patches_at + 1
       end do
+      if (CORNERS_OF(mesh%shape(e)) == 3) return
+      if (patches%kind(patches%place(4, e)) /= PATCH_NONE) patches_at = patches_at + 1
    end function patches_at
 
    !> Gives a patch to the corners, of at least `least` elements, of all elements without a patch at any corner.

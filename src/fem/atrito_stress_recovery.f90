@@ -134,7 +134,11 @@ contains
       do e = first, last
          associate (rule => work%best(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
-            call stresses_to_fit(fem, e, u, work%of_hoop, rule, geometry, s)
+            if (work%of_hoop) then
+               call hoop_stresses(fem, e, u, rule, geometry, s)
+            else
+               call point_stresses(fem, e, u, rule, geometry, s)
+            end if
             do point = 1, rule%n
                work%s(:, point, e) = s(point, :)
                work%x(:, point, e) = geometry%place(point, :)
@@ -143,26 +147,21 @@ contains
       end do
    end subroutine sample_chunk
 
-   !> Stresses in the plane, or s33 in the place of the first.
-   pure subroutine stresses_to_fit(fem, e, u, of_hoop, rule, geometry, s)
+   !> s33 in the place of the first stress in the plane, 0 in that of the others.
+   pure subroutine hoop_stresses(fem, e, u, rule, geometry, s)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: e
       real(wp), intent(in) :: u(:, :)
-      logical, intent(in) :: of_hoop
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
       real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS)
       real(wp) :: hoop(MOST_POINTS)
 
-      if (.not. of_hoop) then
-         call point_stresses(fem, e, u, rule, geometry, s)
-         return
-      end if
       hoop = 0.0_wp
       call point_stresses(fem, e, u, rule, geometry, s, hoop)
       s = 0.0_wp
       s(:, 1) = hoop
-   end subroutine stresses_to_fit
+   end subroutine hoop_stresses
 
    !> The patches of one chunk of places: the stress at their nodes, and the polynomials that other nodes want.
    pure subroutine fit_chunk(fem, u, chunk, work, stress)
@@ -274,14 +273,20 @@ contains
       real(wp) :: first(2), s(MOST_POINTS, COMPONENTS)
       integer(ip) :: point
 
-      if (IS_REDUCED(fem%mesh%state(e))) then
-         call add_best_points(fem, i, e, work, fit)  ! there are no others
+      first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
+      if (IS_REDUCED(fem%mesh%state(e))) then        ! there are no others than the best
+         do point = 1, work%best(fem%mesh%shape(e))%n  ! no call: add_best_points is put into its only caller
+            call add_sample(first + work%x(:, point, e), work%s(:, point, e), fit)
+         end do
          return
       end if
-      first = from_patch(fem%mesh, work%patches, i, fem%mesh%nodes(1, e))
       associate (rule => work%all(fem%mesh%shape(e)))
          call fetch_geometry(fem, e, rule, geometry)
-         call stresses_to_fit(fem, e, u, work%of_hoop, rule, geometry, s)
+         if (work%of_hoop) then
+            call hoop_stresses(fem, e, u, rule, geometry, s)
+         else
+            call point_stresses(fem, e, u, rule, geometry, s)
+         end if
          do point = 1, rule%n
             call add_sample(first + geometry%place(point, :), s(point, :), fit)
          end do

@@ -110,7 +110,7 @@ contains
       integer(ip), intent(in) :: state              !< place in STATES
       integer(ip), intent(in) :: shape              !< place in SHAPES
       integer(ip), intent(in) :: nodes(0:, 0:)      !< places, in lines along the block, (degree nx + 1, degree ny + 1)
-      integer(ip) :: i, j, k, order, per, e, nx, ny, before
+      integer(ip) :: i, j, order, per, e, nx, ny, before
 
       order = SHAPES(shape)%degree
       per = elements_of_square(shape)
@@ -119,7 +119,7 @@ contains
       before = mesh%n_elements
       call reserve_mesh(mesh, 0_ip, per*nx*ny)
       call add_sequence(mesh%element_map, first_id, before + 1, per*nx*ny)
-      !$omp parallel do default(none) private(i, k, e) shared(mesh, first_id, state, shape, order, per, nodes, nx, ny, before) &
+      !$omp parallel do default(none) private(i, e) shared(mesh, shape, order, per, nodes, nx, ny, before) &
       !$omp if(is_shared(nx*ny))
       do j = 0, ny - 1
          do i = 0, nx - 1
@@ -129,16 +129,16 @@ contains
             else
                mesh%nodes(:shape, e:e + 1) = triangles_of_square(nodes(order*i:order*(i + 1), order*j:order*(j + 1)))
             end if
-            do k = 0, per - 1
-               mesh%element_id(e + k) = first_id + per*(j*nx + i) + k
-               mesh%state(e + k) = state
-               mesh%shape(e + k) = shape
-               mesh%nodes(shape + 1:, e + k) = 0
-            end do
+            mesh%nodes(shape + 1:, e:e + per - 1) = 0
          end do
       end do
       !$omp end parallel do
       mesh%n_elements = before + per*nx*ny
+      do e = before + 1, mesh%n_elements
+         mesh%element_id(e) = first_id + (e - before - 1)
+         mesh%state(e) = state
+         mesh%shape(e) = shape
+      end do
    end subroutine add_block
 
    !> Gives back the room that was kept for growing; to be called when the mesh is complete.

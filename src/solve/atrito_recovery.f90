@@ -8,7 +8,7 @@ module atrito_recovery
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
-   use atrito_element_table, only: BEST_OF, POINTS_OF, MOST_NODES, point_count
+   use atrito_element_table, only: BEST_OF, POINTS_OF, MOST_NODES, POINT_COUNT
    use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
@@ -263,7 +263,7 @@ contains
          call find_chunk(chunk, fem%mesh%n_elements, first, last)
          rows(chunk + 1) = rows(chunk)
          do e = first, last
-            if (wanted(e)) rows(chunk + 1) = rows(chunk + 1) + point_count(fem%mesh%shape(e), fem%mesh%state(e))
+            if (wanted(e)) rows(chunk + 1) = rows(chunk + 1) + POINT_COUNT(fem%mesh%shape(e), fem%mesh%state(e))
          end do
       end do
    end subroutine count_rows

@@ -6,7 +6,7 @@
 !> kept for a next run.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
-   use atrito_element_table, only: BEST_OF, point_count
+   use atrito_element_table, only: BEST_OF, POINT_COUNT
    use atrito_kinds, only: ip, lp, wp
    use atrito_model, only: model_t
    use atrito_results, only: scene_t
@@ -120,7 +120,7 @@ contains
             wanted = .false.
             if (requests%stress) wanted = requests%element_s(e)
             if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s(e)
-            if (wanted) rows = rows + point_count(model%mesh%shape(e), model%mesh%state(e))
+            if (wanted) rows = rows + POINT_COUNT(model%mesh%shape(e), model%mesh%state(e))
          end do
       end associate
    end function stress_rows
