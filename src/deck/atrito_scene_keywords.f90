@@ -193,10 +193,10 @@ contains
       call add_form(k, 'the axes', 1, 1)
       call add_item(k, 'xa', KIND_REAL, 'point a', dimension='L')
       call add_item(k, 'ya', KIND_REAL, 'point a', dimension='L')
-      call add_item(k, 'za', KIND_REAL, 'point a', dimension='L', default='0')
-      call add_item(k, 'xb', KIND_REAL, 'point b', dimension='L', default='on the axis')
-      call add_item(k, 'yb', KIND_REAL, 'point b', dimension='L', default='on the axis')
-      call add_item(k, 'zb', KIND_REAL, 'point b', dimension='L', default='0')
+      call add_item(k, 'za', KIND_REAL, 'point a; of R 0', dimension='L', default='0')
+      call add_item(k, 'xb', KIND_REAL, 'point b; of C as point a', dimension='L', default='on the axis')
+      call add_item(k, 'yb', KIND_REAL, 'point b; of C as point a', dimension='L', default='on the axis')
+      call add_item(k, 'zb', KIND_REAL, 'point b; of R 0', dimension='L', default='0')
       call add_example(k, '*TRANSFORM, NSET=block-BOTTOM|0.8660254, 0.5, 0., -0.5, 0.8660254, 0.|*BOUNDARY|block-BOTTOM, 2')
 
       call define_keyword(k, 'EQUATION', LEVEL_MODEL, 'linear equations between displacements', &

@@ -65,19 +65,43 @@ contains
       real(wp), intent(out) :: a(2), b(2)            !< [L]
       logical, intent(out) :: ok
       character(len=*), parameter :: WHAT = 'coordinate, a real [L]'
-      real(wp) :: z
+      real(wp) :: z(2)
       logical :: good(6)
 
       associate (line => context%deck%lines(card%first_line), deck => context%deck)
          call get_real(deck, line_item(deck, line, 1_ip), WHAT, a(1), good(1), keyword='TRANSFORM')
          call get_real(deck, line_item(deck, line, 2_ip), WHAT, a(2), good(2), keyword='TRANSFORM')
-         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z, good(3), 0.0_wp, 'TRANSFORM')
+         call get_real(deck, line_item(deck, line, 3_ip), WHAT, z(1), good(3), 0.0_wp, 'TRANSFORM')
          call get_real(deck, line_item(deck, line, 4_ip), WHAT, b(1), good(4), a(1), 'TRANSFORM')
          call get_real(deck, line_item(deck, line, 5_ip), WHAT, b(2), good(5), a(2), 'TRANSFORM')
-         call get_real(deck, line_item(deck, line, 6_ip), WHAT, z, good(6), 0.0_wp, 'TRANSFORM')
+         call get_real(deck, line_item(deck, line, 6_ip), WHAT, z(2), good(6), 0.0_wp, 'TRANSFORM')
       end associate
       ok = all(good)
+      if (ok) call check_plane(card, context, b - a, z, ok)
    end subroutine read_points
+
+   !> R: both points lie in the plane. C: they lie on an axis across it.
+   subroutine check_plane(card, context, away, z, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      real(wp), intent(in) :: away(2)                !< from a to b in the plane [L]
+      real(wp), intent(in) :: z(2)                   !< of a and b [L]
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: expected
+      integer(ip) :: item
+
+      if (option_word(context%deck, card, 'TYPE') == 'R') then
+         item = merge(3_ip, 6_ip, abs(z(1)) > 0.0_wp)
+         ok = all(abs(z) <= 0.0_wp)
+         expected = 'za = zb = 0'
+      else
+         item = merge(4_ip, 5_ip, abs(away(1)) > 0.0_wp)
+         ok = all(abs(away) <= 0.0_wp)
+         expected = 'xb = xa and yb = ya: an axis along z'
+      end if
+      if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), item), 'E-VALUE', &
+                                      'the scene is plane: these axes leave it', expected=expected, keyword='TRANSFORM')
+   end subroutine check_plane
 
    !> R: local x along a, local y to the side of b.
    subroutine rectangular_axes(card, context, a, b, axes, ok)

@@ -77,8 +77,19 @@ contains
       type(range_t), intent(in) :: range
       character(len=:), allocatable :: text
 
-      text = '['//to_text(range%low, 8)//':'//to_text(range%high, 8)//']'
+      text = '['//outward(range%low, -1.0_wp)//':'//outward(range%high, 1.0_wp)//']'
    end function range_text
+
+   !> The end of a range in eight digits, none of which is rounded inwards: a point at the end is drawn.
+   pure function outward(value, way) result(text)
+      real(wp), intent(in) :: value, way            !< -1: the lower end, 1: the upper one
+      character(len=:), allocatable :: text
+      real(wp) :: shown
+
+      text = to_text(value, 8)
+      read (text, *) shown
+      if (way*(value - shown) > 0.0_wp) text = to_text(value + way*1.0e-7_wp*abs(value), 8)
+   end function outward
 
    !> What a user wrote as a string of gnuplot, or of the shell.
    pure function quoted(text, quote) result(string)
