@@ -450,16 +450,19 @@ contains
       integer(ip), intent(in) :: i
       real(wp), intent(inout) :: stress(size(STRESS_NAMES))
       integer(ip), intent(inout) :: zones
+      real(wp) :: thermal
       integer(ip) :: e
 
       e = field%element(i)
       if (e == 0) return
+      thermal = 0.0_wp
+      if (allocated(fem%heating)) thermal = fem%sections(fem%section_of(e))%expansion*fem%heating(field%node(i))
       zones = zones + 1
       stress(1:2) = stress(1:2) + field%stress(1:2, i)
       if (allocated(field%hoop)) then                ! all elements are axisymmetric, or none
          stress(3) = stress(3) + field%hoop(i)
       else
-         stress(3) = stress(3) + stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), field%stress(:, i))
+         stress(3) = stress(3) + stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), field%stress(:, i), thermal)
       end if
       stress(4) = stress(4) + field%stress(3, i)
    end subroutine add_zone

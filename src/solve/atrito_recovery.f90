@@ -14,12 +14,14 @@ module atrito_recovery
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STRESS_NAMES, stress_33, von_mises
-   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses, &
+                                  point_thermal_strains
    use atrito_points, only: contact_points_t
    use atrito_range, only: unit_of
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
    use atrito_threads, only: is_shared, chunk_count, find_chunk
+   use atrito_thermal_loads, only: largest_thermal_strain
    implicit none (type, external)
    private
    public :: contact_forces, add_bilateral_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
@@ -295,17 +297,20 @@ contains
       type(point_geometry_t), intent(inout) :: geometry
       integer(ip), intent(inout) :: row              !< the last one filled
       type(results_t), intent(inout) :: results
-      real(wp) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS), s33
+      real(wp) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS), thermal(MOST_POINTS), s33
       integer(ip) :: k
 
       call fetch_geometry(fem, e, rule, geometry)
       call point_stresses(fem, e, results%u, rule, geometry, s, hoop)
+      thermal = 0.0_wp
+      if (allocated(fem%heating)) call point_thermal_strains(fem, e, rule, geometry, thermal)
       do k = 1, rule%n
          row = row + 1
          if (geometry%has_hoop) then
             s33 = hoop(k)
          else
-            s33 = stress_33(fem%sections(geometry%section), geometry%state, [s(k, 1), s(k, 2), s(k, 3)])
+            s33 = stress_33(fem%sections(geometry%section), geometry%state, [s(k, 1), s(k, 2), s(k, 3)], &
+                            thermal(k))
          end if
          results%stress_element(row) = e
          results%stress_point(row) = k
@@ -331,7 +336,7 @@ contains
       call nodal_stresses(fem, field, results%nodal_stress)
       call measure_error(fem, results%u, field, energies, unit_of(results%u))   ! the error is relative
       results%error_estimate = relative_error(energies)
-      strain_bound = energies%strain
+      strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! without a strain across the plane 1 + mu of it
    end subroutine estimate_error
 
 end module atrito_recovery
