@@ -112,14 +112,12 @@ contains
    end function compliance_matrix
 
    !> The stress across the plane that follows from those in it; where there is a hoop strain it does not.
-   pure real(wp) function stress_33(section, state, s, thermal)
+   pure real(wp) function stress_33(section, state, s)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state
       real(wp), intent(in) :: s(COMPONENTS)
-      real(wp), intent(in), optional :: thermal !< strain of the temperature, along all axes; default 0
 
       stress_33 = section%poisson*(s(1) + s(2))
-      if (present(thermal)) stress_33 = stress_33 - section%young*thermal
       if (STATES(state)%is_thin) stress_33 = 0.0_wp
    end function stress_33
 

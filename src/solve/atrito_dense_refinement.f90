@@ -18,7 +18,7 @@ module atrito_dense_refinement
    use atrito_outer_loop, only: continue_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
    use atrito_reporter, only: report_progress
-   use atrito_scene_data, only: scene_data_t, all_forces
+   use atrito_scene_data, only: scene_data_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -89,7 +89,6 @@ contains
       type(scene_data_t), intent(in) :: data
       type(state_t), intent(inout) :: now
       real(wp), intent(out) :: share
-      real(wp), allocatable :: f(:, :)
       real(wp) :: energy, largest
       integer(ip) :: node, dof
 
@@ -97,14 +96,17 @@ contains
       now%residual = 0.0_wp
       energy = 0.0_wp
       call internal_forces(data%fem, now%u, now%residual, energy)
-      f = all_forces(data)
       share = 0.0_wp
       largest = 0.0_wp
+      if (allocated(data%thermal)) then
+         now%residual = now%residual - data%thermal
+         largest = maxval(abs(data%thermal))
+      end if
       do node = 1, size(now%u, 2, kind=ip)
          do dof = 1, 2
             associate (r => now%residual(dof, node), contact => now%contact(dof, node))
-               r = f(dof, node) - contact - r
-               largest = max(largest, abs(f(dof, node)), abs(contact))
+               r = data%f(dof, node) - contact - r
+               largest = max(largest, abs(data%f(dof, node)), abs(contact))
                if (data%held(dof, node)) then
                   largest = max(largest, abs(r))
                   r = 0.0_wp

@@ -13,7 +13,7 @@ module atrito_recovery
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STRESS_NAMES, stress_33, von_mises
+   use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES, stress_33, von_mises
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses, &
                                   point_thermal_strains
    use atrito_points, only: contact_points_t
@@ -252,6 +252,7 @@ contains
          call add_stresses(fem, chunk, wanted, rules, rows(chunk), results)
       end do
       !$omp end parallel do
+      if (allocated(fem%heating)) call add_thermal_33(fem, rules, results)
    end subroutine recover_stress
 
    pure subroutine count_rows(fem, wanted, rows)
@@ -289,6 +290,30 @@ contains
       end do
    end subroutine add_stresses
 
+   !> Across a plane that may not strain the temperature has a stress of its own, -E alpha (T - T_initial).
+   pure subroutine add_thermal_33(fem, rules, results)
+      type(fem_t), intent(in) :: fem
+      type(point_rule_t), intent(in) :: rules(MOST_NODES, 2)
+      type(results_t), intent(inout) :: results
+      type(point_geometry_t) :: geometry
+      real(wp) :: strain(MOST_POINTS)
+      integer(ip) :: row, e, k
+
+      do row = 1, size(results%stress_element, kind=ip)
+         e = results%stress_element(row)
+         if (STATES(fem%mesh%state(e))%is_thin .or. STATES(fem%mesh%state(e))%has_hoop) cycle
+         associate (rule => rules(fem%mesh%shape(e), merge(2, 1, IS_REDUCED(fem%mesh%state(e)))), s => results%stress(:, row))
+            k = results%stress_point(row)
+            if (k == 1) then
+               call fetch_geometry(fem, e, rule, geometry)
+               call point_thermal_strains(fem, e, rule, geometry, strain)
+            end if
+            s(3) = s(3) - fem%sections(fem%section_of(e))%young*strain(k)
+            s(5) = von_mises([s(1), s(2), s(4)], s(3))
+         end associate
+      end do
+   end subroutine add_thermal_33
+
    !> The rows of one element.
    pure subroutine add_element(fem, e, rule, geometry, row, results)
       type(fem_t), intent(in) :: fem
@@ -297,20 +322,17 @@ contains
       type(point_geometry_t), intent(inout) :: geometry
       integer(ip), intent(inout) :: row              !< the last one filled
       type(results_t), intent(inout) :: results
-      real(wp) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS), thermal(MOST_POINTS), s33
+      real(wp) :: s(MOST_POINTS, COMPONENTS), hoop(MOST_POINTS), s33
       integer(ip) :: k
 
       call fetch_geometry(fem, e, rule, geometry)
       call point_stresses(fem, e, results%u, rule, geometry, s, hoop)
-      thermal = 0.0_wp
-      if (allocated(fem%heating)) call point_thermal_strains(fem, e, rule, geometry, thermal)
       do k = 1, rule%n
          row = row + 1
          if (geometry%has_hoop) then
             s33 = hoop(k)
          else
-            s33 = stress_33(fem%sections(geometry%section), geometry%state, [s(k, 1), s(k, 2), s(k, 3)], &
-                            thermal(k))
+            s33 = stress_33(fem%sections(geometry%section), geometry%state, [s(k, 1), s(k, 2), s(k, 3)])
          end if
          results%stress_element(row) = e
          results%stress_point(row) = k

@@ -23,7 +23,7 @@ module atrito_scene_data
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, assemble, free_load, all_forces, check_known_points
+   public :: scene_data_t, asked_t, prepare, assemble, free_load, check_known_points
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
@@ -160,22 +160,15 @@ contains
                       //' joins it to are all prescribed, and contradict it by '//to_text(data%line%known_overlap(j))//' [L]')
    end subroutine check_known_row
 
-   !> Applied forces and those of the temperatures, which are in balance in every element: nothing moves a body for them.
-   function all_forces(data) result(f)
-      type(scene_data_t), intent(in) :: data
-      real(wp), allocatable :: f(:, :)
-
-      f = data%f
-      if (allocated(data%thermal)) f = f + data%thermal
-   end function all_forces
-
-   !> The same less the forces of the prescribed displacements.
+   !> Applied forces and those of the temperatures less those of the prescribed displacements. The temperatures' are in balance in
+   !> every element, so they have no part in what moves a body: whoever sums forces takes data%f alone.
    function free_load(data) result(load)
       type(scene_data_t), intent(in) :: data
       real(wp), allocatable :: load(:, :), force(:, :)
       real(wp) :: energy
 
-      load = all_forces(data)
+      load = data%f
+      if (allocated(data%thermal)) load = load + data%thermal
       if (all(data%value == 0.0_wp)) return
       allocate (force, mold=load)
       force = 0.0_wp

@@ -25,7 +25,7 @@ module atrito_solve
                               estimate_error
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: balance_t, results_t, scene_t, pair_scene_t
-   use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, all_forces, check_known_points
+   use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
    use atrito_shared_points, only: note_shared_points
@@ -386,8 +386,8 @@ contains
       contact = contact_forces(data%fem, data%rows, data%line, solution)
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
-      call check_equilibrium(data%fem, results%u, all_forces(data), contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution))
+      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
+                             sizes_at_points(data, solution), data%thermal)
       imbalance = check_balance(data%fem, data%f, contact, data%rows)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       call add_rigid_motions(data%fem, solution%state%a, results%u)
