@@ -33,6 +33,13 @@ below 'refined, free: stresses' "$(largest free-refined/stress.tab s11 s22 s33 s
 run 0 free.inp free-back --set T0=120 --set T1=20 --digits 17 --quiet
 same_tables 'cooling is heating backwards' free-CAX9/nodes.tab free-back/nodes.tab 1e-12 u1=-1 u2=-1
 
+# strains without stress are large, too
+sed 's/TYPE=CPE4/TYPE=CPS4/' "$here/plate.inp" >large.inp
+run 0 large.inp large --set T1=6000 --digits 17 --quiet
+says 'strains of the temperature are large' large/large.lst 'W-LARGE'
+run 0 large.inp small --set T1=4900 --digits 17 --quiet
+grep -q W-LARGE small/large.lst && complain 'a strain of 0.0488 is large'
+
 # Held at both ends: s11 = -E alpha rise/(1 - mu^2) (1 + mu) in plane strain, -E alpha rise in plane stress; s33 follows. The energy
 # is s11^2/2E of the plane stress; in plane strain (s11^2 + s33^2 - 2 mu s11 s33)/2E; volume 2 x 1 x 0.5.
 for type in CPE3 CPE4 CPE6 CPE8 CPE9 CPE4R CPE8R; do
