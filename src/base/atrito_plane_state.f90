@@ -13,7 +13,7 @@ module atrito_plane_state
    public :: plane_state_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, PLANE_STRESS_REDUCED, &
              AXISYMMETRIC_REDUCED
    public :: IS_REDUCED, FULL_STATE, COMPONENTS, STRESS_NAMES
-   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, von_mises, depth_at
+   public :: elastic_t, elasticity_matrix, compliance_matrix, stress_33, thermal_modulus, von_mises, depth_at
    public :: FORMULATION_STANDARD, FORMULATION_BBAR
 
    type :: plane_state_t
@@ -56,6 +56,7 @@ module atrito_plane_state
       real(wp) :: thickness = 1.0_wp       !< [L]
       real(wp) :: density = 0.0_wp
       integer(ip) :: formulation = FORMULATION_STANDARD
+      real(wp) :: expansion = 0.0_wp       !< alpha, strain by a rise of the temperature [1/temperature]
    end type elastic_t
 
 contains
@@ -122,6 +123,15 @@ contains
       stress_33 = section%poisson*(s(1) + s(2))
       if (STATES(state)%is_thin) stress_33 = 0.0_wp
    end function stress_33
+
+   !> What a thermal strain that cannot happen makes of normal stresses, s11 = s22 = -modulus*strain [F/L^2]: the sum of a row of the
+   !> elasticity of three dimensions, or of the plane where no stress goes across it.
+   pure real(wp) function thermal_modulus(section, state)
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state     !< place in STATES
+
+      thermal_modulus = section%young/(1 - merge(1, 2, STATES(state)%is_thin)*section%poisson)
+   end function thermal_modulus
 
    !> Von Mises' equivalent stress.
    pure real(wp) function von_mises(s, s33)

@@ -16,6 +16,7 @@ contains
       call define_interaction_keywords(k)
       call define_contact_keywords(k)
       call define_boundary(k)
+      call define_initial_conditions(k)
       call define_linear_constraints(k)
       call define_tie(k)
       call define_springs(k)
@@ -24,7 +25,7 @@ contains
    subroutine define_material_keywords(k)
       type(keyword_list_t), intent(inout) :: k
 
-      call define_keyword(k, 'MATERIAL', LEVEL_MODEL, 'begins a material', doc='*ELASTIC and *DENSITY follow.')
+      call define_keyword(k, 'MATERIAL', LEVEL_MODEL, 'begins a material', doc='*ELASTIC, *DENSITY and *EXPANSION follow.')
       call add_option(k, 'NAME!', KIND_NAME, 'name of the material')
       call add_example(k, '*MATERIAL, NAME=concrete|*ELASTIC|25e6, 0.2')
 
@@ -39,6 +40,14 @@ contains
       call add_form(k, 'the constant', 1, 1)
       call add_item(k, 'density', KIND_REAL, 'mass per volume, >= 0', dimension='F T^2/L^4')
       call add_example(k, '*DENSITY|2.5')
+
+      call define_keyword(k, 'EXPANSION', LEVEL_MODEL, 'thermal expansion, the same along all axes', parent='MATERIAL', &
+                          doc='Strains are alpha times the rise of the temperature, from *INITIAL CONDITIONS to *TEMPERATURE.')
+      call add_option(k, 'TYPE', KIND_WORD, 'symmetry of the expansion', default='ISO', choices='ISO -ORTHO -ANISO')
+      call add_option(k, '(ZERO)', KIND_REAL, 'reference temperature: alpha is constant, only differences count')
+      call add_form(k, 'the constant', 1, 1)
+      call add_item(k, 'alpha', KIND_REAL, 'strain a unit of temperature', dimension='1/temperature')
+      call add_example(k, '*EXPANSION|1.2e-5')
 
       call define_keyword(k, 'SOLID SECTION', LEVEL_MODEL, 'gives elements a material and a thickness', &
                           doc='Every element has exactly one section. BBAR gives CPE4 and CAX4 elements one dilatation, the '// &
@@ -180,6 +189,18 @@ contains
       call add_example(k, '*BOUNDARY|plate-RIGHT, 1|support-BOTTOM, 1, 2|*BOUNDARY, FUNCTION|pillar-TOP, 2, 2, '// &
                        '-(0.10 - 0.001*x)')
    end subroutine define_boundary
+
+   subroutine define_initial_conditions(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'INITIAL CONDITIONS', LEVEL_MODEL, 'temperatures at which there are no thermal strains', &
+                          doc='Nodes that no line names have 0.')
+      call add_option(k, 'TYPE!', KIND_WORD, 'what the lines give', choices='TEMPERATURE')
+      call add_form(k, 'one temperature a line', 1, ANY_NUMBER)
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
+      call add_item(k, 'value', KIND_REAL, 'temperature', dimension='temperature')
+      call add_example(k, '*INITIAL CONDITIONS, TYPE=TEMPERATURE|all, 20.')
+   end subroutine define_initial_conditions
 
    subroutine define_linear_constraints(k)
       type(keyword_list_t), intent(inout) :: k

@@ -101,6 +101,16 @@ contains
       call add_item(k, '[t2]', KIND_REAL, 'direction of TRVEC; of HP the level of the magnitude [L]', dimension='-')
       call add_item(k, '[t3]', KIND_REAL, 'direction of TRVEC, must be 0', dimension='-')
       call add_example(k, '*DSLOAD|plate-TOP, P, 10.|plate-TOP, TRVEC, 2., 1., 0.|plate-LEFT, HP, 9.81, 1., 0.')
+
+      call define_keyword(k, 'TEMPERATURE', LEVEL_STEP, 'temperatures of nodes, which expand materials with *EXPANSION', &
+                          doc='Nodes that no line names keep the temperature of *INITIAL CONDITIONS, or 0. The shape functions '// &
+                          'of each element interpolate the temperatures of its nodes, those in the middle of its sides '// &
+                          'included; --refine does not change that field.')
+      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_form(k, 'one temperature a line', 1, ANY_NUMBER)
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
+      call add_item(k, 'value', KIND_REAL, 'temperature', dimension='temperature')
+      call add_example(k, '*TEMPERATURE|all, 120.')
    end subroutine define_loads
 
    subroutine define_controls(k)

@@ -28,6 +28,7 @@ module atrito_assembly
       type(elastic_t), allocatable :: sections(:)
       integer(ip), allocatable :: section_of(:)    !< (n_elements)
       real(wp) :: grain = 0.0_wp                   !< [L] what the last printed digits may make of equal elements; 0: nothing
+      real(wp), allocatable :: heating(:)          !< (n_nodes) rise of the temperature; not allocated where nothing expands
    end type fem_t
 
    !> All that a stiffness depends on.

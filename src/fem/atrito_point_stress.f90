@@ -6,14 +6,14 @@ module atrito_point_stress
    use atrito_element, only: mean_gradients
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elasticity_matrix, IS_REDUCED, COMPONENTS, STATES
-   use atrito_reduced_integration, only: spread_gradients
+   use atrito_plane_state, only: elasticity_matrix, thermal_modulus, IS_REDUCED, COMPONENTS, STATES, depth_at
+   use atrito_reduced_integration, only: spread_gradients, spread_values
    use atrito_reduced_rings, only: spread_ring_strains
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
    public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, make_point_rule, fetch_geometry, point_stresses
-   public :: hoop_strain
+   public :: hoop_strain, point_thermal_strains
 
    integer(ip), parameter :: MOST_POINTS = 9
 
@@ -173,16 +173,82 @@ contains
       end select
       if (geometry%has_hoop) then
          call axisymmetric_stresses(rule, geometry, way, u(1, first), s, hoop)
-         return
+      else
+         if (geometry%averages) then
+            dilatation = sum(geometry%mean*way(:, :MOST_CORNERS))
+            do k = 1, rule%n
+               s(k, 1:2) = s(k, 1:2) + 0.5_wp*(dilatation - (s(k, 1) + s(k, 2)))
+            end do
+         end if
+         call strains_to_stresses(rule%n, geometry%d, s)
       end if
-      if (geometry%averages) then
-         dilatation = sum(geometry%mean*way(:, :MOST_CORNERS))
-         do k = 1, rule%n
-            s(k, 1:2) = s(k, 1:2) + 0.5_wp*(dilatation - (s(k, 1) + s(k, 2)))
-         end do
-      end if
-      call strains_to_stresses(rule%n, geometry%d, s)
+      if (allocated(fem%heating)) call subtract_thermal_stress(fem, e, rule, geometry, s, hoop)
    end subroutine point_stresses
+
+   !> sigma = D (e - e_th): what the strains of the temperature take from the stresses.
+   pure subroutine subtract_thermal_stress(fem, e, rule, geometry, s, hoop)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry
+      real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS)
+      real(wp), intent(inout), optional :: hoop(MOST_POINTS)
+      real(wp) :: strain(MOST_POINTS), modulus
+
+      if (.not. abs(fem%sections(geometry%section)%expansion) > 0.0_wp) return
+      call point_thermal_strains(fem, e, rule, geometry, strain)
+      modulus = thermal_modulus(fem%sections(geometry%section), geometry%state)
+      s(:rule%n, 1) = s(:rule%n, 1) - modulus*strain(:rule%n)
+      s(:rule%n, 2) = s(:rule%n, 2) - modulus*strain(:rule%n)
+      if (present(hoop) .and. geometry%has_hoop) hoop(:rule%n) = hoop(:rule%n) - modulus*strain(:rule%n)
+   end subroutine subtract_thermal_stress
+
+   !> The strains of the temperature at the points, alpha times its rise, which the element's shape functions interpolate: as the
+   !> stiffness knows its strains, with reduced integration from its points alone, with the mean dilatation in the mean.
+   pure subroutine point_thermal_strains(fem, e, rule, geometry, strain)
+      type(fem_t), intent(in) :: fem             !< with temperatures
+      integer(ip), intent(in) :: e
+      type(point_rule_t), intent(in) :: rule
+      type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
+      real(wp), intent(out) :: strain(MOST_POINTS) !< the first rule%n are set
+      real(wp) :: value(MOST_POINTS, MOST_NODES), rise(MOST_NODES)
+      integer(ip) :: n
+
+      n = geometry%shape
+      rise(:n) = fem%heating(fem%mesh%nodes(:n, e))
+      strain = 0.0_wp
+      if (geometry%averages) then
+         value(1, :n) = mean_values(geometry)
+         strain(:rule%n) = dot_product(value(1, :n), rise(:n))
+      else if (IS_REDUCED(geometry%state)) then
+         call spread_values(rule%n, n, value)
+         strain(:rule%n) = matmul(value(:rule%n, :n), rise(:n))
+      else
+         strain(:rule%n) = matmul(rule%value(:rule%n, :n), rise(:n))
+      end if
+      strain(:rule%n) = fem%sections(geometry%section)%expansion*strain(:rule%n)
+   end subroutine point_thermal_strains
+
+   !> Means over the volume of an element of its shape functions, by the points of its stiffness.
+   pure function mean_values(geometry) result(mean)
+      type(point_geometry_t), intent(in) :: geometry
+      real(wp) :: mean(geometry%shape)
+      real(wp) :: xi(2), weight, j(2, 2), n(geometry%shape), volume
+      integer(ip) :: k
+
+      mean = 0.0_wp
+      volume = 0.0_wp
+      do k = 1, SHAPES(geometry%shape)%n_points
+         call rule_point(geometry%shape, SHAPES(geometry%shape)%n_points, k, xi, weight)
+         j = matmul(geometry%x(:, :geometry%shape), shape_gradients(geometry%shape, xi))
+         n = shape_values(geometry%shape, xi)
+         weight = weight*(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)) &
+                  *depth_at(geometry%state, 1.0_wp, geometry%radius + dot_product(n, geometry%x(1, :geometry%shape)))
+         mean = mean + weight*n
+         volume = volume + weight
+      end do
+      mean = mean/volume
+   end function mean_values
 
    !> From the strains in the plane to the stresses of an axisymmetric element.
    pure subroutine axisymmetric_stresses(rule, geometry, way, u, s, hoop)

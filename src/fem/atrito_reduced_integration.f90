@@ -12,10 +12,10 @@ module atrito_reduced_integration
    use atrito_element_table, only: BEST_OF, MOST_NODES
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: elastic_t, compliance_matrix, COMPONENTS
-   use atrito_shape_functions, only: rule_point, shape_gradients, Q1_XI_SLOPES, Q1_ETA_SLOPES
+   use atrito_shape_functions, only: rule_point, shape_values, shape_gradients, Q1_XI_SLOPES, Q1_ETA_SLOPES
    implicit none (type, external)
    private
-   public :: hourglass_stiffness, spread_gradients, share_of_point, hourglass_amplitude, element_axes
+   public :: hourglass_stiffness, spread_gradients, spread_values, share_of_point, hourglass_amplitude, element_axes
 
    !> xi eta at four nodes, and its derivatives at 2 x 2 points in the order of Q1_XI_SLOPES.
    real(wp), parameter :: HOURGLASS(4) = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
@@ -119,6 +119,24 @@ contains
          end do
       end do
    end subroutine spread_gradients
+
+   !> The same of the shape functions: what strains of the temperature are compared with strains of displacements.
+   pure subroutine spread_values(n, n_nodes, value)
+      integer(ip), intent(in) :: n                 !< points: 1, 4 or 9
+      integer(ip), intent(in) :: n_nodes
+      real(wp), intent(inout) :: value(:, :)       !< (points, nodes); the first n and n_nodes are set
+      real(wp) :: own(n_nodes), xi(2), weight
+      integer(ip) :: i, k
+
+      value(:n, :n_nodes) = 0.0_wp
+      do k = 1, BEST_OF(n_nodes)
+         call rule_point(4_ip, BEST_OF(n_nodes), k, xi, weight)
+         own = shape_values(n_nodes, xi)
+         do i = 1, n
+            value(i, :n_nodes) = value(i, :n_nodes) + share_of_point(BEST_OF(n_nodes), k, n, i)*own
+         end do
+      end do
+   end subroutine spread_values
 
    !> The value at point i of n of the function that is 1 at point k of m and 0 at the others.
    pure real(wp) function share_of_point(m, k, n, i) result(share)

@@ -12,7 +12,7 @@ module atrito_stress_recovery
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
-   use atrito_plane_state, only: stress_33, von_mises, IS_REDUCED, COMPONENTS, STRESS_NAMES
+   use atrito_plane_state, only: stress_33, von_mises, IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
@@ -465,8 +465,21 @@ contains
          stress(3) = stress(3) + field%hoop(i)
       else
          stress(3) = stress(3) + stress_33(fem%sections(fem%section_of(e)), fem%mesh%state(e), field%stress(:, i))
+         if (allocated(fem%heating)) stress(3) = stress(3) + thermal_stress_33(fem, e, field%node(i))
       end if
       stress(4) = stress(4) + field%stress(3, i)
    end subroutine add_zone
+
+   !> What the temperature of a node adds to the stress across the plane [F/L^2].
+   pure real(wp) function thermal_stress_33(fem, e, node) result(s33)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e, node
+
+      s33 = 0.0_wp
+      if (STATES(fem%mesh%state(e))%is_thin) return
+      associate (section => fem%sections(fem%section_of(e)))
+         s33 = -section%young*section%expansion*fem%heating(node)
+      end associate
+   end function thermal_stress_33
 
 end module atrito_stress_recovery

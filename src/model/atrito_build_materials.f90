@@ -1,4 +1,4 @@
-!> *MATERIAL with *ELASTIC and *DENSITY, and *SOLID SECTION.
+!> *MATERIAL with *ELASTIC, *DENSITY and *EXPANSION, and *SOLID SECTION.
 module atrito_build_materials
    use atrito_deck, only: deck_t, card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
@@ -24,7 +24,7 @@ contains
    subroutine build_materials(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i, current, n_sections
-      logical :: is_open                               ! nothing but *ELASTIC and *DENSITY since the last *MATERIAL
+      logical :: is_open                               ! nothing but what belongs to it since the last *MATERIAL
 
       i = count_cards(context%deck, 'MATERIAL')
       allocate (context%model%materials(i), context%model%sections(count_cards(context%deck, 'SOLID SECTION')))
@@ -41,6 +41,8 @@ contains
             if (current > 0) call read_elastic_card(context%deck%cards(i), context%model%materials(current), context, current)
          case ('DENSITY')
             if (current > 0) call read_density_card(context%deck, context%deck%cards(i), context%model%materials(current))
+         case ('EXPANSION')
+            if (current > 0) call read_expansion_card(context%deck, context%deck%cards(i), context%model%materials(current))
          case ('')
             ! a misspelt *ELASTIC: the material is not blamed for missing it
             if (is_open .and. has_errors()) context%elastic_invalid(current) = .true.
@@ -123,6 +125,22 @@ contains
                                         'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
       end associate
    end subroutine read_density_card
+
+   subroutine read_expansion_card(deck, card, material)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(material_t), intent(inout) :: material
+      character(len=*), parameter :: WHAT = 'coefficient of expansion alpha, a real [1/temperature]'
+      logical :: ok
+
+      if (material%has_expansion .and. card%ok) call report_error(deck, card%place, 'E-TWICE', 'material '//material%name// &
+                                       ' has two *EXPANSION', expected='one *EXPANSION a material', keyword='EXPANSION')
+      material%has_expansion = .true.
+      if (card%n_lines == 0) return
+      associate (line => deck%lines(card%first_line))
+         if (line%ok) call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%expansion, ok, keyword='EXPANSION')
+      end associate
+   end subroutine read_expansion_card
 
    !> *SOLID SECTION.
    subroutine read_section_card(card, context, n_sections)

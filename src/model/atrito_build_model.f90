@@ -15,6 +15,7 @@ module atrito_build_model
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
+   use atrito_build_temperatures, only: read_temperatures, check_temperatures
    use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
@@ -107,10 +108,12 @@ contains
       call build_elements(context)
       call trim_mesh(model%mesh)
       context%around = list_node_elements(model%mesh)
+      call read_temperatures(context)
       if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
       if (state > 0) model%mesh%state = state
       call build_surfaces(context)
       call build_materials(context)
+      call check_temperatures(context)
       call build_contact(context)
       call read_clearances(context, clearances)
       call read_contact_rules(context, rules)

@@ -33,6 +33,8 @@ module atrito_model
       real(wp) :: young = 0.0_wp               !< E [F/L^2], > 0
       real(wp) :: poisson = 0.0_wp             !< mu [-]
       real(wp) :: density = 0.0_wp             !< mass per volume
+      real(wp) :: expansion = 0.0_wp           !< alpha [1/temperature]
+      logical :: has_expansion = .false.       !< it is given
    end type material_t
 
    type :: section_t
@@ -158,6 +160,7 @@ module atrito_model
       type(nodal_values_t) :: prescribed            !< each dof once
       type(nodal_values_t) :: node_loads            !< several on one dof add up
       type(element_load_t) :: element_loads
+      real(wp), allocatable :: heating(:)           !< (n_nodes) rise of the temperature; not allocated where none expands anything
       type(controls_t) :: controls
       type(requests_t) :: requests
    end type model_t

@@ -123,6 +123,7 @@ contains
                           right(number(material%poisson, DIGITS), 12)//right(number(material%density, DIGITS), 16))
          end associate
       end do
+      if (any(model%materials%has_expansion)) call describe_expansions(page, model)
       call add_blank(page)
       call add_line(page, '   '//left('section of elements', 24)//right('elements', 16)//right('thickness', 12)//'    '// &
                     left('material', 24)//'formulation')
@@ -134,6 +135,20 @@ contains
          end associate
       end do
    end subroutine describe_materials
+
+   subroutine describe_expansions(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip) :: i
+
+      call add_blank(page)
+      do i = 1, size(model%materials, kind=ip)
+         associate (material => model%materials(i))
+            if (material%has_expansion) call add_entry(page, material%name//', expansion', &
+                                                       number(material%expansion, DIGITS)//' [1/temperature]')
+         end associate
+      end do
+   end subroutine describe_expansions
 
    subroutine describe_supports(page, model)
       type(page_t), intent(inout) :: page
@@ -175,6 +190,11 @@ contains
       call add_force(page, 'in elements', body)
       call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
                                           concentrated%moment + pressure%moment + body%moment))
+      if (.not. allocated(model%heating)) return
+      call add_blank(page)
+      call add_entry(page, 'rise of the temperature', number(minval(model%heating), DIGITS)//' to '// &
+                     number(maxval(model%heating), DIGITS)//' at the nodes, '// &
+                     to_text(count(abs(model%heating) > 0.0_wp, kind=ip))//' not zero')
    end subroutine describe_loads
 
    subroutine add_force(page, name, force)

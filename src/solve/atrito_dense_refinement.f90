@@ -98,6 +98,10 @@ contains
       call internal_forces(data%fem, now%u, now%residual, energy)
       share = 0.0_wp
       largest = 0.0_wp
+      if (allocated(data%thermal)) then
+         now%residual = now%residual - data%thermal
+         largest = maxval(abs(data%thermal))
+      end if
       do node = 1, size(now%u, 2, kind=ip)
          do dof = 1, 2
             associate (r => now%residual(dof, node), contact => now%contact(dof, node))

@@ -13,13 +13,15 @@ module atrito_recovery
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STRESS_NAMES, stress_33, von_mises
-   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
+   use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES, stress_33, von_mises
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses, &
+                                  point_thermal_strains
    use atrito_points, only: contact_points_t
    use atrito_range, only: unit_of
    use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_stress_recovery, only: stress_field_t, recover_stress_field, nodal_stresses
    use atrito_threads, only: is_shared, chunk_count, find_chunk
+   use atrito_thermal_loads, only: largest_thermal_strain
    implicit none (type, external)
    private
    public :: contact_forces, add_bilateral_forces, elastic_displacements, add_rigid_motions, recover_contact, recover_stress, &
@@ -250,6 +252,7 @@ contains
          call add_stresses(fem, chunk, wanted, rules, rows(chunk), results)
       end do
       !$omp end parallel do
+      if (allocated(fem%heating)) call add_thermal_33(fem, rules, results)
    end subroutine recover_stress
 
    pure subroutine count_rows(fem, wanted, rows)
@@ -286,6 +289,30 @@ contains
                                          geometry, row, results)
       end do
    end subroutine add_stresses
+
+   !> Across a plane that may not strain the temperature has a stress of its own, -E alpha (T - T_initial).
+   pure subroutine add_thermal_33(fem, rules, results)
+      type(fem_t), intent(in) :: fem
+      type(point_rule_t), intent(in) :: rules(MOST_NODES, 2)
+      type(results_t), intent(inout) :: results
+      type(point_geometry_t) :: geometry
+      real(wp) :: strain(MOST_POINTS)
+      integer(ip) :: row, e, k
+
+      do row = 1, size(results%stress_element, kind=ip)
+         e = results%stress_element(row)
+         if (STATES(fem%mesh%state(e))%is_thin .or. STATES(fem%mesh%state(e))%has_hoop) cycle
+         associate (rule => rules(fem%mesh%shape(e), merge(2, 1, IS_REDUCED(fem%mesh%state(e)))), s => results%stress(:, row))
+            k = results%stress_point(row)
+            if (k == 1) then
+               call fetch_geometry(fem, e, rule, geometry)
+               call point_thermal_strains(fem, e, rule, geometry, strain)
+            end if
+            s(3) = s(3) - fem%sections(fem%section_of(e))%young*strain(k)
+            s(5) = von_mises([s(1), s(2), s(4)], s(3))
+         end associate
+      end do
+   end subroutine add_thermal_33
 
    !> The rows of one element.
    pure subroutine add_element(fem, e, rule, geometry, row, results)
@@ -331,7 +358,7 @@ contains
       call nodal_stresses(fem, field, results%nodal_stress)
       call measure_error(fem, results%u, field, energies, unit_of(results%u))   ! the error is relative
       results%error_estimate = relative_error(energies)
-      strain_bound = energies%strain
+      strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! without a strain across the plane 1 + mu of it
    end subroutine estimate_error
 
 end module atrito_recovery

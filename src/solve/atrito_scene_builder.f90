@@ -34,9 +34,10 @@ contains
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i), material => model%materials(model%sections(i)%material))
             fem%sections(i) = elastic_t(material%young, material%poisson, section%thickness, material%density, &
-                                        section%formulation)
+                                        section%formulation, material%expansion)
          end associate
       end do
+      if (allocated(model%heating)) fem%heating = model%heating
       call list_prescribed(model, held, value)
       if (allocated(model%points)) then
          points = model%points

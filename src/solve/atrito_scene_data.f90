@@ -20,6 +20,7 @@ module atrito_scene_data
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_strings, only: to_text
+   use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
    public :: scene_data_t, asked_t, prepare, assemble, free_load, check_known_points
@@ -34,6 +35,7 @@ module atrito_scene_data
       type(contact_rows_t) :: rows
       type(contact_line_t) :: line
       real(wp), allocatable :: f(:, :)                      !< (2, n_nodes) applied forces [F]
+      real(wp), allocatable :: thermal(:, :)                !< (2, n_nodes) of temperatures [F]; not allocated: none
       integer :: contact_form = CONTACT_DENSE
       character(len=:), allocatable :: reason               !< why this form
       integer :: solver_kind = 0                           !< that the bodies are numbered for
@@ -76,6 +78,11 @@ contains
       end if
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
       call nodal_loads(model, data%f)
+      if (allocated(data%fem%heating)) then
+         allocate (data%thermal, mold=data%f)
+         data%thermal = 0.0_wp
+         call add_thermal_loads(data%fem, data%thermal)
+      end if
    end subroutine prepare
 
    !> The form of the contact system, by the numbers of points and nodes: in the dense form the nodes that the points see are kept,
@@ -153,13 +160,15 @@ contains
                       //' joins it to are all prescribed, and contradict it by '//to_text(data%line%known_overlap(j))//' [L]')
    end subroutine check_known_row
 
-   !> Applied forces less those of the prescribed displacements.
+   !> Applied forces and those of the temperatures less those of the prescribed displacements. The temperatures' are in balance in
+   !> every element, so they have no part in what moves a body: whoever sums forces takes data%f alone.
    function free_load(data) result(load)
       type(scene_data_t), intent(in) :: data
       real(wp), allocatable :: load(:, :), force(:, :)
       real(wp) :: energy
 
       load = data%f
+      if (allocated(data%thermal)) load = load + data%thermal
       if (all(data%value == 0.0_wp)) return
       allocate (force, mold=load)
       force = 0.0_wp

@@ -33,6 +33,7 @@ module atrito_solve
    use atrito_sparse_form, only: solve_sparse_form
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
+   use atrito_thermal_loads, only: elastic_energy
    use atrito_timers, only: start_phase, stop_phase
    use atrito_verdict, only: judge_balance
    use atrito_weak_forces, only: contact_sizes_t
@@ -339,8 +340,9 @@ contains
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution))
+                             sizes_at_points(data, solution), data%thermal)
       imbalance = check_balance(data%fem, data%f, contact, data%rows)
+      results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       call add_rigid_motions(data%fem, solution%state%a, results%u)
       results%converged = solution%converged
       results%law_holds = equilibrium%holds .and. imbalance <= 1.0e-8_wp
@@ -349,7 +351,6 @@ contains
                                                      //to_text(results%equilibrium_residual, 3)//', imbalance ' &
                                                      //to_text(imbalance, 3)
       if (.not. solution%converged) results%verdict = solution%verdict
-      results%strain_energy = equilibrium%energy
       others = 0.0_wp
       results%prescribed = data%held
       if (data%rows%n_bilateral > 0) call share_out_rows(data, solution, contact, results, others)
