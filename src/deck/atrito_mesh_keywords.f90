@@ -123,7 +123,8 @@ contains
                           doc='Corners counter-clockwise, then mid-sides (1-2, 2-3, 3-4, 4-1), then the centre. CPE is plane '// &
                           'strain, CPS plane stress, CAX axisymmetric (x the radius >= 0, y the axis; forces are of the full '// &
                           'circle); 4 nodes are bilinear, 9 biquadratic, '// &
-                          '8 the same without a centre (serendipity). Faces: S1 = nodes 1-2, S2 = 2-3, '// &
+                          '8 the same without a centre (serendipity); R: integrated at fewer points. '// &
+                          'Faces: S1 = nodes 1-2, S2 = 2-3, '// &
                           'S3 = 3-4, S4 = 4-1. Triangles: 3 nodes are linear, 6 quadratic; mid-sides 1-2, 2-3, 3-1; '// &
                           'S3 = 3-1, and no S4.')
       call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types()//' SPRING1 SPRING2')

@@ -29,7 +29,8 @@ module atrito_axisymmetric
 
 contains
 
-   !> Stiffness [F/L] of the full circle, full Gauss integration or eight nodes at 2 x 2 points; with FORMULATION=BBAR of the strains with the mean dilatation.
+   !> Stiffness [F/L] of the full circle, full Gauss integration or eight nodes at 2 x 2 points; with FORMULATION=BBAR of the
+   !> strains with the mean dilatation.
    !>
    !> D is lambda of the dilatation err + ezz + ett and 2 G of the strains. With the mean dilatation theta_m = sum m u the work is
    !> kappa V theta_m^2 and that of the deviator: lambda = -2/3 G of the dilatation itself, kappa = lambda + 2/3 G.

@@ -109,8 +109,8 @@ contains
                            *sum(weight(:n)*geometry%steepness(:n))
    end subroutine add_element
 
-   !> A bound of the strains of an axisymmetric element at the points: the root of s11^2 + s22^2 + s33^2 + 2 s12^2 over the least of 2G
-   !> and 2G + 3 lambda.
+   !> A bound of the strains of an axisymmetric element at the points: the root of s11^2 + s22^2 + s33^2 + 2 s12^2 over the
+   !> least of 2G and 2G + 3 lambda.
    pure real(wp) function largest_spatial_strain(n, d, s, hoop)
       integer(ip), intent(in) :: n
       real(wp), intent(in) :: d(COMPONENTS, COMPONENTS) !< elasticity matrix [F/L^2]

@@ -1,12 +1,12 @@
-!> Axisymmetric elements whose stiffness is integrated at fewer points: four nodes (CAX4R); eight nodes take 2 x 2 points and nothing
-!> else (atrito_axisymmetric).
+!> Axisymmetric elements whose stiffness is integrated at fewer points: four nodes (CAX4R); eight nodes take 2 x 2 points and
+!> nothing else (atrito_axisymmetric).
 !>
 !> The strains of four nodes are their means over the volume, hoop strain and all: so a uniform stress has the nodal forces that
-!> pressures have on the sides, which one point in the middle would not give, as 2 pi r N,z is not linear. Those four means feel four of
-!> the eight motions; one is free anyway. What is left are the two hourglasses and a turn of the section, whose hoop strain changes
-!> its sign within the element. They have strains of their own, as in the plane (atrito_reduced_integration), at 2 x 2 points: along
-!> the axes 1', 2' of the element, with h = xi eta, q the amplitude of the hourglass and t1 xi + t2 eta what the hoop strain u1/x1
-!> varies by in the element,
+!> pressures have on the sides, which one point in the middle would not give, as 2 pi r N,z is not linear. Those four means feel
+!> four of the eight motions; one is free anyway. What is left are the two hourglasses and a turn of the section, whose hoop
+!> strain changes its sign within the element. They have strains of their own, as in the plane (atrito_reduced_integration), at
+!> 2 x 2 points: along the axes 1', 2' of the element, with h = xi eta, q the amplitude of the hourglass and t1 xi + t2 eta what
+!> the hoop strain u1/x1 varies by in the element,
 !>
 !>     e11 = h,1 q1 - m (h,2 q2 + t1 xi),   e22 = h,2 q2 - m (h,1 q1 + t2 eta),   e33 = t1 xi + t2 eta,   2 e12 = 0,
 !>
@@ -130,8 +130,8 @@ contains
       slope = [j(2, 2)*xi(2) - j(2, 1)*xi(1), j(1, 1)*xi(1) - j(1, 2)*xi(2)]/jacobian
    end subroutine hourglass_slope
 
-   !> Gradients of the shape functions and their hoop strains at n points from those of the stiffness, as spread_gradients does in the
-   !> plane.
+   !> Gradients of the shape functions and their hoop strains at n points from those of the stiffness, as spread_gradients does in
+   !> the plane.
    pure subroutine spread_ring_strains(n_points, x, radius, state, gradient, hoop)
       integer(ip), intent(in) :: n_points          !< 1, 4 or 9
       real(wp), intent(in) :: x(:, :)              !< of the nodes, less the first [L]
