@@ -5,7 +5,7 @@ module atrito_block_joints
    use atrito_block_map, only: side_point
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES
    use atrito_coincidence, only: match_points
-   use atrito_deck, only: deck_t, card_t, token_t, token_text, line_item
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, keyword_name, line_item
    use atrito_diagnostics, only: report_error, report_warning
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, wp
@@ -31,6 +31,7 @@ contains
       type(block_t), intent(inout) :: block
       logical, intent(out) :: ok
       type(token_t), allocatable :: names(:)
+      character(len=:), allocatable :: own
       logical :: named(context%n_blocks), good
       integer(ip) :: i, b
 
@@ -46,9 +47,11 @@ contains
       do b = 1, context%n_blocks
          if (named(b)) call join_bodies(context, block, context%blocks(b)%body)
       end do
+      call option_text(context%deck, context%deck%cards(i_card), 'ELSET', own, good)
       do b = 1, context%n_blocks
-         if (.not. named(b) .and. context%blocks(b)%body == block%body) call warn_of_crack(names(1), x, context, &
-                                                                                           context%blocks(b), block%nodes)
+         if (named(b) .or. context%blocks(b)%body /= block%body) cycle
+         if (is_joint(context%deck, own, context%blocks(b)%name)) cycle
+         call warn_of_crack(names(1), x, context, context%blocks(b), block%nodes)
       end do
    end subroutine share_nodes
 
@@ -254,6 +257,34 @@ contains
                                      expected='the data line MERGE, '//token_text(context%deck, place)//', '//other%name// &
                                      ' to close it', keyword='BLOCK')
    end subroutine warn_of_crack
+
+   !> Whether the deck ties sides of two blocks, or pairs them: then what lies between them is meant.
+   pure logical function is_joint(deck, a, b)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: a, b             !< names of the blocks
+      character(len=:), allocatable :: keyword, slave, master
+      integer(ip) :: i, k
+
+      is_joint = .false.
+      do i = 1, deck%n_cards
+         keyword = keyword_name(deck%cards(i))
+         if (keyword /= 'TIE' .and. keyword /= 'CONTACT PAIR') cycle
+         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
+            slave = token_text(deck, line_item(deck, deck%lines(k), 1_ip))
+            master = token_text(deck, line_item(deck, deck%lines(k), 2_ip))
+            is_joint = (is_side(slave, a) .and. is_side(master, b)) .or. (is_side(slave, b) .and. is_side(master, a))
+            if (is_joint) return
+         end do
+      end do
+   end function is_joint
+
+   !> Whether a surface is a side of a block by its name.
+   pure logical function is_side(surface, block)
+      character(len=*), intent(in) :: surface, block
+      integer :: i
+
+      is_side = any([(same_name(surface, block//BLOCK_SIDES(i)), i=1, size(BLOCK_SIDES))])
+   end function is_side
 
    !> The nodes of a side of a block, in the direction in which its map travels it.
    pure function side_nodes(block, side) result(nodes)
