@@ -124,8 +124,8 @@ contains
       if (STATES(state)%is_thin) stress_33 = 0.0_wp
    end function stress_33
 
-   !> What a thermal strain that cannot happen makes of normal stresses, s11 = s22 = -modulus*strain [F/L^2]: the sum of a row of the
-   !> elasticity of three dimensions, or of the plane where no stress goes across it.
+   !> What a thermal strain that cannot happen makes of normal stresses, s11 = s22 = -modulus*strain [F/L^2]: the sum of a row of
+   !> the elasticity of three dimensions, or of the plane where no stress goes across it.
    pure real(wp) function thermal_modulus(section, state)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state     !< place in STATES

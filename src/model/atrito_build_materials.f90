@@ -134,7 +134,7 @@ contains
       logical :: ok
 
       if (material%has_expansion .and. card%ok) call report_error(deck, card%place, 'E-TWICE', 'material '//material%name// &
-                                       ' has two *EXPANSION', expected='one *EXPANSION a material', keyword='EXPANSION')
+                                                   ' has two *EXPANSION', expected='one *EXPANSION a material', keyword='EXPANSION')
       material%has_expansion = .true.
       if (card%n_lines == 0) return
       associate (line => deck%lines(card%first_line))
