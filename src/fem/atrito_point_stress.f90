@@ -13,7 +13,7 @@ module atrito_point_stress
    implicit none (type, external)
    private
    public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, make_point_rule, fetch_geometry, point_stresses
-   public :: hoop_strain, point_thermal_strains
+   public :: hoop_strain, point_thermal_strains, find_means, takes_means
 
    integer(ip), parameter :: MOST_POINTS = 9
 
@@ -211,14 +211,14 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry     !< of the element by the rule
       real(wp), intent(out) :: strain(MOST_POINTS) !< the first rule%n are set
-      real(wp) :: value(MOST_POINTS, MOST_NODES), rise(MOST_NODES)
+      real(wp) :: value(MOST_POINTS, MOST_NODES), rise(MOST_NODES), volume
       integer(ip) :: n
 
       n = geometry%shape
       rise(:n) = fem%heating(fem%mesh%nodes(:n, e))
       strain = 0.0_wp
-      if (geometry%averages) then
-         value(1, :n) = mean_values(geometry)
+      if (takes_means(geometry)) then
+         call find_means(geometry, value(1, :n), volume)
          strain(:rule%n) = dot_product(value(1, :n), rise(:n))
       else if (IS_REDUCED(geometry%state)) then
          call spread_values(rule%n, n, value)
@@ -229,11 +229,12 @@ contains
       strain(:rule%n) = fem%sections(geometry%section)%expansion*strain(:rule%n)
    end subroutine point_thermal_strains
 
-   !> Means over the volume of an element of its shape functions, by the points of its stiffness.
-   pure function mean_values(geometry) result(mean)
+   !> Means of the shape functions over the volume, and that of the full circle where there is one, else the area times the unit.
+   pure subroutine find_means(geometry, mean, volume)
       type(point_geometry_t), intent(in) :: geometry
-      real(wp) :: mean(geometry%shape)
-      real(wp) :: xi(2), weight, j(2, 2), n(geometry%shape), volume
+      real(wp), intent(out) :: mean(geometry%shape)
+      real(wp), intent(out) :: volume
+      real(wp) :: xi(2), weight, j(2, 2), n(geometry%shape)
       integer(ip) :: k
 
       mean = 0.0_wp
@@ -248,7 +249,14 @@ contains
          volume = volume + weight
       end do
       mean = mean/volume
-   end function mean_values
+   end subroutine find_means
+
+   !> Whether the strains are means over the volume: the mean dilatation, and all those of a reduced ring of four nodes.
+   pure logical function takes_means(geometry)
+      type(point_geometry_t), intent(in) :: geometry
+
+      takes_means = geometry%averages .or. (geometry%has_hoop .and. geometry%shape == 4 .and. IS_REDUCED(geometry%state))
+   end function takes_means
 
    !> From the strains in the plane to the stresses of an axisymmetric element.
    pure subroutine axisymmetric_stresses(rule, geometry, way, u, s, hoop)

@@ -12,7 +12,7 @@ module atrito_thermal_loads
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: thermal_modulus, IS_REDUCED, STATES, depth_at
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, &
-                                  point_thermal_strains
+                                  point_thermal_strains, find_means, takes_means
    implicit none (type, external)
    private
    public :: add_thermal_loads, elastic_energy, largest_thermal_strain
@@ -82,18 +82,15 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
       real(wp), intent(inout) :: f(:, :), blocked
-      real(wp) :: strain(MOST_POINTS), push(MOST_POINTS), fe(2, MOST_NODES), r
-      integer(ip) :: i, k, first, n
+      real(wp) :: strain(MOST_POINTS), push(MOST_POINTS), fe(2, MOST_NODES)
+      integer(ip) :: i, k, n
 
       n = geometry%shape
-      first = fem%mesh%nodes(1, e)
       call point_thermal_strains(fem, e, rule, geometry, strain)
       fe(:, :n) = 0.0_wp
       associate (section => fem%sections(geometry%section), state => geometry%state)
          do i = 1, rule%n
-            r = fem%mesh%x(1, first) + geometry%place(i, 1)
-            push(i) = rule%weight(i)*geometry%jacobian(i)*depth_at(state, section%thickness, r) &
-                      *thermal_modulus(section, state)*strain(i)
+            push(i) = volume_at(geometry, rule, i, section%thickness)*thermal_modulus(section, state)*strain(i)
             do k = 2, n
                fe(:, k) = fe(:, k) + push(i)*point_rows(geometry, i, k)
             end do
@@ -106,6 +103,22 @@ contains
          f(:, fem%mesh%nodes(k, e)) = f(:, fem%mesh%nodes(k, e)) + fe(:, k)
       end do
    end subroutine add_element
+
+   !> The volume of a point [L^3]: all of it where the strains are means.
+   pure real(wp) function volume_at(geometry, rule, i, thickness) result(volume)
+      type(point_geometry_t), intent(in) :: geometry
+      type(point_rule_t), intent(in) :: rule
+      integer(ip), intent(in) :: i                 !< point
+      real(wp), intent(in) :: thickness            !< [L]
+      real(wp) :: mean(geometry%shape)
+
+      if (rule%n == 1 .and. takes_means(geometry)) then
+         call find_means(geometry, mean, volume)
+         volume = volume*thickness
+      else
+         volume = rule%weight(i)*geometry%jacobian(i)*depth_at(geometry%state, thickness, geometry%radius + geometry%place(i, 1))
+      end if
+   end function volume_at
 
    !> What a normal strain along both axes does at a point: the gradient of a node's shape function, or its mean.
    pure function point_rows(geometry, i, k) result(rows)
@@ -134,6 +147,10 @@ contains
          return
       end if
       do i = 1, rule%n
+         if (IS_REDUCED(geometry%state)) then
+            fe(1, :n) = fe(1, :n) + push(i)*geometry%hoop(i, :n)
+            cycle
+         end if
          fe(1, :n) = fe(1, :n) + (push(i)/(geometry%radius + geometry%place(i, 1)))*rule%value(i, :n)
       end do
    end subroutine add_hoop

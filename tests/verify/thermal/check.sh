@@ -9,7 +9,7 @@ largest() {
 }
 
 # Free expansion: no stress but what a plane without strain across it keeps, -E alpha rise = -210; on the circle none at all.
-for type in CPE3 CPE4 CPE6 CPE8 CPE9 CPE4R CPE8R CPS3 CPS4 CPS6 CPS8 CPS9 CPS4R CPS8R CAX3 CAX4 CAX6 CAX8 CAX9 CAX4R CAX8R; do
+for type in CPE3 CPE4 CPE6 CPE8 CPE9 CPE4R CPE8R CPS3 CPS4 CPS6 CPS8 CPS9 CPS4R CPS8R CAX3 CAX4 CAX6 CAX8 CAX4R CAX8R CAX9; do
    sed "s/TYPE=CPE4/TYPE=$type/" "$here/plate.inp" >free.inp
    across=0
    growth=1e-3
