@@ -82,7 +82,7 @@ contains
       real(wp) :: share
       integer(ip) :: i, k
 
-      allocate (segments%common(size(segments%piece)), source=0.0_wp)
+      allocate (segments%common(segments%first(size(segments%first)) - 1))
       do i = 1, size(slave_compliance, kind=ip)
          do k = segments%first(i), segments%first(i + 1) - 1
             share = 1.0_wp

@@ -175,11 +175,13 @@ contains
       call find_volumes(fem, e, rule, geometry, weight)
       c = compliance_matrix(fem%sections(geometry%section), geometry%state)
       call point_stresses(fem, e, u, rule, geometry, s, hoop)
-      energies%strain = max(energies%strain, largest_spatial_strain(rule%n, geometry%d, s*per_unit, hoop*per_unit))
+      s(:rule%n, :) = s(:rule%n, :)*per_unit
+      hoop(:rule%n) = hoop(:rule%n)*per_unit
+      energies%strain = max(energies%strain, largest_spatial_strain(rule%n, geometry%d, s, hoop))
       associate (place => field%place(:geometry%shape, e))
          do i = 1, rule%n
-            flat = (s(i, 1) + s(i, 2))*per_unit
-            round = hoop(i)*per_unit
+            flat = s(i, 1) + s(i, 2)
+            round = hoop(i)
             energies%solution = energies%solution + weight(i)*(c(1, 1)*round**2 + 2*c(1, 2)*round*flat)
             associate (value => rule%value(i, :geometry%shape))
                flat = sum(value*(field%stress(1, place) + field%stress(2, place)))*per_unit - flat

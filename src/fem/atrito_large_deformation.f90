@@ -180,7 +180,7 @@ contains
    pure real(wp) function strain_of(h)
       real(wp), intent(in) :: h(2, 2)
 
-      strain_of = 0.5_wp*(abs(h(1, 1) + h(2, 2)) + sqrt((h(1, 1) - h(2, 2))**2 + (h(1, 2) + h(2, 1))**2))
+      strain_of = 0.5_wp*(abs(h(1, 1) + h(2, 2)) + hypot(h(1, 1) - h(2, 2), h(1, 2) + h(2, 1)))
    end function strain_of
 
    pure real(wp) function rotation_of(h)

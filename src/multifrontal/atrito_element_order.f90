@@ -208,8 +208,11 @@ contains
       pure function extent(e)
          integer(ip), intent(in) :: e
          real(wp) :: extent(2)
+         integer(ip) :: last
 
-         extent = abs(x(:, nodes(1, e)) - x(:, nodes(3, e))) + abs(x(:, nodes(2, e)) - x(:, nodes(4, e)))
+         last = nodes(4, e)
+         if (last == 0) last = nodes(1, e)       ! three nodes
+         extent = abs(x(:, nodes(1, e)) - x(:, nodes(3, e))) + abs(x(:, nodes(2, e)) - x(:, last))
       end function extent
 
    end function are_irregular
