@@ -5,6 +5,7 @@
 module atrito_plot_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_kinds, only: ip, wp
+   use atrito_numbers, only: read_real
    use atrito_strings, only: string_t, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
@@ -85,9 +86,10 @@ contains
       real(wp), intent(in) :: value, way            !< -1: the lower end, 1: the upper one
       character(len=:), allocatable :: text
       real(wp) :: shown
+      integer :: outcome
 
       text = to_text(value, 8)
-      read (text, *) shown
+      call read_real(text, shown, outcome)
       if (way*(value - shown) > 0.0_wp) text = to_text(value + way*1.0e-7_wp*abs(value), 8)
    end function outward
 

@@ -23,6 +23,18 @@ run() {
    [ "$found" -eq "$wanted" ] || { complain "$deck $*: exit $found, expected $wanted"; cat "$folder.err"; }
 }
 
+# stack NAME FORM [NAME=VALUE ...]: a deck of the stack.awk of the case, run.
+stack() {
+   folder=$1
+   form=$2
+   shift 2
+   set -- "$@" end
+   while [ "$1" != end ]; do set -- "$@" -v "$1"; shift; done
+   shift
+   awk "$@" -f "$here/stack.awk" </dev/null >"$folder.inp"
+   run 0 "$folder.inp" "$folder" --digits 17 --contact "$form" --quiet
+}
+
 # summary FOLDER QUANTITY: a value of summary.tab.
 summary() {
    awk -v q="$2" '!/^#/ && $3 == q { print $4 }' "$1/summary.tab"

@@ -1,17 +1,5 @@
 . "$(dirname "$0")/../lib.sh"
 
-# stack NAME FORM [NAME=VALUE ...]: a deck of stack.awk, run.
-stack() {
-   folder=$1
-   form=$2
-   shift 2
-   set -- "$@" end
-   while [ "$1" != end ]; do set -- "$@" -v "$1"; shift; done
-   shift
-   awk "$@" -f "$here/stack.awk" </dev/null >"$folder.inp"
-   run 0 "$folder.inp" "$folder" --digits 17 --contact "$form" --quiet
-}
-
 # worst_stress NAME ANGLE: in the axes of the stack s22 = -10 and nothing else.
 worst_stress() {
    awk -v a="$2" '
