@@ -13,6 +13,7 @@ module atrito_solve_history
 
    !> One inner solve: a row of iterations.tab. Changes are relative to the largest value.
    type :: iteration_t
+      integer(ip) :: step = 1, increment = 1
       integer(ip) :: outer = 0, inner = 0
       real(wp) :: change_displacement = 0.0_wp, change_pressure = 0.0_wp, change_friction = 0.0_wp
       integer(ip) :: open = 0, stick = 0, slip = 0

@@ -31,14 +31,14 @@ contains
          associate (entry => context%dof_entry(1, nodes(i)), id => context%model%mesh%node_id(nodes(i)))
             if (entry == 0) then
                call add_number(held, id)
-               call add_nodal_value(context%model%prescribed, nodes(i), 1_ip, 0.0_wp)
-               entry = context%model%prescribed%n
-            else if (abs(context%model%prescribed%value(entry)) > 0.0_wp) then
+               call add_nodal_value(context%model%steps(1)%prescribed, nodes(i), 1_ip, 0.0_wp)
+               entry = context%model%steps(1)%prescribed%n
+            else if (abs(context%model%steps(1)%prescribed%value(entry)) > 0.0_wp) then
                call add_number(moved, id)
             end if
          end associate
       end do
-      call trim_nodal_values(context%model%prescribed)
+      call trim_nodal_values(context%model%steps(1)%prescribed)
       if (moved%n > 0) call report_error(context%deck, place_token(context%deck, context%elements%place(element)), 'E-AXIS', &
                                          'u1 of node '//ids_text(numbers_of(moved))// &
                                          ' on the axis x1 = 0 is prescribed, not as 0', &

@@ -49,30 +49,30 @@ contains
 
       call begin_rows(context%model%bilateral)
       if (.not. allocated(context%axes)) return
-      local = context%model%prescribed
-      context%model%prescribed = nodal_values_t()
+      local = context%model%steps(1)%prescribed
+      context%model%steps(1)%prescribed = nodal_values_t()
       do i = 1, local%n
          direction = dof_direction(context, local%node(i), local%dof(i))
          other = context%dof_entry(3 - local%dof(i), local%node(i))
          if (.not. has_local_axes(context, local%node(i))) then
-            call add_nodal_value(context%model%prescribed, local%node(i), local%dof(i), local%value(i))
+            call add_nodal_value(context%model%steps(1)%prescribed, local%node(i), local%dof(i), local%value(i))
          else if (other > 0) then
             value = local%value(i)*direction + local%value(other)*dof_direction(context, local%node(i), 3 - local%dof(i))
             ! once, by the first of the two
             if (i < other) then
                do axis = 1, 2
-                  call add_nodal_value(context%model%prescribed, local%node(i), axis, value(axis))
+                  call add_nodal_value(context%model%steps(1)%prescribed, local%node(i), axis, value(axis))
                end do
             end if
          else if (any(direction == 0.0_wp)) then
             axis = merge(2_ip, 1_ip, direction(1) == 0.0_wp)
-            call add_nodal_value(context%model%prescribed, local%node(i), axis, local%value(i)*direction(axis))
+            call add_nodal_value(context%model%steps(1)%prescribed, local%node(i), axis, local%value(i)*direction(axis))
          else
             call add_row(local%node(i:i), reshape(direction, [2, 1]), local%value(i), 0.0_wp, row_weight(context%model), &
                          [ROW_SUPPORT, 1_ip, local%dof(i)], context%model%bilateral)
          end if
       end do
-      call trim_nodal_values(context%model%prescribed)
+      call trim_nodal_values(context%model%steps(1)%prescribed)
    end subroutine turn_supports
 
    !> All *EQUATION cards.

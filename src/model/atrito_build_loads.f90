@@ -34,7 +34,7 @@ contains
          associate (card => context%deck%cards(i))
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
-               n = context%model%element_loads%n
+               n = context%model%steps(1)%element_loads%n
                select case (keyword_name(card))
                case ('CLOAD')
                   call read_cload_line(context%deck%lines(k), context)
@@ -45,14 +45,14 @@ contains
                case default
                   exit
                end select
-               associate (loads => context%model%element_loads)
+               associate (loads => context%model%steps(1)%element_loads)
                   if (loads%n > n) loads%line(n + 1:loads%n) = k
                end associate
             end do
          end associate
       end do
-      call trim_nodal_values(context%model%node_loads)
-      call trim_element_loads(context%model%element_loads)
+      call trim_nodal_values(context%model%steps(1)%node_loads)
+      call trim_element_loads(context%model%steps(1)%element_loads)
    end subroutine build_loads
 
    !> The nodes of a list that belong to no element.
@@ -112,12 +112,12 @@ contains
       integer(ip) :: axis
 
       if (.not. has_local_axes(context, node)) then
-         call add_nodal_value(context%model%node_loads, node, dof, force)
+         call add_nodal_value(context%model%steps(1)%node_loads, node, dof, force)
          return
       end if
       along = force*dof_direction(context, node, dof)
       do axis = 1, 2
-         if (along(axis) /= 0.0_wp) call add_nodal_value(context%model%node_loads, node, axis, along(axis))
+         if (along(axis) /= 0.0_wp) call add_nodal_value(context%model%steps(1)%node_loads, node, axis, along(axis))
       end do
    end subroutine add_force
 
@@ -182,7 +182,7 @@ contains
       if (.not. ok) return
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(context%refinement, elements(i), face)) cycle
-         call add_element_load(context%model%element_loads, elements(i), kind, face, value)
+         call add_element_load(context%model%steps(1)%element_loads, elements(i), kind, face, value)
          if (.not. is_outer_face(context%model%mesh, context%around, elements(i), face)) then
             call add_number(inside, context%model%mesh%element_id(elements(i)))
          end if
@@ -200,7 +200,7 @@ contains
       integer(ip) :: i
 
       do i = 1, size(elements, kind=ip)
-         call add_element_load(model%element_loads, elements(i), LOAD_BODY, 0_ip, force)
+         call add_element_load(model%steps(1)%element_loads, elements(i), LOAD_BODY, 0_ip, force)
       end do
    end subroutine pull_elements
 
@@ -220,7 +220,7 @@ contains
       call need_density(line, context, elements)
       do i = 1, size(elements, kind=ip)
          density = density_of(context%model, elements(i))
-         call add_element_load(context%model%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction)
+         call add_element_load(context%model%steps(1)%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction)
       end do
    end subroutine weigh_elements
 
@@ -280,7 +280,8 @@ contains
          end if
          if (.not. ok) return
          do i = 1, surface%faces%n
-            call add_element_load(context%model%element_loads, surface%faces%element(i), kind, surface%faces%face(i), value)
+            call add_element_load(context%model%steps(1)%element_loads, surface%faces%element(i), kind, surface%faces%face(i), &
+                                  value)
          end do
       end associate
    end subroutine read_dsload_line

@@ -102,6 +102,7 @@ contains
       call prepare_context(deck, context)
       context%model => model
       context%memory = memory
+      allocate (model%steps(1))
       call take_titles(deck, model)
       call take_parameters(deck, model)
       call build_nodes(context)

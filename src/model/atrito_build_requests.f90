@@ -26,10 +26,10 @@ contains
       integer(ip) :: i
 
       do i = 1, context%deck%n_cards
-         associate (card => context%deck%cards(i), requests => context%model%requests)
+         associate (card => context%deck%cards(i), requests => context%model%steps(1)%requests)
             select case (keyword_name(card))
             case ('CONTROLS')
-               call read_controls_card(context%deck, card, context%model%controls)
+               call read_controls_card(context%deck, card, context%model%steps(1)%controls)
             case ('NODE PRINT', 'EL PRINT')
                call read_request_card(card, context, requests%requested_t)
             case ('CONTACT PRINT')
@@ -45,7 +45,7 @@ contains
             end select
          end associate
       end do
-      call check_relaxation(context%deck, context%model%controls)
+      call check_relaxation(context%deck, context%model%steps(1)%controls)
    end subroutine build_requests
 
    subroutine read_controls_card(deck, card, controls)

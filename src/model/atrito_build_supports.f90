@@ -56,7 +56,7 @@ contains
             call hold_edges(context, numbered)
          end associate
       end do
-      call trim_nodal_values(context%model%prescribed)
+      call trim_nodal_values(context%model%steps(1)%prescribed)
    end subroutine build_supports
 
    !> Node or set, first dof[, last dof[, value]].
@@ -250,10 +250,10 @@ contains
          if (loose(i)) cycle
          entry = context%dof_entry(dof, nodes(i))
          if (entry == 0) then
-            call add_nodal_value(context%model%prescribed, nodes(i), dof, value(i))
-            context%dof_entry(dof, nodes(i)) = context%model%prescribed%n
+            call add_nodal_value(context%model%steps(1)%prescribed, nodes(i), dof, value(i))
+            context%dof_entry(dof, nodes(i)) = context%model%steps(1)%prescribed%n
             context%dof_token(dof, nodes(i)) = line%first_token
-         else if (.not. is_same(context%model%prescribed%value(entry), value(i), scale)) then
+         else if (.not. is_same(context%model%steps(1)%prescribed%value(entry), value(i), scale)) then
             if (clashes%n == 0) first_value = value(i)
             call add_number(clashes, nodes(i))
          end if
@@ -280,7 +280,7 @@ contains
       integer :: digits
 
       earlier = context%deck%tokens(context%dof_token(dof, nodes(1)))
-      other = context%model%prescribed%value(context%dof_entry(dof, nodes(1)))
+      other = context%model%steps(1)%prescribed%value(context%dof_entry(dof, nodes(1)))
       digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
       call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
                         ids_text(context%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '//to_text(other, &

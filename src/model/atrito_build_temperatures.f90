@@ -32,7 +32,7 @@ module atrito_build_temperatures
 
 contains
 
-   !> The rise of the temperature of each node of the deck's mesh; model%heating stays unallocated where nothing grows warmer.
+   !> The rise of the temperature of each node of the deck's mesh; heating stays unallocated where nothing grows warmer.
    subroutine read_temperatures(context)
       type(build_context_t), intent(inout) :: context
       type(temperatures_t) :: before, now
@@ -48,7 +48,7 @@ contains
       call warn_of_middles(context, before)
       call warn_of_middles(context, now)
       where (now%token == 0) now%value = before%value
-      if (any(abs(now%value - before%value) > 0.0_wp)) context%model%heating = now%value - before%value
+      if (any(abs(now%value - before%value) > 0.0_wp)) context%model%steps(1)%heating = now%value - before%value
    end subroutine read_temperatures
 
    !> All cards of a keyword.
@@ -176,16 +176,16 @@ contains
       integer(ip), allocatable :: grid(:, :)
       integer(ip) :: e
 
-      if (.not. allocated(context%model%heating)) return
+      if (.not. allocated(context%model%steps(1)%heating)) return
       field = coarse
-      field%x(1, :coarse%n_nodes) = context%model%heating
+      field%x(1, :coarse%n_nodes) = context%model%steps(1)%heating
       field%x(2, :coarse%n_nodes) = 0.0_wp
       allocate (value(2, context%model%mesh%n_nodes), source=0.0_wp)
       value(:, :coarse%n_nodes) = field%x(:, :coarse%n_nodes)
       do e = 1, coarse%n_elements
          call map_element(field, context%refinement, e, value, grid)
       end do
-      context%model%heating = value(1, :)
+      context%model%steps(1)%heating = value(1, :)
    end subroutine refine_temperatures
 
    !> What grows warmer and has no *EXPANSION is told; where nothing expands there are no temperatures.
@@ -195,13 +195,13 @@ contains
       logical :: expands
       integer(ip) :: e, i
 
-      if (has_errors() .or. .not. allocated(context%model%heating)) return
+      if (has_errors() .or. .not. allocated(context%model%steps(1)%heating)) return
       associate (model => context%model)
          allocate (is_heated(size(model%materials)), source=.false.)
          expands = .false.
          do e = 1, model%mesh%n_elements
             if (model%section_of(e) < 1) cycle
-            if (.not. any(abs(model%heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
+            if (.not. any(abs(model%steps(1)%heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
             i = model%sections(model%section_of(e))%material
             is_heated(i) = .true.
             expands = expands .or. abs(model%materials(i)%expansion) > 0.0_wp
@@ -213,7 +213,7 @@ contains
                                    //' expand', expected='*EXPANSION in this material, 0 if this is meant', keyword='EXPANSION')
             end if
          end do
-         if (.not. expands) deallocate (model%heating)
+         if (.not. expands) deallocate (model%steps(1)%heating)
       end associate
    end subroutine check_temperatures
 

@@ -96,21 +96,22 @@ contains
       type(number_list_t) :: elements
       integer(ip) :: first, i, last
 
-      if (model%element_loads%n == 0 .or. size(model%pairs) == 0) return
-      if (all(model%element_loads%kind == LOAD_BODY)) return
+      if (model%steps(1)%element_loads%n == 0 .or. size(model%pairs) == 0) return
+      if (all(model%steps(1)%element_loads%kind == LOAD_BODY)) return
       call find_loaded_contact(model, pair_of)
       first = 1
-      do while (first <= model%element_loads%n)
+      do while (first <= model%steps(1)%element_loads%n)
          last = first
-         do while (last < model%element_loads%n)
-            if (model%element_loads%line(last + 1) /= model%element_loads%line(first)) exit
+         do while (last < model%steps(1)%element_loads%n)
+            if (model%steps(1)%element_loads%line(last + 1) /= model%steps(1)%element_loads%line(first)) exit
             last = last + 1
          end do
          elements%n = 0
          do i = first, last
-            if (pair_of(i) > 0) call add_number(elements, model%mesh%element_id(model%element_loads%element(i)))
+            if (pair_of(i) > 0) call add_number(elements, model%mesh%element_id(model%steps(1)%element_loads%element(i)))
          end do
-         if (elements%n > 0) call report_loaded(model, context, model%element_loads%line(first), maxval(pair_of(first:last)), &
+         if (elements%n > 0) call report_loaded(model, context, model%steps(1)%element_loads%line(first), &
+                                                maxval(pair_of(first:last)), &
                                                 elements)
          first = last + 1
       end do
@@ -139,7 +140,7 @@ contains
       logical, allocatable :: touched(:), is_listed(:)
       integer(ip) :: i, s, side
 
-      allocate (pair_of(model%element_loads%n), source=0_ip)
+      allocate (pair_of(model%steps(1)%element_loads%n), source=0_ip)
       allocate (touched(model%mesh%n_nodes), is_listed(size(model%surfaces)), source=.false.)
       call list_loads(model, first, load)
       do i = 1, size(model%pairs, kind=ip)
@@ -160,7 +161,7 @@ contains
       integer(ip) :: e, i
 
       allocate (first(model%mesh%n_elements + 1), source=0_ip)
-      associate (loads => model%element_loads)
+      associate (loads => model%steps(1)%element_loads)
          do i = 1, loads%n
             if (loads%kind(i) /= LOAD_BODY) first(loads%element(i) + 1) = first(loads%element(i) + 1) + 1
          end do
@@ -188,7 +189,7 @@ contains
       associate (faces => model%surfaces(s)%faces)
          do k = 1, faces%n
             do l = first(faces%element(k)), first(faces%element(k) + 1) - 1
-               if (model%element_loads%face(load(l)) == faces%face(k)) call add_number(list, load(l))
+               if (model%steps(1)%element_loads%face(load(l)) == faces%face(k)) call add_number(list, load(l))
             end do
          end do
       end associate
@@ -207,7 +208,7 @@ contains
 
       touched(model%points(i)%entry) = .true.
       do k = 1, size(loads, kind=ip)
-         nodes = face_nodes(model%mesh, model%element_loads%element(loads(k)), model%element_loads%face(loads(k)))
+         nodes = face_nodes(model%mesh, model%steps(1)%element_loads%element(loads(k)), model%steps(1)%element_loads%face(loads(k)))
          if (all(touched(nodes(:2)))) pair_of(loads(k)) = i
       end do
       touched(model%points(i)%entry) = .false.

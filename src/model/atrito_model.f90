@@ -11,12 +11,13 @@ module atrito_model
    use atrito_friction_law, only: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    implicit none (type, external)
    private
-   public :: model_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
-   public :: spring_t, tie_t, controls_t, requests_t, requested_t, parameter_value_t
+   public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
+   public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, controls_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    public :: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
+   public :: is_due
    public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
@@ -62,6 +63,7 @@ module atrito_model
       real(wp) :: nu = 0.0_wp                  !< friction coefficient
       real(wp) :: eps = 0.0_wp                 !< NONLOCAL: [L]; 0 is exact stick
       real(wp) :: rho = 0.0_wp                 !< NONLOCAL: [L]; 0 is local
+      logical :: is_incremental = .false.      !< slip counts from the last increment, not from the beginning
       real(wp) :: stick_slope = 0.0_wp         !< LOCAL: k [F/L^3]; 0 is exact stick
       integer(ip) :: kernel = KERNEL_POINTS
    end type interaction_t
@@ -80,7 +82,9 @@ module atrito_model
    type :: nodal_values_t
       integer(ip) :: n = 0
       integer(ip), allocatable :: node(:), dof(:)   !< dof 1 or 2
-      real(wp), allocatable :: value(:)
+      real(wp), allocatable :: value(:)             !< at the end of a step, or what an amplitude multiplies
+      real(wp), allocatable :: from(:)              !< at the beginning of a step; not allocated: 0
+      integer(ip), allocatable :: amplitude(:)      !< place in model%amplitudes; 0, or not allocated: none
    end type nodal_values_t
 
    type :: tie_t
@@ -108,6 +112,8 @@ module atrito_model
       integer(ip), allocatable :: line(:)           !< of the deck, that gives it
       real(wp), allocatable :: value(:, :)          !< (3, n): pressure [F/L^2] in the first; force per volume [F/L^3] or traction
       !< [F/L^2] in two; LOAD_HYDROSTATIC: pressure at a level x2, the level where it is 0, and that level [F/L^2], [L]
+      real(wp), allocatable :: from(:, :)           !< (3, n) the same at the beginning of a step; not allocated: 0
+      integer(ip), allocatable :: amplitude(:)      !< (n) place in model%amplitudes; 0, or not allocated: none
    end type element_load_t
 
    !> Of the outer iteration. A deck gives the first four.
@@ -120,6 +126,26 @@ module atrito_model
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
    end type controls_t
 
+   !> A curve over time that multiplies loads and displacements: *AMPLITUDE.
+   type :: amplitude_t
+      character(len=:), allocatable :: name
+      real(wp), allocatable :: time(:), value(:)    !< time ascends; before the first and after the last the value stays
+      logical :: is_total_time = .false.            !< of the history, not of the step
+      logical :: is_smooth = .false.                !< between two times the slope is 0 at both
+   end type amplitude_t
+
+   !> How a step goes through its time: *STATIC. Times are of the step.
+   type :: increments_t
+      real(wp) :: initial = 1.0_wp, period = 1.0_wp
+      real(wp) :: least = 1.0_wp, greatest = 1.0_wp !< an increment that fails is cut, down to the least
+      integer(ip) :: most = 100                     !< increments of the step: INC=
+   end type increments_t
+
+   !> How often what is asked for is printed: every so many increments; 0: at the end of the step, as it always is.
+   type :: frequencies_t
+      integer(ip) :: nodes = 0, reactions = 0, stress = 0, contact = 0, bodies = 0, joints = 0, fields = 0
+   end type frequencies_t
+
    !> Nodes, elements and contact that were asked for.
    type :: requested_t
       logical :: nodes = .false., reactions = .false., stress = .false., contact = .false.
@@ -130,6 +156,7 @@ module atrito_model
    type, extends(requested_t) :: requests_t
       logical :: bodies = .false., joints = .false.
       type(requested_t) :: fields
+      type(frequencies_t) :: every
    end type requests_t
 
    type :: parameter_value_t
@@ -137,6 +164,21 @@ module atrito_model
       real(wp) :: value = 0.0_wp
       logical :: overridden = .false.               !< by --set
    end type parameter_value_t
+
+   !> A step of the history: all that acts in it, what was carried on from earlier steps too, and what it asks for. From the
+   !> beginning of the step to its end values go linearly with the time, or at once; those with an amplitude follow it.
+   type :: step_t
+      character(len=:), allocatable :: title        !< as the deck has it; '' without one
+      type(increments_t) :: increments
+      logical :: at_once = .false.                  !< AMPLITUDE=STEP: what has no amplitude has its last value from the beginning
+      type(nodal_values_t) :: prescribed            !< each dof once
+      type(nodal_values_t) :: node_loads            !< several on one dof add up
+      type(element_load_t) :: element_loads
+      real(wp), allocatable :: heating(:)           !< (n_nodes) rise of the temperature; not allocated where none expands anything
+      real(wp), allocatable :: heating_from(:)      !< (n_nodes) the same at the beginning; not allocated: 0
+      type(controls_t) :: controls
+      type(requests_t) :: requests
+   end type step_t
 
    type :: model_t
       character(len=:), allocatable :: deck_path    !< as the user wrote it
@@ -157,12 +199,20 @@ module atrito_model
       type(nodal_values_t) :: equations             !< node, dof and coefficient of the first term of each
       type(spring_t), allocatable :: springs(:)
       type(tie_t), allocatable :: ties(:)
-      type(nodal_values_t) :: prescribed            !< each dof once
-      type(nodal_values_t) :: node_loads            !< several on one dof add up
-      type(element_load_t) :: element_loads
-      real(wp), allocatable :: heating(:)           !< (n_nodes) rise of the temperature; not allocated where none expands anything
-      type(controls_t) :: controls
-      type(requests_t) :: requests
+      type(amplitude_t), allocatable :: amplitudes(:)
+      type(step_t), allocatable :: steps(:)         !< the history, >= 1
    end type model_t
+
+contains
+
+   !> Whether an increment is printed.
+   pure elemental logical function is_due(every, increment, ends_step)
+      integer(ip), intent(in) :: every              !< so many increments; 0: at the end of the step alone
+      integer(ip), intent(in) :: increment
+      logical, intent(in) :: ends_step
+
+      is_due = ends_step
+      if (every > 0) is_due = is_due .or. mod(increment, every) == 0
+   end function is_due
 
 end module atrito_model

@@ -6,7 +6,7 @@ module atrito_results
    implicit none (type, external)
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
-   public :: body_motion_t, joint_t, extreme_t
+   public :: body_motion_t, joint_t, extreme_t, history_t, history_row_t, ending_t
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -23,6 +23,7 @@ module atrito_results
       real(wp), allocatable :: weighted_pressure(:) !< S_rho(p) [F/L^2]
       real(wp), allocatable :: shear(:)             !< sigma_T on the slave along T [F/L^2]
       real(wp), allocatable :: slip(:)              !< u_T [L]
+      real(wp), allocatable :: slip_increment(:)    !< u_T less that of the increment before [L]
       integer(ip), allocatable :: status(:)         !< POINT_*
       real(wp), allocatable :: weight(:)            !< quadrature weight times thickness [L^2]
       integer(ip), allocatable :: joint(:)          !< place of its joint in the results' joints
@@ -126,8 +127,11 @@ module atrito_results
       real(wp) :: x(2) = 0.0_wp                     !< [L]
    end type extreme_t
 
+   !> An increment of a history, or a run of one.
    type :: results_t
-      integer(ip) :: step = 1
+      integer(ip) :: step = 1, increment = 1
+      real(wp) :: time = 1.0_wp, step_time = 1.0_wp !< of the history, of the step
+      logical :: ends_step = .true.
       logical :: converged = .false.
       logical :: law_holds = .false.                !< outcome of the final check
       character(len=:), allocatable :: verdict      !< in words: why not converged, or what the check found
@@ -156,5 +160,35 @@ module atrito_results
       type(body_motion_t), allocatable :: bodies(:) !< when asked for
       type(joint_t), allocatable :: joints(:)       !< by pair, then along s
    end type results_t
+
+   !> A row of history.tab: what a pair transmits at the end of an increment, of what is on the slave. NaN: not defined.
+   type :: history_row_t
+      integer(ip) :: step = 1, increment = 1, pair = 0
+      real(wp) :: time = 0.0_wp                     !< of the history
+      real(wp) :: normal = 0.0_wp, shear = 0.0_wp   !< resultants [F], as in summary.tab
+      real(wp) :: moment = 0.0_wp                   !< of the tractions upon the slave about the origin [F L]
+      real(wp) :: length = 0.0_wp                   !< of the slave with pressure [L]
+      real(wp) :: centre = 0.0_wp                   !< s of the resultant of the pressure [L]
+      real(wp) :: max_pressure = 0.0_wp             !< [F/L^2]
+      integer(ip) :: open = 0, stick = 0, slip = 0
+      real(wp) :: dissipation = 0.0_wp              !< by friction, from the beginning of the history [F L]
+      real(wp) :: elastic_energy = 0.0_wp           !< of all bodies [F L]
+   end type history_row_t
+
+   !> How a history ended before its end.
+   type :: ending_t
+      logical :: is_early = .false.
+      integer(ip) :: step = 0, increment = 0        !< that failed
+      real(wp) :: time = 0.0_wp                     !< of the history, that it should have reached
+      character(len=:), allocatable :: reason       !< in words
+   end type ending_t
+
+   !> What was found of a history: the increments that are printed, and a row of every increment and pair.
+   type :: history_t
+      type(results_t), allocatable :: frames(:)     !< in the order of time; of a run that ended well the last is its end
+      type(history_row_t), allocatable :: rows(:)
+      type(iteration_t), allocatable :: iterations(:) !< of all increments
+      type(ending_t) :: ending
+   end type history_t
 
 end module atrito_results

@@ -156,17 +156,17 @@ contains
       integer(ip) :: along_1, moved, n
       character(len=:), allocatable :: text
 
-      n = model%prescribed%n
+      n = model%steps(1)%prescribed%n
       call add_blank(page)
       if (n == 0) then
          call add_entry(page, 'prescribed displacements', 'none')
          return
       end if
-      along_1 = count(model%prescribed%dof(:n) == 1, kind=ip)
-      moved = count(abs(model%prescribed%value(:n)) > 0.0_wp, kind=ip)
+      along_1 = count(model%steps(1)%prescribed%dof(:n) == 1, kind=ip)
+      moved = count(abs(model%steps(1)%prescribed%value(:n)) > 0.0_wp, kind=ip)
       text = to_text(n)//' ('//to_text(along_1)//' along 1, '//to_text(n - along_1)//' along 2)'
       if (moved > 0) text = text//', '//to_text(moved)//' not zero, the largest '// &
-                            number(maxval(abs(model%prescribed%value(:n))), DIGITS)//' [L]'
+                            number(maxval(abs(model%steps(1)%prescribed%value(:n))), DIGITS)//' [L]'
       call add_entry(page, 'prescribed displacements', text)
    end subroutine describe_supports
 
@@ -186,15 +186,15 @@ contains
                     right('moment about 0,0', 18))
       call add_force(page, 'on nodes', concentrated)
       call add_force(page, trim(merge('loads on faces   ', 'pressure on faces', &
-                                      any(model%element_loads%kind == LOAD_TRACTION))), pressure)
+                                      any(model%steps(1)%element_loads%kind == LOAD_TRACTION))), pressure)
       call add_force(page, 'in elements', body)
       call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
                                           concentrated%moment + pressure%moment + body%moment))
-      if (.not. allocated(model%heating)) return
+      if (.not. allocated(model%steps(1)%heating)) return
       call add_blank(page)
-      call add_entry(page, 'rise of the temperature', number(minval(model%heating), DIGITS)//' to '// &
-                     number(maxval(model%heating), DIGITS)//' at the nodes, '// &
-                     to_text(count(abs(model%heating) > 0.0_wp, kind=ip))//' not zero')
+      call add_entry(page, 'rise of the temperature', number(minval(model%steps(1)%heating), DIGITS)//' to '// &
+                     number(maxval(model%steps(1)%heating), DIGITS)//' at the nodes, '// &
+                     to_text(count(abs(model%steps(1)%heating) > 0.0_wp, kind=ip))//' not zero')
    end subroutine describe_loads
 
    subroutine add_force(page, name, force)
@@ -215,15 +215,15 @@ contains
       real(wp) :: f(2)
       integer(ip) :: i
 
-      associate (loads => model%node_loads)
+      associate (loads => model%steps(1)%node_loads)
          do i = 1, loads%n
             f = 0.0_wp
             f(loads%dof(i)) = loads%value(i)
             call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
          end do
       end associate
-      do i = 1, model%element_loads%n
-         select case (model%element_loads%kind(i))
+      do i = 1, model%steps(1)%element_loads%n
+         select case (model%steps(1)%element_loads%kind(i))
          case (LOAD_PRESSURE)
             call add_pressure(model, i, pressure)
          case (LOAD_BODY)
@@ -245,34 +245,34 @@ contains
    !> A uniform pressure on a face, curved or not, has the resultant of the same pressure on its chord.
    pure subroutine add_pressure(model, i, force)
       type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                  !< place in model%element_loads
+      integer(ip), intent(in) :: i                  !< place in the element_loads
       type(force_t), intent(inout) :: force
       real(wp) :: a(2), b(2), push
       integer(ip) :: e, face
 
-      e = model%element_loads%element(i)
-      face = model%element_loads%face(i)
+      e = model%steps(1)%element_loads%element(i)
+      face = model%steps(1)%element_loads%face(i)
       a = model%mesh%x(:, model%mesh%nodes(face, e))
       b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
-      push = model%element_loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
+      push = model%steps(1)%element_loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
       call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
    end subroutine add_pressure
 
    !> A load that is not uniform, or whose length counts: shape functions add up to 1, and times the nodes to the place.
    pure subroutine add_face_load(model, i, force)
       type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                  !< place in model%element_loads
+      integer(ip), intent(in) :: i                  !< place in the element_loads
       type(force_t), intent(inout) :: force
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: f(:, :)
       integer(ip) :: e, k
 
-      e = model%element_loads%element(i)
-      nodes = face_nodes(model%mesh, e, model%element_loads%face(i))
+      e = model%steps(1)%element_loads%element(i)
+      nodes = face_nodes(model%mesh, e, model%steps(1)%element_loads%face(i))
       allocate (f(2, size(nodes)))
-      associate (value => model%element_loads%value(:, i), x => model%mesh%x(:, nodes), &
+      associate (value => model%steps(1)%element_loads%value(:, i), x => model%mesh%x(:, nodes), &
                  thickness => model%sections(model%section_of(e))%thickness)
-         if (model%element_loads%kind(i) == LOAD_TRACTION) then
+         if (model%steps(1)%element_loads%kind(i) == LOAD_TRACTION) then
             call traction_load(x, value(:2), thickness, model%mesh%state(e), f)
          else
             call hydrostatic_load(x, value(1), value(2:3), thickness, model%mesh%state(e), f)
@@ -285,12 +285,12 @@ contains
 
    pure subroutine add_body_force(model, i, force)
       type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                  !< place in model%element_loads
+      integer(ip), intent(in) :: i                  !< place in the element_loads
       type(force_t), intent(inout) :: force
       real(wp) :: x(2, MOST_CORNERS), middle(2), area
       integer(ip) :: e, k, n
 
-      e = model%element_loads%element(i)
+      e = model%steps(1)%element_loads%element(i)
       n = side_count(model%mesh, e)
       x(:, :n) = model%mesh%x(:, model%mesh%nodes(:n, e))
       do k = 3, n
@@ -298,7 +298,7 @@ contains
             area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
          end associate
          middle = (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp
-         call add_to(force, area*depth_of(model, e, middle(1))*model%element_loads%value(:2, i), middle)
+         call add_to(force, area*depth_of(model, e, middle(1))*model%steps(1)%element_loads%value(:2, i), middle)
       end do
    end subroutine add_body_force
 
@@ -321,7 +321,7 @@ contains
          call add_entry(page, model%interactions(i)%name//', contact', contact_text(model%interactions(i)))
          call add_entry(page, model%interactions(i)%name//', friction', friction_text(model%interactions(i)))
       end do
-      associate (controls => model%controls)
+      associate (controls => model%steps(1)%controls)
          call add_entry(page, 'outer loop', trim(METHOD_NAME(controls%method))//', tolerance '// &
                         number(controls%tolerance, 3)//', at most '//plural(controls%max_iterations, 'iteration', 'iterations'))
       end associate
@@ -333,7 +333,7 @@ contains
       type(model_t), intent(in) :: model
       character(len=:), allocatable :: text
 
-      associate (fields => model%requests%fields)
+      associate (fields => model%steps(1)%requests%fields)
          text = ''
          if (fields%nodes) text = text//' U'
          if (fields%reactions) text = text//' RF'

@@ -147,7 +147,7 @@ contains
       if (is_sparse_form(results%scene)) then
          text = ', multipliers: '//plural(int(results%outer_iterations, ip), 'step', 'steps')//text
       else if (results%scene%outer_loop) then
-         text = ', '//trim(METHOD_NAME(model%controls%method))//': '// &
+         text = ', '//trim(METHOD_NAME(model%steps(results%step)%controls%method))//': '// &
                 plural(int(results%outer_iterations, ip), 'outer iteration', 'outer iterations')//text
       else
          text = ', no outer loop'//text

@@ -43,7 +43,7 @@ contains
       type(string_t) :: names(2)
       character(len=:), allocatable :: path
 
-      associate (fields => model%requests%fields)
+      associate (fields => model%steps(results%step)%requests%fields)
          if (.not. (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact)) return
       end associate
       names = list_field_files(model)
@@ -52,8 +52,8 @@ contains
       call put_origin(file, model, results)
       call put_mesh(file, model%mesh, grids)
       call put_nodal_fields(file, model, results, grids)
-      if (model%requests%fields%stress) call put_stress_points(file, model, results, grids)
-      if (model%requests%fields%contact) call put_pairs(file, results, grids)
+      if (model%steps(results%step)%requests%fields%stress) call put_stress_points(file, model, results, grids)
+      if (model%steps(results%step)%requests%fields%contact) call put_pairs(file, results, grids)
       call close_hdf5(file, status)
       if (is_ok(status)) call write_xdmf(names, results, grids, set, status)
    end subroutine write_fields
@@ -147,7 +147,7 @@ contains
       integer(ip) :: k
 
       group = step_group(results)//'/nodes/'
-      associate (fields => model%requests%fields)
+      associate (fields => model%steps(results%step)%requests%fields)
          if (fields%nodes) then
             call put_vectors(file, group//'U', 'displacement', 'L', results%u, fields%node_u)
             call enter_nodal(grids, group//'U', 3_ip)
@@ -244,7 +244,7 @@ contains
       integer(ip), allocatable :: row(:)
       integer(ip) :: n, k, i
 
-      row = stress_rows(results, model%requests%fields%element_s)
+      row = stress_rows(results, model%steps(results%step)%requests%fields%element_s)
       n = size(row, kind=ip)
       if (n == 0) return
       group = step_group(results)//'/stress_points/'

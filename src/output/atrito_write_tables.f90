@@ -81,19 +81,19 @@ contains
          case ('summary')
             call build_summary(results, scales, digits, table)
          case ('nodes')
-            if (.not. (model%requests%nodes .and. allocated(results%u))) cycle
+            if (.not. (model%steps(results%step)%requests%nodes .and. allocated(results%u))) cycle
             call build_nodes(model, results, scales, table)
          case ('reactions')
-            if (.not. (model%requests%reactions .and. allocated(results%reaction))) cycle
+            if (.not. (model%steps(results%step)%requests%reactions .and. allocated(results%reaction))) cycle
             call build_reactions(model, results, scales, table)
          case ('stress')
-            if (.not. (model%requests%stress .and. allocated(results%stress))) cycle
+            if (.not. (model%steps(results%step)%requests%stress .and. allocated(results%stress))) cycle
             call build_stress(model, results, scales, table)
          case ('bodies')
-            if (.not. (model%requests%bodies .and. allocated(results%bodies))) cycle
+            if (.not. (model%steps(results%step)%requests%bodies .and. allocated(results%bodies))) cycle
             call build_bodies(results, scales, table)
          case ('joints')
-            if (.not. (model%requests%joints .and. allocated(results%joints))) cycle
+            if (.not. (model%steps(results%step)%requests%joints .and. allocated(results%joints))) cycle
             call build_joints(results, scales, table)
          case ('ties', 'equations', 'springs')
             if (.not. has_rows(model, results, trim(TABLE_NAMES(i)))) cycle
@@ -245,7 +245,7 @@ contains
       integer(ip), allocatable :: node(:)
       integer(ip) :: n
 
-      node = places(model%requests%node_u, model%mesh%n_nodes)
+      node = places(model%steps(results%step)%requests%node_u, model%mesh%n_nodes)
       n = size(node, kind=ip)
       call begin_table(table, 'nodes', 'a row a node', n)
       call add_integers(table, 'step', spread(results%step, 1, n))
@@ -265,7 +265,7 @@ contains
       integer(ip), allocatable :: node(:)
       integer(ip) :: n
 
-      node = places(model%requests%node_rf, model%mesh%n_nodes)
+      node = places(model%steps(results%step)%requests%node_rf, model%mesh%n_nodes)
       node = pack(node, any(results%prescribed(:, node), dim=1))
       n = size(node, kind=ip)
       call begin_table(table, 'reactions', 'a row a node with a prescribed displacement', n)
@@ -306,8 +306,8 @@ contains
       integer :: i
 
       call begin_table(table, 'stress', 'a row a quadrature point of an element', size(results%stress_element, kind=ip))
-      if (allocated(model%requests%element_s)) then
-         table%places = stress_rows(results, model%requests%element_s)
+      if (allocated(model%steps(results%step)%requests%element_s)) then
+         table%places = stress_rows(results, model%steps(results%step)%requests%element_s)
          table%n_rows = size(table%places, kind=ip)
       end if
       call add_integers(table, 'step', [results%step])

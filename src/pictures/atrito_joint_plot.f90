@@ -33,7 +33,7 @@ contains
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
 
-      has_joint_plot = model%requests%joints .and. allocated(results%joints)
+      has_joint_plot = model%steps(results%step)%requests%joints .and. allocated(results%joints)
       if (has_joint_plot) has_joint_plot = size(results%joints) > 0
    end function has_joint_plot
 

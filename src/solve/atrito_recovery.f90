@@ -12,7 +12,7 @@ module atrito_recovery
    use atrito_error_estimate, only: energies_t, measure_error, relative_error
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t
+   use atrito_model, only: requests_t
    use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES, stress_33, von_mises
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses, &
                                   point_thermal_strains
@@ -225,8 +225,8 @@ contains
    end function status_of
 
    !> Stresses at the Gauss points of the requested elements.
-   subroutine recover_stress(model, fem, results)
-      type(model_t), intent(in) :: model
+   subroutine recover_stress(requests, fem, results)
+      type(requests_t), intent(in) :: requests
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
       type(point_rule_t) :: rules(MOST_NODES, 2)     !< of full and of reduced integration
@@ -234,12 +234,10 @@ contains
       integer(ip) :: rows(chunk_count(fem%mesh%n_elements) + 1) !< filled before each chunk of elements
       integer(ip) :: chunk
 
-      associate (requests => model%requests)
-         if (.not. (requests%stress .or. requests%fields%stress)) return
-         allocate (wanted(fem%mesh%n_elements), source=.false.)
-         if (requests%stress) wanted = requests%element_s
-         if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
-      end associate
+      if (.not. (requests%stress .or. requests%fields%stress)) return
+      allocate (wanted(fem%mesh%n_elements), source=.false.)
+      if (requests%stress) wanted = requests%element_s
+      if (requests%fields%stress) wanted = wanted .or. requests%fields%element_s
       call make_point_rules(POINTS_OF, rules(:, 1))
       if (any(IS_REDUCED(fem%mesh%state))) call make_point_rules(BEST_OF, rules(:, 2))
       call count_rows(fem, wanted, rows)

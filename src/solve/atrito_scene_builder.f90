@@ -6,7 +6,7 @@ module atrito_scene_builder
    use atrito_bodies, only: bodies_t, find_bodies, number_equations, find_rigid_modes
    use atrito_body_names, only: name_bodies
    use atrito_incidence, only: list_holders
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_all
    use atrito_plane_state, only: elastic_t
@@ -19,8 +19,9 @@ module atrito_scene_builder
 contains
 
    !> Mesh and sections, prescribed dofs and values, and the points of every pair; build_bodies adds the bodies.
-   subroutine build_scene(model, fem, held, value, points)
+   subroutine build_scene(model, step, fem, held, value, points)
       type(model_t), intent(in), target :: model
+      type(step_t), intent(in) :: step
       type(fem_t), intent(out) :: fem
       logical, allocatable, intent(out) :: held(:, :)          !< (2, n_nodes)
       real(wp), allocatable, intent(out) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
@@ -37,8 +38,8 @@ contains
                                         section%formulation, material%expansion)
          end associate
       end do
-      if (allocated(model%heating)) fem%heating = model%heating
-      call list_prescribed(model, held, value)
+      if (allocated(step%heating)) fem%heating = step%heating
+      call list_prescribed(step%prescribed, model%mesh%n_nodes, held, value)
       if (allocated(model%points)) then
          points = model%points
       else
@@ -82,17 +83,18 @@ contains
       end associate
    end function enough_nodes
 
-   pure subroutine list_prescribed(model, held, value)
-      type(model_t), intent(in) :: model
+   pure subroutine list_prescribed(prescribed, n_nodes, held, value)
+      type(nodal_values_t), intent(in) :: prescribed
+      integer(ip), intent(in) :: n_nodes
       logical, allocatable, intent(out) :: held(:, :)
       real(wp), allocatable, intent(out) :: value(:, :)
       integer(ip) :: i
 
-      allocate (held(2, model%mesh%n_nodes), source=.false.)
-      allocate (value(2, model%mesh%n_nodes), source=0.0_wp)
-      do i = 1, model%prescribed%n
-         held(model%prescribed%dof(i), model%prescribed%node(i)) = .true.
-         value(model%prescribed%dof(i), model%prescribed%node(i)) = model%prescribed%value(i)
+      allocate (held(2, n_nodes), source=.false.)
+      allocate (value(2, n_nodes), source=0.0_wp)
+      do i = 1, prescribed%n
+         held(prescribed%dof(i), prescribed%node(i)) = .true.
+         value(prescribed%dof(i), prescribed%node(i)) = prescribed%value(i)
       end do
    end subroutine list_prescribed
 

@@ -11,7 +11,7 @@ module atrito_scene_data
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
-   use atrito_model, only: model_t, METHOD_ANDERSON
+   use atrito_model, only: model_t, step_t, METHOD_ANDERSON
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t
@@ -27,6 +27,7 @@ module atrito_scene_data
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
+      type(step_t), pointer :: step => null()               !< the one that is being solved
       type(reporter_t) :: reporter = reporter_t(quiet=.true.)
       type(fem_t) :: fem
       logical, allocatable :: held(:, :)                    !< (2, n_nodes)
@@ -63,7 +64,8 @@ contains
       logical :: known
 
       data%model => model
-      call build_scene(model, data%fem, data%held, data%value, data%points)
+      data%step => model%steps(1)
+      call build_scene(model, data%step, data%fem, data%held, data%value, data%points)
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
       ! all bodies in one matrix: none is numbered for a profile of its own
@@ -77,7 +79,7 @@ contains
          if (.not. is_ok(status)) return
       end if
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
-      call nodal_loads(model, data%f)
+      call nodal_loads(model, data%step, data%f)
       if (allocated(data%fem%heating)) then
          allocate (data%thermal, mold=data%f)
          data%thermal = 0.0_wp
@@ -102,7 +104,7 @@ contains
          if (data%model%interactions(data%model%pairs(i)%interaction)%nu > 0.0_wp) n = n + data%points(i)%n
       end do
       n = max(n, count(seen, kind=ip) - n_points)
-      call choose_contact_form(n, 2*data%model%mesh%n_nodes, asked%contact_form, data%model%controls%method /= METHOD_ANDERSON, &
+      call choose_contact_form(n, 2*data%model%mesh%n_nodes, asked%contact_form, data%step%controls%method /= METHOD_ANDERSON, &
                                min(asked%memory, available_memory()), data%contact_form, data%reason)
    end subroutine choose_form
 

@@ -42,7 +42,7 @@ contains
          solving = max(solving, recovering) + share_of(LEFT_BEHIND, min(solving, recovering))
       end if
       bytes = scene%memory_before + LATER + solving
-      associate (fields => model%requests%fields)
+      associate (fields => data%step%requests%fields)
          if (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact) bytes = bytes + FIELD_LIBRARY
       end associate
       bytes = max(scene%peak_before, bytes)
@@ -114,7 +114,7 @@ contains
       logical :: wanted
 
       rows = 0
-      associate (requests => model%requests)
+      associate (requests => model%steps(1)%requests)
          if (.not. (requests%stress .or. requests%fields%stress)) return
          do e = 1, model%mesh%n_elements
             wanted = .false.

@@ -120,7 +120,7 @@ contains
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (.not. is_ok(status)) return
       data%reporter = reporter
-      controls = model%controls
+      controls = data%step%controls
       if (options%contact_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
       if (data%contact_form == CONTACT_SPARSE .and. controls%method /= METHOD_ANDERSON) then
          call add_note('N-METHOD', 'METHOD is one of the dense form of the contact system; the sparse one, which was taken, has' &
@@ -262,7 +262,7 @@ contains
 
       if (form == CONTACT_DENSE .and. .not. can_be_dense(size(data%line%point, kind=ip))) return
       call report_progress(data%reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
-                           attempt_text(data%model, controls))
+                           attempt_text(data%step%controls%max_iterations, controls))
       other%scene = results%scene
       other%scene%contact_form = contact_form_name(form)
       other%scene%contact_reason = 'what was tried before found no solution'
@@ -273,8 +273,8 @@ contains
    end subroutine try_form
 
    !> What an attempt is, besides its form.
-   function attempt_text(model, controls) result(text)
-      type(model_t), intent(in) :: model
+   function attempt_text(usual, controls) result(text)
+      integer(ip), intent(in) :: usual                      !< MAXIT of the deck
       type(controls_t), intent(in) :: controls
       character(len=:), allocatable :: text
 
@@ -282,7 +282,7 @@ contains
       if (controls%method == METHOD_NEWTON) text = ', NEWTON'
       if (controls%method == METHOD_PICARD) text = ', PICARD, RELAXATION='//to_text(controls%relaxation)
       if (controls%is_coarse) text = text//', coarse round-off'
-      if (controls%max_iterations > model%controls%max_iterations) text = text//', MAXIT='//to_text(controls%max_iterations)
+      if (controls%max_iterations > usual) text = text//', MAXIT='//to_text(controls%max_iterations)
    end function attempt_text
 
    !> Without a solution: whether there can be one. Free motion becomes a proof of it, or a last iterate that did not converge.
@@ -359,10 +359,10 @@ contains
       results%balance%rows = others
       results%balance%rigid = results%balance%rigid - others
       if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
-      if (data%model%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
+      if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
-      call recover_stress(data%model, data%fem, results)
+      call recover_stress(data%step%requests, data%fem, results)
       call copy_history(solution, results)
    end subroutine recover
 

@@ -136,12 +136,12 @@ contains
       integer(ip), allocatable :: nodes(:)
 
       call start_phase('glue')
-      call build_scene(model, fem, held, value, points)
+      call build_scene(model, model%steps(1), fem, held, value, points)
       call glue_bodies(model, held, value, points, glued, status)
       if (is_ok(status)) then
          call node_order(fem%mesh, numbering, nodes)
          call number_glued(fem%mesh, nodes, glued)
-         call nodal_loads(model, f)
+         call nodal_loads(model, model%steps(1), f)
          call glued_load(glued, f, x)
       end if
       call stop_phase('glue')

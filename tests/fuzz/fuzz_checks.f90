@@ -146,16 +146,18 @@ contains
       character(len=:), allocatable, intent(inout) :: fault
       integer(ip) :: i
 
-      do i = 1, model%prescribed%n
-         if (model%prescribed%node(i) < 1 .or. model%prescribed%node(i) > model%mesh%n_nodes) fault = 'a support nowhere'
-         if (all(model%prescribed%dof(i) /= [1, 2])) fault = 'a support of no direction'
-         if (.not. ieee_is_finite(model%prescribed%value(i))) fault = 'a prescribed displacement that is no number'
+      associate (prescribed => model%steps(1)%prescribed)
+         do i = 1, prescribed%n
+            if (prescribed%node(i) < 1 .or. prescribed%node(i) > model%mesh%n_nodes) fault = 'a support nowhere'
+            if (all(prescribed%dof(i) /= [1, 2])) fault = 'a support of no direction'
+            if (.not. ieee_is_finite(prescribed%value(i))) fault = 'a prescribed displacement that is no number'
+         end do
+      end associate
+      do i = 1, model%steps(1)%node_loads%n
+         if (.not. ieee_is_finite(model%steps(1)%node_loads%value(i))) fault = 'a force that is no number'
       end do
-      do i = 1, model%node_loads%n
-         if (.not. ieee_is_finite(model%node_loads%value(i))) fault = 'a force that is no number'
-      end do
-      do i = 1, model%element_loads%n
-         if (.not. all(ieee_is_finite(model%element_loads%value(:, i)))) fault = 'a load that is no number'
+      do i = 1, model%steps(1)%element_loads%n
+         if (.not. all(ieee_is_finite(model%steps(1)%element_loads%value(:, i)))) fault = 'a load that is no number'
       end do
       do i = 1, size(model%pairs, kind=ip)
          if (model%pairs(i)%slave < 1 .or. model%pairs(i)%slave > size(model%surfaces)) fault = 'a pair without slave'

@@ -27,8 +27,8 @@ contains
       call add_element(model%mesh, 7_ip, PLANE_STRAIN, [1_ip, 2_ip, 5_ip, 4_ip], known)
       call add_element(model%mesh, 8_ip, PLANE_STRAIN, [2_ip, 3_ip, 6_ip, 5_ip], known)
       call trim_mesh(model%mesh)
-      allocate (model%parameters(0), model%materials(1), model%sections(1), model%surfaces(2), model%interactions(1), &
-                model%pairs(1))
+      allocate (model%steps(1), model%parameters(0), model%materials(1), model%sections(1), model%surfaces(2), &
+                model%interactions(1), model%pairs(1))
       model%materials(1)%name = 'C'
       model%materials(1)%young = 1000.0_wp
       model%sections(1)%elset = 'ALL'
@@ -43,14 +43,14 @@ contains
       model%pairs(1)%interaction = 1
       model%pairs(1)%slave = 1
       model%pairs(1)%master = 2
-      model%prescribed%n = 0
-      model%element_loads%n = 1
-      model%element_loads%element = [2_ip]
-      model%element_loads%kind = [LOAD_PRESSURE]
-      model%element_loads%face = [3_ip]
-      model%element_loads%value = reshape([0.5_wp, 0.0_wp], [2, 1])
-      model%requests%nodes = .true.
-      model%requests%reactions = .true.
+      model%steps(1)%prescribed%n = 0
+      model%steps(1)%element_loads%n = 1
+      model%steps(1)%element_loads%element = [2_ip]
+      model%steps(1)%element_loads%kind = [LOAD_PRESSURE]
+      model%steps(1)%element_loads%face = [3_ip]
+      model%steps(1)%element_loads%value = reshape([0.5_wp, 0.0_wp], [2, 1])
+      model%steps(1)%requests%nodes = .true.
+      model%steps(1)%requests%reactions = .true.
    end subroutine make_model
 
    !> Pressures 0, 1/2, 3 with the weights 1/2, 1, 1/2: N = 2, its place s = (1/2 + 3)/2 = 1.75 of 2.

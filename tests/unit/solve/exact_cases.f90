@@ -116,7 +116,7 @@ contains
          end do
       end do
       call trim_mesh(model%mesh)
-      allocate (model%materials(1), model%sections(1), model%surfaces(0), model%interactions(0), model%pairs(0))
+      allocate (model%steps(1), model%materials(1), model%sections(1), model%surfaces(0), model%interactions(0), model%pairs(0))
       model%materials(1)%young = YOUNG
       model%materials(1)%poisson = POISSON
       model%sections(1)%elset = 'ALL'
@@ -147,7 +147,7 @@ contains
       real(wp) :: u(2)
       integer(ip) :: i, dof
 
-      associate (held => model%prescribed)
+      associate (held => model%steps(1)%prescribed)
          allocate (held%node(0), held%dof(0), held%value(0))
          do i = 1, m*m
             if (min(mod(i - 1, m), (i - 1)/m) > 0 .and. max(mod(i - 1, m), (i - 1)/m) < m - 1) cycle
