@@ -1,0 +1,114 @@
+#!/bin/sh
+# Histories of friction against closed forms; README.md has their sources.
+. "$(dirname "$0")/../lib.sh"
+
+# cylinders NAME STEPS INTERACTION [SLAVE]: a deck of cattaneo.awk, run.
+cylinders() {
+   awk -v type=CPE4 -v n=24 -v interaction="$3" -v slave="${4:-A}" -f "$here/cattaneo.awk" <"$2" >"$1.inp"
+   run 0 "$1.inp" "$1" --digits 17 --quiet
+}
+
+# tractions NAME STEP INCREMENT TOP BACK: three numbers. The largest difference of the shear from that of Mindlin, loaded to TOP and then to
+# BACK (over nu N), over nu p0, but for the points within an element of a kink and of the edge; how far out of place the end of what
+# sticks is, in elements; the number of points that were compared.
+tractions() {
+   awk -v step="$2" -v increment="$3" -v top="$4" -v back="$5" '
+      function cattaneo(x, t,    c) {
+         c = sqrt(1 - t)
+         return (x < 1 ? sqrt(1 - x*x) : 0) - (x < c ? sqrt(c*c - x*x) : 0)
+      }
+      /^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
+      !/^#/ && $1 == step && $at["increment"] == increment {
+         x = $at["x"]/0.3; if (x < 0) x = -x
+         here = sqrt(1 - (top - back)/2); there = sqrt(1 - top)
+         if ($at["status"] == 1 && x > stuck) stuck = x
+         q = -$at["shear"]/(0.3*2*3.8838/(atan2(0, -1)*0.3))
+         if (q !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/) bad = 1
+         h = 1.01/24
+         if (x > 1 - h || (x > here - h && x < here + h) || (x > there - h && x < there + h)) next
+         n++; d = q - cattaneo(x, top) + 2*cattaneo(x, (top - back)/2); if (d < 0) d = -d; if (d > most) most = d }
+      END { d = 24*(stuck - sqrt(1 - (top - back)/2)); if (bad || !n) print "none none 0"; else printf "%.17g %.17g %d", most, (d < 0 ? -d : d), n }' \
+      "$1/contact.tab"
+}
+# mindlin NAME STEP INCREMENT TOP BACK
+mindlin() {
+   # shellcheck disable=SC2046
+   set -- "$@" $(tractions "$@")
+   near "$1, step $2, increment $3: shear, off over nu p0" "$6" 0 0.01
+   [ "$4" = "$5" ] && first=1 || first=0
+   near "$1, step $2, increment $3: end of the stick zone, off in elements" "$7" 0 1
+   below "$1, step $2, increment $3: points left out" "$(value "47 - $8")" "$((9 + 4 - 4*first))"
+}
+# of_steps NAME COLUMN FIRST LAST: the sum of a column of history.tab over the increments of steps.
+of_steps() {
+   awk -v name="$2" -v first="$3" -v last="$4" '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
+      !/^#/ && $1 >= first && $1 <= last { sum += $at[name]; n++ } END { if (n) printf "%.17g", sum; else print "none" }' "$1/history.tab"
+}
+# at_end NAME COLUMN STEP INCREMENT: of history.tab.
+of_increment() {
+   awk -v name="$2" -v step="$3" -v increment="$4" '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
+      !/^#/ && $1 == step && $2 == increment { print $at[name] }' "$1/history.tab"
+}
+
+# 1. Cattaneo and Mindlin: N, then T = nu N/2, back to 0 and to -T, and to T again
+stiffness=$(value '1000/(2*(1 - 0.09))')
+unit=$(value "0.09*3.8838*3.8838/$stiffness")
+loop=$(value "2/atan2(0, -1)*(0.75 + log(0.5))*$unit")
+for slave in A B; do
+   cylinders loop-$slave "$here/loop.steps" '*FRICTION/0.3' $slave
+   mindlin loop-$slave 2 8 0.5 0.5
+   mindlin loop-$slave 3 8 0.5 0
+   mindlin loop-$slave 3 16 0.5 -0.5
+   mindlin loop-$slave 4 16 0.5 0.5
+   near "loop-$slave: dissipation of the first loading" "$(of_steps loop-$slave dissipation 2 2)" "$(value "$loop/4")" "$(value "0.01*$loop/4")"
+   near "loop-$slave: dissipation of the loop" "$(of_steps loop-$slave dissipation 3 4)" "$loop" "$(value "0.01*$loop")"
+done
+cylinders amplitude "$here/amplitude.steps" '*FRICTION/0.3'
+mindlin amplitude 2 8 0.5 0.5
+mindlin amplitude 2 16 0.5 0
+mindlin amplitude 2 24 0.5 -0.5
+mindlin amplitude 2 40 0.5 0.5
+near 'amplitude: dissipation' "$(of_steps amplitude dissipation 2 2)" "$(of_steps loop-A dissipation 2 4)" "$(value "1e-9*$loop")"
+
+# 2. N and T grow together: with slip in increments all sticks, q = T/N p; the total law has Cattaneo's tractions
+# ramp NAME INCREMENTS INTERACTION: increments in which the half width grows equally.
+ramp() {
+   {
+      echo '*AMPLITUDE, NAME=SQUARE'
+      awk -v n="$2" 'BEGIN { for (k = 0; k <= n; k++) printf "%.12g, %.12g\n", k/n, (k/n)^2 }' </dev/null
+      printf '*STEP, INC=1000\n*STATIC\n%s, 1.\n*CLOAD, AMPLITUDE=SQUARE\nREF, 2, -3.8838\nREF, 1, 0.58257\n' "$(value "1/$2")"
+      printf '*CONTACT PRINT\n*END STEP\n'
+   } >"$1.steps"
+   cylinders "$1" "$1.steps" "$3"
+}
+# middle NAME: q/(nu p) at x = 0.
+middle() {
+   awk '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
+      !/^#/ && $at["x"]^2 < 1e-16 { q = $at["shear"]/(0.3*$at["pressure"]); printf "%.17g", (q < 0 ? -q : q) }' "$1/contact.tab"
+}
+ramp together 160 '*FRICTION/0.3'
+near 'together, 160 increments: q(0)/(nu p0)' "$(middle together)" 0.5 0.005
+ramp total 4 '*FRICTION, NONLOCAL/0.3, 0, 0'
+near 'together, total slip: q(0)/(nu p0)' "$(middle total)" 0.2929 0.003
+ramp once 1 '*FRICTION/0.3'
+near 'at once: q(0)/(nu p0)' "$(middle once)" "$(middle total)" 1e-9
+
+# 3. A block dragged there and back: F = +-nu N on the plateaus; a closed loop between +-way has the area 4 nu N (way - nu q/k)
+for k in 1000 4000; do
+   for way in 0.01 0.025; do
+      name=drag-$k-$way
+      run 0 "$here/drag.inp" "$name" --set k=$k --set way=$way --digits 17 --quiet
+      near "$name: plateau there" "$(of_increment "$name" shear_resultant 2 10)" -8 8e-10
+      near "$name: plateau back" "$(of_increment "$name" shear_resultant 3 10)" 8 8e-10
+      near "$name: dissipation of the loop" "$(of_steps "$name" dissipation 3 4)" "$(value "4*8*($way - 4/$k)")" 1e-12
+      near "$name: dissipation of the first way" "$(of_steps "$name" dissipation 2 2)" "$(value "8*($way - 4/$k)")" 1e-12
+   done
+done
+
+# 4. Pushed past what friction holds, 2/3 of the second step: increments are cut back to the least, what converged is written
+run 4 "$here/too-far.inp" too-far --digits 17 --quiet
+says 'too far' too-far/contact.tab 'NOT CONVERGED: ended in step 2'
+last=$(column too-far/history.tab time | tail -n 1)
+near 'too far: the last time that converged' "$last" "$(value '1 + 2/3')" 2e-4
+near 'too far: the shear force there' "$(column too-far/history.tab shear_resultant | tail -n 1)" "$(value "-15*($last - 1)")" 1e-9
+finish
