@@ -31,7 +31,7 @@ module atrito_increment
    use atrito_weak_forces, only: contact_sizes_t
    implicit none (type, external)
    private
-   public :: solve_increment, is_solved
+   public :: solve_increment, complete_results, is_solved
 
    !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
    real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
@@ -120,7 +120,6 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
-      real(wp) :: strain_bound
 
       if (form == CONTACT_SPARSE) then
          call solve_sparse_form(data, controls, results, solution, u, status)
@@ -135,12 +134,7 @@ contains
       call start_phase('recover')
       call recover(data, solution, u, results)
       call stop_phase('recover')
-      if (data%is_printed) then
-         call start_phase('estimate')
-         call estimate_error(data%fem, results, strain_bound)
-         call find_large(data%model, data%fem, strain_bound, results)
-         call stop_phase('estimate')
-      end if
+      if (data%is_printed) call complete_results(data, solution, results)
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
                      growth_of_bodies(data, results%scene))
@@ -265,7 +259,26 @@ contains
       call judge_balance(data%fem, data%held, data%rows, data%line, data%f, results%scene%pairs, results%verdict, status)
    end subroutine judge_failed_check
 
-   !> Displacements, reactions, stresses, contact fields, energies and balances.
+   !> What is worth its time where it is printed: sums by body and joint, stresses and their error, the limits of a linear theory.
+   subroutine complete_results(data, solution, results)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+      real(wp) :: strain_bound
+
+      call start_phase('recover')
+      if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, &
+                                                     contact_forces(data%fem, data%rows, data%line, solution), results%bodies)
+      call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
+      call recover_stress(data%step%requests, data%fem, results)
+      call stop_phase('recover')
+      call start_phase('estimate')
+      call estimate_error(data%fem, results, strain_bound)
+      call find_large(data%model, data%fem, strain_bound, results)
+      call stop_phase('estimate')
+   end subroutine complete_results
+
+   !> Displacements, reactions, contact fields, energies and balances.
    subroutine recover(data, solution, u, results)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
@@ -300,10 +313,6 @@ contains
       if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call copy_history(solution, results)
-      if (.not. data%is_printed) return
-      if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
-      call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
-      call recover_stress(data%step%requests, data%fem, results)
    end subroutine recover
 
    !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
