@@ -31,8 +31,10 @@ scene() {
    for step in $(seq "$2"); do
       normal=$(reference "$1" "$step" 4)
       limit=$(value "0.01*$normal")
+      shear=$(reference "$1" "$step" 3)
       near "$1, step $step: normal force" "$(resultant "$1" "$step" r2)" "$normal" "$limit"
-      near "$1, step $step: shear force" "$(resultant "$1" "$step" r1)" "$(reference "$1" "$step" 3)" "$limit"
+      [ "$step" -eq 1 ] || limit=$(value "0.01*($shear < 0 ? -($shear) : $shear)")
+      near "$1, step $step: shear force" "$(resultant "$1" "$step" r1)" "$shear" "$limit"
       # shellcheck disable=SC2046
       set -- "$1" "$2" "$3" "$4" $(pressures "$1" "$step" "$3")
       near "$1, step $step: points" "$5" "$4" 0
@@ -43,7 +45,7 @@ scene() {
 # The corners of the blocks are left out: there the pressure of elastic bodies has no bound.
 scene blocks 2 0.401 33
 scene gap 3 0.401 33
-scene unequal 3 0.401 33
+scene unequal 3 0.401 49
 scene eight 2 0.401 33
 scene loaded 3 0.401 33
 # half width 0.18 to 0.19; the elements of the edge are left out

@@ -39,12 +39,16 @@ mindlin() {
    near "$1, step $2, increment $3: end of the stick zone, off in elements" "$7" 0 1
    below "$1, step $2, increment $3: points left out" "$(value "47 - $8")" "$((9 + 4 - 4*first))"
 }
-# of_steps NAME COLUMN FIRST LAST: the sum of a column of history.tab over the increments of steps.
-of_steps() {
-   awk -v name="$2" -v first="$3" -v last="$4" '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
-      !/^#/ && $1 >= first && $1 <= last { sum += $at[name]; n++ } END { if (n) printf "%.17g", sum; else print "none" }' "$1/history.tab"
+# after NAME COLUMN STEP: what the last row of a step has in history.tab.
+after() {
+   awk -v name="$2" -v step="$3" '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
+      !/^#/ && $1 == step { found = $at[name]; n++ } END { print n ? found : "none" }' "$1/history.tab"
 }
-# at_end NAME COLUMN STEP INCREMENT: of history.tab.
+# dissipation NAME FIRST LAST: from the end of step FIRST to that of step LAST; the column adds up from the beginning.
+dissipation() {
+   value "$(after "$1" dissipation "$3") - $(after "$1" dissipation "$2")"
+}
+# of_increment NAME COLUMN STEP INCREMENT: of history.tab.
 of_increment() {
    awk -v name="$2" -v step="$3" -v increment="$4" '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
       !/^#/ && $1 == step && $2 == increment { print $at[name] }' "$1/history.tab"
@@ -60,15 +64,15 @@ for slave in A B; do
    mindlin loop-$slave 3 8 0.5 0
    mindlin loop-$slave 3 16 0.5 -0.5
    mindlin loop-$slave 4 16 0.5 0.5
-   near "loop-$slave: dissipation of the first loading" "$(of_steps loop-$slave dissipation 2 2)" "$(value "$loop/4")" "$(value "0.01*$loop/4")"
-   near "loop-$slave: dissipation of the loop" "$(of_steps loop-$slave dissipation 3 4)" "$loop" "$(value "0.01*$loop")"
+   near "loop-$slave: dissipation of the first loading" "$(dissipation loop-$slave 1 2)" "$(value "$loop/4")" "$(value "0.01*$loop/4")"
+   near "loop-$slave: dissipation of the loop" "$(dissipation loop-$slave 2 4)" "$loop" "$(value "0.01*$loop")"
 done
 cylinders amplitude "$here/amplitude.steps" '*FRICTION/0.3'
 mindlin amplitude 2 8 0.5 0.5
 mindlin amplitude 2 16 0.5 0
 mindlin amplitude 2 24 0.5 -0.5
 mindlin amplitude 2 40 0.5 0.5
-near 'amplitude: dissipation' "$(of_steps amplitude dissipation 2 2)" "$(of_steps loop-A dissipation 2 4)" "$(value "1e-9*$loop")"
+near 'amplitude: dissipation' "$(dissipation amplitude 1 2)" "$(dissipation loop-A 1 4)" "$(value "1e-9*$loop")"
 
 # 2. N and T grow together: with slip in increments all sticks, q = T/N p; the total law has Cattaneo's tractions
 # ramp NAME INCREMENTS INTERACTION: increments in which the half width grows equally.
@@ -100,8 +104,8 @@ for k in 1000 4000; do
       run 0 "$here/drag.inp" "$name" --set k=$k --set way=$way --digits 17 --quiet
       near "$name: plateau there" "$(of_increment "$name" shear_resultant 2 10)" -8 8e-10
       near "$name: plateau back" "$(of_increment "$name" shear_resultant 3 10)" 8 8e-10
-      near "$name: dissipation of the loop" "$(of_steps "$name" dissipation 3 4)" "$(value "4*8*($way - 4/$k)")" 1e-12
-      near "$name: dissipation of the first way" "$(of_steps "$name" dissipation 2 2)" "$(value "8*($way - 4/$k)")" 1e-12
+      near "$name: dissipation of the loop" "$(dissipation "$name" 2 4)" "$(value "4*8*($way - 4/$k)")" 1e-12
+      near "$name: dissipation of the first way" "$(dissipation "$name" 1 2)" "$(value "8*($way - 4/$k)")" 1e-12
    done
 done
 
