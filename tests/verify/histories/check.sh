@@ -20,14 +20,14 @@ tractions() {
       /^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
       !/^#/ && $1 == step && $at["increment"] == increment {
          x = $at["x"]/0.3; if (x < 0) x = -x
-         here = sqrt(1 - (top - back)/2); there = sqrt(1 - top)
+         there = sqrt(1 - top); here = (back == top) ? there : sqrt(1 - (top - back)/2)
          if ($at["status"] == 1 && x > stuck) stuck = x
          q = -$at["shear"]/(0.3*2*3.8838/(atan2(0, -1)*0.3))
          if (q !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/) bad = 1
          h = 1.01/24
          if (x > 1 - h || (x > here - h && x < here + h) || (x > there - h && x < there + h)) next
          n++; d = q - cattaneo(x, top) + 2*cattaneo(x, (top - back)/2); if (d < 0) d = -d; if (d > most) most = d }
-      END { d = 24*(stuck - sqrt(1 - (top - back)/2)); if (bad || !n) print "none none 0"; else printf "%.17g %.17g %d", most, (d < 0 ? -d : d), n }' \
+      END { d = 24*(stuck - here); if (bad || !n) print "none none 0"; else printf "%.17g %.17g %d", most, (d < 0 ? -d : d), n }' \
       "$1/contact.tab"
 }
 # mindlin NAME STEP INCREMENT TOP BACK
