@@ -11,6 +11,7 @@ module atrito_run
    use atrito_files, only: check_folder
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_hdf5, only: has_hdf5
+   use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: signed_area
    use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
@@ -21,9 +22,9 @@ module atrito_run
    use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: results_t, contact_result_t
+   use atrito_results, only: history_t, results_t
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_static, solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
+   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
                            SOLVER_MUMPS
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
@@ -46,7 +47,7 @@ contains
       integer, intent(out) :: code                  !< one of STATUS_*
       type(run_facts_t), intent(out), optional :: facts
       type(model_t) :: model
-      type(results_t) :: results
+      type(history_t) :: history
       type(reporter_t) :: reporter
       type(status_t) :: status
       integer(ip) :: told
@@ -61,14 +62,16 @@ contains
          code = status%code
          return
       end if
-      call solve_static(model, solve_options(command), reporter, results, status, store)
+      call solve_history(model, solve_options(command), reporter, history, status, store)
       call print_messages(command%quiet, told + 1)
-      if (is_ok(status) .or. status%code == STATUS_NOT_CONVERGED) call agree_on_outcome(status, results)
-      if (.not. is_ok(status)) call print_status(status, model%deck_path)
-      code = status%code
-      if (code /= STATUS_OK .and. code /= STATUS_NOT_CONVERGED) return
-      call write_run(command, reporter, model, results, code)
-      if (present(facts)) facts = facts_of(model, results)
+      associate (n => size(history%frames))
+         if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
+         if (.not. is_ok(status)) call print_status(status, model%deck_path)
+         code = status%code
+         if (n == 0) return
+         call write_run(command, reporter, model, history%frames(n), code)
+         if (present(facts)) facts = facts_of(model, history%frames(n))
+      end associate
    end subroutine run_deck
 
    pure type(run_facts_t) function facts_of(model, results) result(facts)
@@ -104,12 +107,18 @@ contains
       end associate
    end function facts_of
 
-   !> The status and the results say the same of a run: solved, or not converged and why.
-   subroutine agree_on_outcome(status, results)
+   !> The status and the results say the same of a run: solved, or not converged and why. A history that ended early keeps its
+   !> status.
+   subroutine agree_on_outcome(status, results, ends_early)
       type(status_t), intent(inout) :: status
-      type(results_t), intent(inout) :: results
+      type(results_t), intent(inout) :: results     !< the last there are
+      logical, intent(in) :: ends_early
       character(len=:), allocatable :: text
 
+      if (ends_early) then
+         if (allocated(status%text)) call set_status(status, status%code, status%text//'; what converged before is written')
+         return
+      end if
       if (is_ok(status) .and. results%converged .and. results%law_holds) return
       text = 'not converged'
       if (allocated(results%verdict)) text = results%verdict

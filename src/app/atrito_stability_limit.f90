@@ -10,15 +10,15 @@ module atrito_stability_limit
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_messages, print_status
    use atrito_folder_claim, only: folder_claim_t, release_folder
+   use atrito_history, only: solve_history
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: find_node
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: results_t
+   use atrito_results, only: history_t, results_t
    use atrito_run, only: load_model, solve_options, agree_on_outcome
-   use atrito_solve, only: solve_static
    use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
    use atrito_sweep_plan, only: read_range
@@ -166,34 +166,38 @@ contains
       type(stability_value_t), intent(inout) :: one
       integer, intent(out) :: code
       type(model_t) :: model
-      type(results_t) :: results
+      type(history_t) :: history
       type(reporter_t) :: reporter
       type(status_t) :: status, error
       integer(ip) :: told
+      integer :: n
       logical :: first
 
       first = all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)
       call load_value(command, limit, one%value, .true., model, code, told)
       if (code /= STATUS_OK) return
       reporter%quiet = .true.
-      call solve_static(model, solve_options(command), reporter, results, status, store)
-      if (is_ok(status)) call agree_on_outcome(status, results)
+      call solve_history(model, solve_options(command), reporter, history, status, store)
+      n = size(history%frames)
+      if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
       if (status%code /= STATUS_OK .and. status%code /= STATUS_NOT_CONVERGED) then
          code = status%code
          call print_failure(command, limit, one%value, status)
          return
       end if
       if (first) call print_messages(command%quiet, told + 1)
-      call watch(model, results, command%watched, one%displacement, error)
-      code = error%code
-      if (code /= STATUS_OK) then
-         call print_status(error, model%deck_path)
-         return
+      if (n > 0) then
+         call watch(model, history%frames(n), command%watched, one%displacement, error)
+         code = error%code
+         if (code /= STATUS_OK) then
+            call print_status(error, model%deck_path)
+            return
+         end if
+         one%iterations = history%frames(n)%outer_iterations
+         one%solves = history%frames(n)%linear_solves
+         one%factorisations = history%frames(n)%factorisations
       end if
       one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, is_ok(status))
-      one%iterations = results%outer_iterations
-      one%solves = results%linear_solves
-      one%factorisations = results%factorisations
       call record_solution(search, one%value, merge(STANDS, UNDECIDED, is_ok(status)))
    end subroutine ask_solution
 

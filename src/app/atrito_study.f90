@@ -6,6 +6,7 @@ module atrito_study
    use atrito_console, only: print_status
    use atrito_element_table, only: KINDS, kind_named
    use atrito_folder_claim, only: folder_claim_t, release_folder
+   use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_messages, only: clear_messages
    use atrito_numbers, only: read_real, NUMBER_OK
@@ -20,8 +21,7 @@ module atrito_study
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
    use atrito_study_plot, only: write_study_plot
    use atrito_model, only: model_t, interaction_t
-   use atrito_results, only: results_t
-   use atrito_solve, only: solve_static
+   use atrito_results, only: history_t, results_t
    use atrito_study_table, only: write_study, compose_study
    use atrito_study_words, only: judge_study
    use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
@@ -139,7 +139,7 @@ contains
       type(command_t) :: one
       type(body_cache_t) :: store
       type(model_t) :: model
-      type(results_t) :: results
+      type(history_t) :: history
       type(reporter_t) :: reporter
       type(status_t) :: status
       integer(ip) :: told
@@ -153,9 +153,11 @@ contains
       call load_model(one, reporter, model, told, code)
       if (code == STATUS_OK) then
          call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, is_penalty), merge(1.0_wp, 0.5_wp, is_penalty))
-         call solve_static(model, solve_options(one), reporter, results, status, store)
-         if (is_ok(status)) call agree_on_outcome(status, results)
-         if (is_ok(status)) call find_values(results, study, probe%values)
+         call solve_history(model, solve_options(one), reporter, history, status, store)
+         associate (n => size(history%frames))
+            if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
+            if (is_ok(status)) call find_values(history%frames(n), study, probe%values)
+         end associate
       end if
       call clear_messages()
       study%probes = [study%probes, probe]

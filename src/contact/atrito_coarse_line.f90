@@ -89,6 +89,8 @@ contains
          coarse%law = line%law(point)
          coarse%known_overlap = line%known_overlap(point)
          coarse%known_slip = line%known_slip(point)
+         if (allocated(line%rest)) coarse%rest = line%rest(point)
+         if (allocated(line%shear_before)) coarse%shear_before = line%shear_before(point)
          if (allocated(line%pair)) coarse%pair = line%pair(point)
       end associate
       allocate (coarse%weight(coarse%n), source=0.0_wp)

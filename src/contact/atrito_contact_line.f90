@@ -1,12 +1,12 @@
 !> The contact line of a scene: all points of all pairs, their laws, and where their unknown forces stand.
 module atrito_contact_line
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_friction_law, only: friction_law_t, stick_compliance, friction_stress, FRICTION_NONE
+   use atrito_friction_law, only: friction_law_t, stick_compliance, sticking_slip, friction_stress, FRICTION_NONE
    use atrito_average, only: average_t, apply_average
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: contact_line_t, number_unknowns, tangential_of, last_of_pair, pressure_of, shear_force_of, slip_of_unknown, &
+   public :: contact_line_t, number_unknowns, tangential_of, last_of_pair, pressure_of, rest_of, shear_force_of, slip_of_unknown, &
              friction_bound, normal_bounds, set_friction_bounds
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
@@ -23,6 +23,10 @@ module atrito_contact_line
       integer(ip), allocatable :: tangential(:)       !< unknown of the tangential force; 0: none
       real(wp), allocatable :: known_overlap(:)       !< u_n - s [L] where normal is 0
       real(wp), allocatable :: known_slip(:)          !< u_T [L] where tangential is 0 for prescribed dofs
+      !> Of laws with memory [L]: u_T at which the friction is none. Not allocated: 0.
+      real(wp), allocatable :: rest(:)
+      !> Friction stress of the increment before [F/L^2]: what a point that does not move keeps. Not allocated: 0.
+      real(wp), allocatable :: shear_before(:)
       integer(ip), allocatable :: point(:)            !< (unknowns) point of each
       integer(ip), allocatable :: pair(:)             !< (n) contact pair of each, ascending; not allocated: one
       logical :: has_friction = .false.
@@ -99,6 +103,15 @@ contains
       end do
    end function pressure_of
 
+   !> u_T [L] at which the friction of a point is none.
+   pure real(wp) function rest_of(line, j) result(rest)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j
+
+      rest = 0.0_wp
+      if (allocated(line%rest)) rest = line%rest(j)
+   end function rest_of
+
    !> Friction stress t [F/L^2] at the points (it acts on the master along T).
    pure function shear_force_of(line, q, tau) result(t)
       type(contact_line_t), intent(in) :: line
@@ -110,14 +123,29 @@ contains
          if (line%tangential(j) > 0) then
             t(j) = q(line%tangential(j))/line%weight(j)
          else if (line%law(j)%kind /= FRICTION_NONE) then
-            t(j) = friction_stress(line%law(j), tau(j), line%known_slip(j))
+            t(j) = known_shear(line, j, tau(j))
          else
             t(j) = 0.0_wp
          end if
       end do
    end function shear_force_of
 
-   !> u_T [L] of a tangential unknown: that of its law where it sticks, which has more digits than a difference of displacements.
+   !> The friction stress of a point whose slip is prescribed. One of exact stick that has not moved keeps what it had, as far as
+   !> its bound goes.
+   pure real(wp) function known_shear(line, j, tau) result(t)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: tau
+
+      associate (slip => line%known_slip(j) - rest_of(line, j))
+         t = friction_stress(line%law(j), tau, slip)
+         if (.not. allocated(line%shear_before)) return
+         if (slip == 0.0_wp .and. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) &
+            t = min(max(line%shear_before(j), -tau), tau)
+      end associate
+   end function known_shear
+
+   !> u_T less the rest slip [L] of a tangential unknown: that of its law where it sticks, which has more digits than a difference of displacements.
    pure real(wp) function slip_of_unknown(bounds, state, i) result(slip)
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state

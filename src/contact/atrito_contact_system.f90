@@ -17,6 +17,7 @@ module atrito_contact_system
       integer(ip) :: k = 0                       !< of them, the last ones: amplitudes of rigid motions
       integer(ip) :: n_bodies = 0
       integer(ip) :: failed = 0                  !< unknown whose pivot was not positive in the last factorisation; 0: none
+      integer(ip) :: generation = 0              !< counts the factorisations
       type(constraint_rows_t) :: rows            !< B
       real(wp), allocatable :: g0(:)             !< (rows) B (prescribed displacements), less the gap for normal rows [L]
       real(wp), allocatable :: flexibility(:)    !< (rows) c_i = sum_j B_ij^2 / A_jj over the displacements [L/F]

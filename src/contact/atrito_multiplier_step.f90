@@ -39,6 +39,7 @@ module atrito_multiplier_step
       logical :: settled = .false.               !< the last step ended with the states that it assumed
       logical :: changed = .false.               !< the last step changed a state
       integer(ip) :: factorisations = 0, solves = 0
+      integer(ip) :: generation = -1             !< of the system's factorisation that stiffness and pull are of
    end type multiplier_t
 
    integer(ip), parameter :: MOST_NEWTON = 200_ip
@@ -237,11 +238,13 @@ contains
       where (abs(stiffness - multipliers%stiffness) <= SAME_STIFFNESS*stiffness) stiffness = multipliers%stiffness
       do
          pull = pull_of(multipliers)
-         is_new = multipliers%factorisations == 0
+         is_new = multipliers%generation /= system%generation
          if (.not. is_new) is_new = any(stiffness /= multipliers%stiffness) .or. any(pull /= multipliers%pull)
          if (.not. is_new) return
          call system%factor(stiffness, pull, status)
          multipliers%factorisations = multipliers%factorisations + 1
+         system%generation = system%generation + 1
+         multipliers%generation = system%generation
          multipliers%stiffness = stiffness
          multipliers%pull = pull
          ! between a stiff body and soft ones a weak pull may be less than round-off

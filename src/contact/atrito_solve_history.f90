@@ -4,7 +4,7 @@ module atrito_solve_history
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    implicit none (type, external)
    private
-   public :: iteration_t, solve_history_t, record_solve, begin_outer, end_outer, state_letters, OUTER_KEPT
+   public :: iteration_t, solve_history_t, record_solve, restart_history, begin_outer, end_outer, state_letters, OUTER_KEPT
 
    integer(ip), parameter :: OUTER_KEPT = 8          !< outer iterations whose states are kept
    !> State of a point: open, closed without a tangential unknown, sticking, slipping along T and against it.
@@ -32,6 +32,15 @@ module atrito_solve_history
    end type solve_history_t
 
 contains
+
+   !> Nothing is recorded yet, of the same unknowns.
+   pure subroutine restart_history(history)
+      type(solve_history_t), intent(inout) :: history
+      type(solve_history_t) :: new
+
+      if (allocated(history%tangential_of)) new%tangential_of = history%tangential_of
+      history = new
+   end subroutine restart_history
 
    !> The next outer iteration begins.
    pure subroutine begin_outer(history)

@@ -175,7 +175,8 @@ contains
                           'value 0 is a note. Two different values for one dof in a step are an error. FUNCTION: in the step, '// &
                           'evaluated at each node.')
       call add_option(k, 'FUNCTION+', KIND_FLAG, 'the value is an expression in x and y')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_option(k, 'OP', KIND_WORD, 'MOD: lines change and add; NEW: what the steps before gave is removed', default='MOD', &
+                      choices='MOD NEW')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='-FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')

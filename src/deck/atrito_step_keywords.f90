@@ -14,6 +14,9 @@ module atrito_step_keywords
    character(len=*), parameter :: FIELD_FILE = '<deck name>.h5, an HDF5 file that ParaView opens by <deck name>.xdmf; there is '// &
                                   'one when a *... FILE asks for it.'
 
+   character(len=*), parameter :: OP_DOC = 'MOD: lines change and add; NEW: what the steps before gave is removed, the same in '// &
+                                  'all cards of the keyword in a step'
+
 contains
 
    subroutine define_step_keywords(k)
@@ -40,7 +43,7 @@ contains
       type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'STEP', LEVEL_STEP, 'begins the step', &
-                          doc='A deck has one step; histories of several are not built yet. Displacements are small.')
+                          doc='A step has what the steps before gave, but for what its own lines change. Displacements are small.')
       call add_option(k, 'NLGEOM', KIND_OPTIONAL_WORD, 'large displacements', default='NO', choices='-YES NO')
       call add_option(k, '(NAME)', KIND_NAME, 'the step has no name here')
       call add_option(k, '(INC)', KIND_INTEGER, 'the load is applied at once')
@@ -66,7 +69,7 @@ contains
       call define_keyword(k, 'CLOAD', LEVEL_STEP, 'forces at nodes', &
                           doc='For the whole thickness, or the full circle of CAX elements. Lines on one dof add up; at a set '// &
                           'every node takes the force.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_option(k, 'OP', KIND_WORD, OP_DOC, default='MOD', choices='MOD NEW')
       call add_form(k, 'one force a line', 1, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'dof', KIND_INTEGER, '1 (x) or 2 (y)')
@@ -78,7 +81,7 @@ contains
                           'GRAV: acceleration times *DENSITY along a direction. HP1 to HP4 and TRVEC1 to TRVEC4: hydrostatic '// &
                           'pressure and traction on that face, as HP and TRVEC of *DSLOAD. All are multiplied by the '// &
                           'thickness, or go round the full circle.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_option(k, 'OP', KIND_WORD, OP_DOC, default='MOD', choices='MOD NEW')
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
       call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
       call add_word_item(k, 'label', 'P1 P2 P3 P4 BX BY GRAV HP1 HP2 HP3 HP4 TRVEC1 TRVEC2 TRVEC3 TRVEC4', 'kind of load')
@@ -92,7 +95,7 @@ contains
                           doc='P: pressure, positive pushes on the body. TRVEC: traction of this size along a direction of '// &
                           'any length. HP: hydrostatic pressure, 0 at one level x2, the magnitude at another, linear between '// &
                           'and beyond; on the other side of the first level it is 0. All are multiplied by the thickness.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_option(k, 'OP', KIND_WORD, OP_DOC, default='MOD', choices='MOD NEW')
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
       call add_item(k, 'surface', KIND_NAME, 'a surface of elements')
       call add_word_item(k, 'label', 'P TRVEC HP', 'kind of load')
@@ -106,7 +109,7 @@ contains
                           doc='Nodes that no line names keep the temperature of *INITIAL CONDITIONS, or 0. The shape functions '// &
                           'of each element interpolate the temperatures of its nodes, those in the middle of its sides '// &
                           'included; --refine does not change that field.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_option(k, 'OP', KIND_WORD, OP_DOC, default='MOD', choices='MOD NEW')
       call add_form(k, 'one temperature a line', 1, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'value', KIND_REAL, 'temperature', dimension='temperature')

@@ -7,7 +7,7 @@
 module atrito_assembled_scene
    use atrito_assembly, only: fem_t, collect_elements
    use atrito_bodies, only: mode_at
-   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_line, only: contact_line_t, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, lp, wp
@@ -20,7 +20,7 @@ module atrito_assembled_scene
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: assembled_scene_t, assemble_scene, set_scene_load, displacements_of
+   public :: assembled_scene_t, assemble_scene, set_scene_gaps, set_scene_load, displacements_of
 
    integer(ip), parameter :: ROWS_A_POINT = 2
 
@@ -59,7 +59,6 @@ contains
       type(status_t), intent(out) :: status
       type(element_store_t) :: store
       type(elimination_t) :: elimination
-      integer(ip) :: i
 
       call number_scene(fem, scene%numbering)
       scene%n = scene%numbering%n
@@ -67,11 +66,7 @@ contains
       scene%n_bodies = fem%bodies%n
       scene%body = scene%numbering%body
       call build_constraint_rows(fem, rows, line, .true., scene%rows)
-      allocate (scene%g0(scene%rows%n))
-      do i = 1, scene%rows%n
-         scene%g0(i) = row_value(rows, line%point(i), direction_of(rows, line, i), value)
-         if (line%normal(line%point(i)) == i) scene%g0(i) = scene%g0(i) - rows%gap(line%point(i))
-      end do
+      call set_scene_gaps(rows, line, value, scene)
       call list_variable_elements(line, scene)
       call collect_scene(fem, scene%numbering, store)
       scene%is_near = store%is_near
@@ -80,6 +75,27 @@ contains
       call move_alloc(elimination%text, scene%order)
       if (is_ok(status)) call set_flexibility(fem, rows, line, scene)
    end subroutine assemble_scene
+
+   !> What prescribed displacements, initial gaps and rest slips leave of the rows: g0.
+   subroutine set_scene_gaps(rows, line, value, scene)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
+      type(assembled_scene_t), intent(inout) :: scene
+      integer(ip) :: i
+
+      if (.not. allocated(scene%g0)) allocate (scene%g0(scene%rows%n))
+      do i = 1, scene%rows%n
+         associate (j => line%point(i))
+            scene%g0(i) = row_value(rows, j, direction_of(rows, line, i), value)
+            if (line%normal(j) == i) then
+               scene%g0(i) = scene%g0(i) - rows%gap(j)
+            else
+               scene%g0(i) = scene%g0(i) - rest_of(line, j)
+            end if
+         end associate
+      end do
+   end subroutine set_scene_gaps
 
    !> The elements that change: the points with the unknowns of their rows, then the motions of each floating body.
    subroutine list_variable_elements(line, scene)

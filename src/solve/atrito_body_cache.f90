@@ -18,7 +18,7 @@ module atrito_body_cache
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_cache_t, provide_bodies, take_numbering, release_bodies, forget_bodies
+   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies
 
    type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
@@ -89,6 +89,22 @@ contains
       call remember(store, fem, held, points, load, asked, results, same_bodies)
       if (present(bilateral)) store%bilateral = bilateral
    end subroutine provide_bodies
+
+   !> The bodies as the last call of provide_bodies left them, with another load.
+   subroutine reload_bodies(store, fem, load)
+      type(body_cache_t), intent(inout) :: store
+      type(fem_t), intent(in) :: fem                   !< of that call
+      real(wp), intent(in) :: load(:, :)               !< (2, n_nodes) [F], less the forces of prescribed displacements
+      integer(ip) :: b
+
+      store%factorisations = 0
+      call start_phase('factor')
+      do b = 1, fem%bodies%n
+         call set_load(fem, b, load, store%bodies(b))
+      end do
+      call stop_phase('factor')
+      if (store%holds) store%load = load
+   end subroutine reload_bodies
 
    subroutine remember(store, fem, held, points, load, asked, results, same_bodies)
       type(body_cache_t), intent(inout) :: store

@@ -6,7 +6,7 @@ module atrito_contact_problem
    use atrito_bodies, only: mode_at
    use atrito_bound_qp, only: bound_qp_t
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
-   use atrito_contact_line, only: contact_line_t, number_unknowns
+   use atrito_contact_line, only: contact_line_t, number_unknowns, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
@@ -15,7 +15,8 @@ module atrito_contact_problem
    use atrito_surface_average, only: average_rule_t, average_surfaces, count_surface_entries
    implicit none (type, external)
    private
-   public :: average_entries, build_line, build_problem, add_displacements, motion_body
+   public :: average_entries, build_line, set_known_points, build_problem, build_flexibility, set_right_hand_sides, &
+             add_displacements, motion_body
 
 contains
 
@@ -49,9 +50,8 @@ contains
       do j = 1, line%n
          normal_row(j) = has_unknown(fem, rows, j, rows%normal(:, j))
          tangential_row(j) = has_unknown(fem, rows, j, rows%tangent(:, j))
-         line%known_overlap(j) = row_value(rows, j, rows%normal(:, j), value) - rows%gap(j)
-         line%known_slip(j) = row_value(rows, j, rows%tangent(:, j), value)
       end do
+      call set_known_points(rows, value, line)
       call number_unknowns(line, normal_row, tangential_row)
    end subroutine build_line
 
@@ -123,6 +123,19 @@ contains
       end do
    end function has_unknown
 
+   !> What the contact line knows of points whose dofs are prescribed.
+   pure subroutine set_known_points(rows, value, line)
+      type(contact_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
+      type(contact_line_t), intent(inout) :: line
+      integer(ip) :: j
+
+      do j = 1, line%n
+         line%known_overlap(j) = row_value(rows, j, rows%normal(:, j), value) - rows%gap(j)
+         line%known_slip(j) = row_value(rows, j, rows%tangent(:, j), value)
+      end do
+   end subroutine set_known_points
+
    !> C, G, g0 and h.
    subroutine build_problem(fem, condensed, rows, line, value, f, problem)
       type(fem_t), intent(in) :: fem
@@ -132,7 +145,19 @@ contains
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
       type(bound_qp_t), intent(out) :: problem
-      integer(ip) :: i, m, b
+
+      call build_flexibility(fem, condensed, rows, line, problem)
+      call set_right_hand_sides(fem, condensed, rows, line, value, f, problem)
+   end subroutine build_problem
+
+   !> C and G: the same for all loads.
+   subroutine build_flexibility(fem, condensed, rows, line, problem)
+      type(fem_t), intent(in) :: fem
+      type(condensed_body_t), intent(in) :: condensed(:)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(out) :: problem
+      integer(ip) :: m, b
 
       problem%m = size(line%point, kind=ip)
       problem%n_normal = count(line%normal > 0, kind=ip)
@@ -140,19 +165,40 @@ contains
          problem%k = problem%k + size(fem%bodies%list(b)%modes, 2, kind=ip)
       end do
       m = problem%m
-      allocate (problem%c(m, m), problem%g(m, problem%k), problem%g0(m), problem%h(problem%k), problem%h_size(problem%k), &
-                source=0.0_wp)
+      allocate (problem%c(m, m), problem%g(m, problem%k), source=0.0_wp)
       problem%weight = line%weight(line%point)
-      do i = 1, m
+      do b = 1, fem%bodies%n
+         call add_flexibility(fem, b, condensed(b), rows, line, problem)
+      end do
+      call add_motions(fem, rows, line, problem)
+   end subroutine build_flexibility
+
+   !> g0 and h: what prescribed displacements, loads and rest slips do.
+   subroutine set_right_hand_sides(fem, condensed, rows, line, value, f, problem)
+      type(fem_t), intent(in) :: fem
+      type(condensed_body_t), intent(in) :: condensed(:) !< with their loads
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
+      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
+      type(bound_qp_t), intent(inout) :: problem     !< with C and G
+      integer(ip) :: i, b
+
+      if (allocated(problem%g0)) deallocate (problem%g0, problem%h, problem%h_size)
+      allocate (problem%g0(problem%m), problem%h(problem%k), problem%h_size(problem%k), source=0.0_wp)
+      do i = 1, problem%m
          problem%g0(i) = row_value(rows, line%point(i), direction_of(problem, rows, line, i), value)
-         if (i <= problem%n_normal) problem%g0(i) = problem%g0(i) - rows%gap(line%point(i))
+         if (i <= problem%n_normal) then
+            problem%g0(i) = problem%g0(i) - rows%gap(line%point(i))
+         else
+            problem%g0(i) = problem%g0(i) - rest_of(line, line%point(i))
+         end if
       end do
       do b = 1, fem%bodies%n
          call add_displacements(fem, b, condensed(b), rows, line, problem)
-         call add_flexibility(fem, b, condensed(b), rows, line, problem)
       end do
-      call add_motions(fem, rows, line, f, problem)
-   end subroutine build_problem
+      call add_loads_on_motions(fem, f, problem)
+   end subroutine set_right_hand_sides
 
    pure function direction_of(problem, rows, line, i) result(d)
       type(bound_qp_t), intent(in) :: problem
@@ -281,24 +327,15 @@ contains
       end do
    end subroutine scatter
 
-   !> Adds the rigid motions of all bodies: G = B Z, h = Z' f.
-   subroutine add_motions(fem, rows, line, f, problem)
+   !> The rigid motions of all bodies at the points: G = B Z.
+   subroutine add_motions(fem, rows, line, problem)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: f(:, :)
       type(bound_qp_t), intent(inout) :: problem
-      integer(ip) :: column(fem%bodies%n + 1)        ! of the first motion of each body
-      integer(ip) :: b, i, j, k
+      integer(ip) :: column(fem%bodies%n + 1), b, i, k
 
-      column(1) = 1
-      do b = 1, fem%bodies%n
-         column(b + 1) = column(b) + size(fem%bodies%list(b)%modes, 2, kind=ip)
-         do j = column(b), column(b + 1) - 1
-            call work_of_load(fem, b, fem%bodies%list(b)%modes(:, j - column(b) + 1), f, problem%h(j), problem%h_size(j))
-         end do
-         call clear_balanced_load(problem%h_size(column(b):column(b + 1) - 1), problem%h(column(b):column(b + 1) - 1))
-      end do
+      column = first_motions(fem)
       do i = 1, problem%m
          do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
             b = fem%bodies%of_node(rows%node(k))
@@ -309,6 +346,34 @@ contains
       end do
       call clear_round_off(problem%g)
    end subroutine add_motions
+
+   !> The loads on the rigid motions: h = Z' f.
+   subroutine add_loads_on_motions(fem, f, problem)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) [F]
+      type(bound_qp_t), intent(inout) :: problem
+      integer(ip) :: column(fem%bodies%n + 1), b, j
+
+      column = first_motions(fem)
+      do b = 1, fem%bodies%n
+         do j = column(b), column(b + 1) - 1
+            call work_of_load(fem, b, fem%bodies%list(b)%modes(:, j - column(b) + 1), f, problem%h(j), problem%h_size(j))
+         end do
+         call clear_balanced_load(problem%h_size(column(b):column(b + 1) - 1), problem%h(column(b):column(b + 1) - 1))
+      end do
+   end subroutine add_loads_on_motions
+
+   !> The column of the first motion of each body in G, and behind the last one.
+   pure function first_motions(fem) result(column)
+      type(fem_t), intent(in) :: fem
+      integer(ip) :: column(fem%bodies%n + 1)
+      integer(ip) :: b
+
+      column(1) = 1
+      do b = 1, fem%bodies%n
+         column(b + 1) = column(b) + size(fem%bodies%list(b)%modes, 2, kind=ip)
+      end do
+   end function first_motions
 
    !> What one entry of a row adds to the row of G: the motions of the body that has the node.
    pure subroutine add_motion_row(fem, b, node, coefficient, direction, g)

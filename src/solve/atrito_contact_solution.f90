@@ -8,12 +8,13 @@ module atrito_contact_solution
    use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, friction_bound, set_friction_bounds
    use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
    use atrito_free_set_factor, only: free_set_factor_t, condition_of
+   use atrito_multiplier_step, only: multiplier_t
    use atrito_proximal, only: solve_box_proximal
    use atrito_solve_history, only: solve_history_t
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, FREE_MOTION, solve_with_bound, bound_of_state, judge_condition, has_settled, &
+   public :: contact_solution_t, serves_as_start, FREE_MOTION, solve_with_bound, bound_of_state, judge_condition, has_settled, &
              may_be_round_off, relative_residual
 
    !> Text of the status when no friction bound holds a body; solution%inner%motion is the motion.
@@ -33,6 +34,8 @@ module atrito_contact_solution
       type(constraint_rows_t), allocatable :: rows    !< of the unknowns, where they may depend on each other
       logical, allocatable :: is_shared(:)            !< (unknowns) with rows: the force is not unique, the least is given
       real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
+      type(multiplier_t), allocatable :: multipliers  !< of the sparse form, where a next increment goes on from them
+      integer :: form = 0                             !< CONTACT_*, that it was found by
       logical :: converged = .false.
       character(len=:), allocatable :: verdict        !< why not
       integer(ip) :: factorisations = 0               !< of the sparse form
@@ -41,6 +44,15 @@ module atrito_contact_solution
    end type contact_solution_t
 
 contains
+
+   !> Whether a form of the contact system can start from a solution.
+   pure logical function serves_as_start(solution, form)
+      type(contact_solution_t), allocatable, intent(in) :: solution
+      integer, intent(in) :: form                     !< CONTACT_*
+
+      serves_as_start = .false.
+      if (allocated(solution)) serves_as_start = solution%form == form
+   end function serves_as_start
 
    !> Solves the inner problem for a frozen friction bound, from the present state. Image: nu S_rho of the pressure found.
    subroutine solve_with_bound(problem, line, tau, solution, image, status)

@@ -1,17 +1,19 @@
 !> Solving with the dense form: bodies condensed to their contact dofs, and the flexibility of all points.
 module atrito_dense_form
-   use atrito_body_cache, only: body_cache_t, provide_bodies, release_bodies, forget_bodies
+   use atrito_body_cache, only: body_cache_t, provide_bodies, reload_bodies, release_bodies, forget_bodies
    use atrito_bound_qp, only: bound_qp_t, DEPENDENT_POINTS
-   use atrito_contact_problem, only: build_problem
-   use atrito_contact_solution, only: contact_solution_t
+   use atrito_contact_form, only: CONTACT_DENSE
+   use atrito_contact_problem, only: build_flexibility, set_right_hand_sides
+   use atrito_contact_solution, only: contact_solution_t, serves_as_start
    use atrito_dense_refinement, only: refine_dense_solution
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: controls_t
-   use atrito_outer_loop, only: solve_contact_line
+   use atrito_model, only: controls_t, METHOD_ANDERSON
+   use atrito_outer_loop, only: solve_contact_line, continue_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, free_load
+   use atrito_solve_history, only: restart_history
    use atrito_shared_points, only: has_dependent_points, solve_shared_points
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
@@ -32,9 +34,10 @@ contains
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
-      type(bound_qp_t) :: problem
+      type(bound_qp_t), allocatable :: problem
       logical :: is_right
 
+      call move_alloc(data%flexibility, problem)
       call solve_condensed(data, controls, store, results, problem, solution, u, status)
       if (is_ok(status) .and. solution%converged .and. results%scene%near_elements) then
          call start_phase('refine')
@@ -44,10 +47,16 @@ contains
             call report_progress(data%reporter, 'refinement does not converge; each element with its own last digits')
             data%fem%grain = 0.0_wp
             call forget_bodies(store)
+            deallocate (problem)
+            if (allocated(data%last)) deallocate (data%last)
             call solve_condensed(data, controls, store, results, problem, solution, u, status)
          end if
       end if
-      call release_bodies(store)
+      if (data%keeps) then
+         call move_alloc(problem, data%flexibility)
+      else
+         call release_bodies(store)
+      end if
    end subroutine solve_dense_form
 
    !> Solves with the bodies as they are factored.
@@ -56,29 +65,72 @@ contains
       type(controls_t), intent(in) :: controls
       type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
-      type(bound_qp_t), intent(out) :: problem
+      type(bound_qp_t), allocatable, intent(inout) :: problem !< with C and G, where the bodies are those of the increment before
       type(contact_solution_t), intent(out) :: solution
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
 
       store%reporter = data%reporter
-      call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
-                          status, data%model%bilateral)
-      results%factorisations = store%factorisations
+      call provide_loaded_bodies(data, store, results, problem, status)
       if (.not. is_ok(status)) return
-      results%scene%near_elements = any(store%bodies%is_near)
       call start_phase('iterate')
-      call build_problem(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
+      if (.not. allocated(problem)) then
+         allocate (problem)
+         call build_flexibility(data%fem, store%bodies, data%rows, data%line, problem)
+      end if
+      call set_right_hand_sides(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
       problem%is_coarse = controls%is_coarse
-      call solve_contact_line(problem, data%line, controls, data%reporter, solution, status)
-      if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, data%reporter, &
-                                                                 solution, status)
-      if (is_ok(status)) results%contraction_estimate = estimate_contraction(problem, data%line, solution%bounds%d, &
-                                                                             solution%state%state)
+      call solve_line(data, controls, problem, solution, status)
+      if (is_ok(status) .and. data%is_printed) then
+         results%contraction_estimate = estimate_contraction(problem, data%line, solution%bounds%d, solution%state%state)
+      end if
       call stop_phase('iterate')
       if (.not. is_ok(status)) call explain_failure(data, problem, solution, status)
       if (allocated(solution%p)) call expand_bodies(data, store, solution, u)
    end subroutine solve_condensed
+
+   !> The bodies with the loads of the increment; those of the increment before stay as they are factored.
+   subroutine provide_loaded_bodies(data, store, results, problem, status)
+      type(scene_data_t), intent(in) :: data
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(bound_qp_t), allocatable, intent(inout) :: problem
+      type(status_t), intent(out) :: status
+
+      if (allocated(problem) .and. allocated(store%bodies)) then
+         call reload_bodies(store, data%fem, free_load(data))
+      else
+         if (allocated(problem)) deallocate (problem)
+         call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
+                             status, data%model%bilateral)
+      end if
+      results%factorisations = store%factorisations
+      if (is_ok(status)) results%scene%near_elements = any(store%bodies%is_near)
+   end subroutine provide_loaded_bodies
+
+   !> Solves the contact line: from the increment before, where that leads to a solution, else from the usual start.
+   subroutine solve_line(data, controls, problem, solution, status)
+      type(scene_data_t), intent(in) :: data
+      type(controls_t), intent(in) :: controls
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      type(contact_solution_t) :: nothing
+      type(status_t) :: fine
+
+      if (serves_as_start(data%last, CONTACT_DENSE) .and. controls%method == METHOD_ANDERSON) then
+         solution = data%last
+         call restart_history(solution%history)
+         call continue_contact_line(problem, data%line, controls, data%reporter, solution, status)
+         if (is_ok(status) .and. solution%converged) return
+         call report_progress(data%reporter, 'not from the increment before; from the usual start')
+         solution = nothing
+         status = fine
+      end if
+      call solve_contact_line(problem, data%line, controls, data%reporter, solution, status)
+      if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, data%reporter, &
+                                                                 solution, status)
+   end subroutine solve_line
 
    !> Puts a failure of the contact line into words.
    subroutine explain_failure(data, problem, solution, status)

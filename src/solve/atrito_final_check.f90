@@ -4,7 +4,7 @@ module atrito_final_check
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at
-   use atrito_contact_line, only: contact_line_t, last_of_pair, friction_bound
+   use atrito_contact_line, only: contact_line_t, last_of_pair, rest_of, friction_bound
    use atrito_contact_rows, only: contact_rows_t, row_value, bodies_of_row
    use atrito_contact_scales, only: contact_scales_t, measure_places, printed_as_none, usual_growth
    use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
@@ -266,7 +266,7 @@ contains
          wrong = ''
          call judge_place(rows, results, j, gap(j), slip(j), scales, line%tangential(j) > 0, wrong)
          call judge_normal(p(j), gap(j), line%delta(j), scales%gap, wrong)
-         call judge_friction(line, j, t(j), tau(j), slip(j), scales, tolerance, wrong)
+         call judge_friction(line, j, t(j), tau(j), slip(j) - rest_of(line, j), scales, tolerance, wrong)
          if (len(wrong) == 0) cycle
          results%law_holds = .false.
          if (.not. results%converged) return
@@ -418,7 +418,7 @@ contains
    pure subroutine judge_friction(line, j, t, tau, slip, scales, tolerance, wrong)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: j
-      real(wp), intent(in) :: t, tau, slip, tolerance
+      real(wp), intent(in) :: t, tau, slip, tolerance !< slip: beyond the rest slip
       type(contact_scales_t), intent(in) :: scales
       character(len=:), allocatable, intent(inout) :: wrong
       real(wp) :: allowed, limit

@@ -59,16 +59,18 @@ module atrito_multiplier_loop
 contains
 
    !> Solves. x: the unknowns of the system. status: STATUS_SINGULAR with FREE_MOTION when a body moves under every step; that of
-   !> system%factor.
+   !> system%factor. A solution whose multipliers are allocated keeps them; where they hold an increment before, of the same system
+   !> with other loads and gaps, it is where the loop starts.
    subroutine solve_by_multipliers(system, rows, line, controls, reporter, solution, x, status)
       class(contact_system_t), intent(inout) :: system
       type(constraint_rows_t), intent(in) :: rows !< over displacements alone
       type(contact_line_t), intent(in) :: line
       type(controls_t), intent(in) :: controls
       type(reporter_t), intent(in) :: reporter
-      type(contact_solution_t), intent(out) :: solution
+      type(contact_solution_t), intent(inout) :: solution
       real(wp), allocatable, intent(out) :: x(:)
       type(status_t), intent(out) :: status
+      type(contact_solution_t) :: before
       type(bound_qp_t) :: shape
       type(multiplier_t) :: multipliers
       type(loop_t) :: loop
@@ -76,8 +78,13 @@ contains
       real(wp) :: tau(line%n), image(line%n)
       integer(ip) :: outer
 
+      before = solution
       call begin_solution(system, line, shape, multipliers, solution)
-      call start_closed(system, solution%bounds, multipliers, solution%state, status)
+      if (has_multipliers(before)) then
+         call start_from(before, shape, line, multipliers, solution)
+      else
+         call start_closed(system, solution%bounds, multipliers, solution%state, status)
+      end if
       if (.not. is_ok(status)) return
       tau = solution%tau
       do outer = 1, OUTERS_A_MAXIT*controls%max_iterations
@@ -107,7 +114,35 @@ contains
       end do
       call finish(system, line, shape, loop%distance, multipliers, solution)
       if (solution%converged) x = multipliers%x
+      if (allocated(before%multipliers)) solution%multipliers = multipliers
    end subroutine solve_by_multipliers
+
+   pure logical function has_multipliers(solution)
+      type(contact_solution_t), intent(in) :: solution
+
+      has_multipliers = allocated(solution%multipliers)
+      if (has_multipliers) has_multipliers = allocated(solution%multipliers%x)
+   end function has_multipliers
+
+   !> Forces, displacements, states and friction bound of the increment before; the factor is its, too.
+   subroutine start_from(before, shape, line, multipliers, solution)
+      type(contact_solution_t), intent(in) :: before
+      type(bound_qp_t), intent(in) :: shape
+      type(contact_line_t), intent(in) :: line
+      type(multiplier_t), intent(inout) :: multipliers
+      type(contact_solution_t), intent(inout) :: solution
+      type(multiplier_t) :: fresh
+
+      multipliers = before%multipliers
+      multipliers%r = fresh%r
+      multipliers%factorisations = 0
+      multipliers%q_old = before%state%q
+      multipliers%a_old = multipliers%x(size(multipliers%x) - shape%k + 1:)
+      multipliers%solves = 0
+      solution%state = before%state
+      solution%tau = before%tau
+      call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+   end subroutine start_from
 
    !> What a step has found: stresses, Picard's bound, how far it is from a solution.
    subroutine judge_step(system, line, tolerance, outer, multipliers, loop, solution, image)
@@ -265,7 +300,7 @@ contains
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(out) :: shape
       type(multiplier_t), intent(out) :: multipliers
-      type(contact_solution_t), intent(inout) :: solution
+      type(contact_solution_t), intent(out) :: solution
       integer(ip) :: pair(line%n)
 
       shape%m = size(line%point, kind=ip)

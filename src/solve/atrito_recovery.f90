@@ -4,7 +4,7 @@ module atrito_recovery
    use atrito_bodies, only: body_t, mode_at
    use atrito_bound_qp, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
-   use atrito_contact_line, only: contact_line_t, slip_of_unknown
+   use atrito_contact_line, only: contact_line_t, rest_of, slip_of_unknown
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
@@ -199,7 +199,7 @@ contains
          ! the force has lost its digits at the end of the range of numbers
          slip = row_value(rows, j, rows%tangent(:, j), u)
       else
-         slip = slip_of_unknown(solution%bounds, solution%state, i)
+         slip = rest_of(line, j) + slip_of_unknown(solution%bounds, solution%state, i)
       end if
    end subroutine place_of_point
 
@@ -218,9 +218,8 @@ contains
       if (i > 0) then
          if (solution%state%state(i) == FREE) status = POINT_STICK
       else
-         if (abs(slip) <= sticking_slip(line%law(j), solution%tau(j)) .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) then
-            status = POINT_STICK
-         end if
+         if (abs(slip - rest_of(line, j)) <= sticking_slip(line%law(j), solution%tau(j)) &
+             .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) status = POINT_STICK
       end if
    end function status_of
 

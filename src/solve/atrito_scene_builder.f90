@@ -14,7 +14,7 @@ module atrito_scene_builder
    use atrito_solver_choice, only: needs_profile
    implicit none (type, external)
    private
-   public :: build_scene, build_bodies
+   public :: build_scene, build_bodies, list_prescribed
 
 contains
 
@@ -83,6 +83,7 @@ contains
       end associate
    end function enough_nodes
 
+   !> Prescribed dofs and their displacements.
    pure subroutine list_prescribed(prescribed, n_nodes, held, value)
       type(nodal_values_t), intent(in) :: prescribed
       integer(ip), intent(in) :: n_nodes

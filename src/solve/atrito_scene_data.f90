@@ -1,13 +1,15 @@
 !> The scene with everything that the phases of a solution share.
 module atrito_scene_data
-   use atrito_assembled_scene, only: assembled_scene_t, assemble_scene, set_scene_load
+   use atrito_assembled_scene, only: assembled_scene_t, assemble_scene, set_scene_gaps, set_scene_load
    use atrito_assembly, only: fem_t
-   use atrito_bilateral_rows, only: ROW_KIND_NAME
+   use atrito_bilateral_rows, only: ROW_KIND_NAME, ROW_SUPPORT
    use atrito_body_cache, only: body_cache_t, take_numbering
+   use atrito_bound_qp, only: bound_qp_t
    use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_line, only: contact_line_t
-   use atrito_contact_problem, only: average_entries, build_line
+   use atrito_contact_problem, only: average_entries, build_line, set_known_points
    use atrito_contact_rows, only: contact_rows_t, build_rows
+   use atrito_contact_solution, only: contact_solution_t
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
@@ -15,15 +17,16 @@ module atrito_scene_data
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t
-   use atrito_scene_builder, only: build_scene, build_bodies
+   use atrito_scene_builder, only: build_scene, build_bodies, list_prescribed
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
+   use atrito_step_loads, only: moment_t, act_at, is_end, share_at
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, assemble, free_load, check_known_points
+   public :: scene_data_t, asked_t, prepare, set_time, assemble, free_load, check_known_points
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
@@ -40,8 +43,14 @@ module atrito_scene_data
       integer :: contact_form = CONTACT_DENSE
       character(len=:), allocatable :: reason               !< why this form
       integer :: solver_kind = 0                           !< that the bodies are numbered for
-      type(assembled_scene_t) :: assembled                  !< the sparse form, before any factorisation
+      type(assembled_scene_t) :: assembled                  !< the sparse form
       logical :: is_assembled = .false.
+      logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
+      ! Of a history:
+      logical :: keeps = .false.                            !< what one increment leaves serves the next
+      real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
+      type(bound_qp_t), allocatable :: flexibility          !< C and G of the bodies that are factored
+      type(contact_solution_t), allocatable :: last         !< of the increment before, to start from
    end type scene_data_t
 
    !> What the user asks for.
@@ -55,16 +64,18 @@ contains
 
    !> From the model to bodies, points, laws and loads, and the form of the contact system. status: STATUS_DECK, which is told by a
    !> message, when the averages need more memory than there is.
-   subroutine prepare(model, store, asked, data, status)
+   subroutine prepare(model, store, asked, data, status, step)
       type(model_t), intent(in), target :: model
       type(body_cache_t), intent(in) :: store
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(out) :: data
       type(status_t), intent(out) :: status
+      type(step_t), intent(in), target, optional :: step    !< left out: the first of the model
       logical :: known
 
       data%model => model
       data%step => model%steps(1)
+      if (present(step)) data%step => step
       call build_scene(model, data%step, data%fem, data%held, data%value, data%points)
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
@@ -79,13 +90,61 @@ contains
          if (.not. is_ok(status)) return
       end if
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
-      call nodal_loads(model, data%step, data%f)
-      if (allocated(data%fem%heating)) then
-         allocate (data%thermal, mold=data%f)
-         data%thermal = 0.0_wp
-         call add_thermal_loads(data%fem, data%thermal)
-      end if
+      associate (period => data%step%increments%period)
+         if (is_end(data%step, moment_t(period, period))) then
+            call take_forces(data, data%step)
+         else
+            call set_time(data, moment_t(period, period))
+         end if
+      end associate
    end subroutine prepare
+
+   !> The applied forces, and those of the temperatures.
+   subroutine take_forces(data, acting)
+      type(scene_data_t), intent(inout) :: data
+      type(step_t), intent(in) :: acting                    !< with the values of a time
+
+      call nodal_loads(data%model, acting, data%f)
+      if (.not. allocated(data%fem%heating)) return
+      if (.not. allocated(data%thermal)) allocate (data%thermal, mold=data%f)
+      data%thermal = 0.0_wp
+      call add_thermal_loads(data%fem, data%thermal)
+   end subroutine take_forces
+
+   !> Everything that acts at a time of the step, and the rest slips of the contact line: numbering and matrices stay.
+   subroutine set_time(data, moment)
+      type(scene_data_t), intent(inout) :: data
+      type(moment_t), intent(in) :: moment
+      type(step_t) :: now
+      real(wp) :: share
+
+      share = share_at(data%step, moment)
+      call act_at(data%model, data%step, moment, now)
+      call list_prescribed(now%prescribed, data%model%mesh%n_nodes, data%held, data%value)
+      if (allocated(data%fem%heating)) data%fem%heating = now%heating
+      call take_forces(data, now)
+      if (allocated(data%released) .and. share < 1.0_wp) data%f = data%f + (1.0_wp - share)*data%released
+      call move_skew_supports(data, moment, share)
+      call set_known_points(data%rows, data%value, data%line)
+      if (.not. data%is_assembled) return
+      call set_scene_gaps(data%rows, data%line, data%value, data%assembled)
+      call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
+   end subroutine set_time
+
+   !> Supports along directions of their own come to their displacements in the first step, and keep them.
+   pure subroutine move_skew_supports(data, moment, share)
+      type(scene_data_t), intent(inout) :: data
+      type(moment_t), intent(in) :: moment
+      real(wp), intent(in) :: share
+
+      if (data%rows%n_bilateral == 0) return
+      associate (rows => data%model%bilateral, gap => data%rows%gap(data%rows%n - data%rows%n_bilateral + 1:))
+         gap = rows%value
+         if (share < 1.0_wp .and. moment%time <= moment%step_time) then
+            where (rows%kind(:rows%n) == ROW_SUPPORT) gap = share*rows%value
+         end if
+      end associate
+   end subroutine move_skew_supports
 
    !> The form of the contact system, by the numbers of points and nodes: in the dense form the nodes that the points see are kept,
    !> too, of which a master that is finer has more than there are points.

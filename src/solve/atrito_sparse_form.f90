@@ -4,10 +4,12 @@ module atrito_sparse_form
    use atrito_assembly, only: fem_t
    use atrito_condensed_body, only: check_held
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_solution, only: contact_solution_t
+   use atrito_contact_form, only: CONTACT_SPARSE
+   use atrito_contact_solution, only: contact_solution_t, serves_as_start
    use atrito_kinds, only: ip, wp
    use atrito_multiplier_loop, only: solve_by_multipliers
    use atrito_model, only: controls_t
+   use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, assemble
    use atrito_row_entries, only: build_constraint_rows
@@ -43,16 +45,40 @@ contains
       results%scene%near_elements = data%assembled%is_near
       call start_phase('iterate')
       call build_constraint_rows(data%fem, data%rows, data%line, .false., rows)
-      call solve_by_multipliers(data%assembled, rows, data%line, controls, data%reporter, solution, x, status)
+      call solve_rows(data, rows, controls, solution, x, status)
       results%factorisations = solution%factorisations
       call stop_phase('iterate')
       if (data%assembled%matrix%failed > 0) call name_failure(data, status)
       if (.not. allocated(x)) return
       u = data%value
       call displacements_of(data%fem, data%assembled, x, u)
+      if (data%keeps) return
       data%assembled = nothing                     ! the stresses want the memory of the factors
       data%is_assembled = .false.
    end subroutine solve_sparse_form
+
+   !> From the increment before, where that leads to a solution, else from the usual start.
+   subroutine solve_rows(data, rows, controls, solution, x, status)
+      type(scene_data_t), intent(inout) :: data
+      type(constraint_rows_t), intent(in) :: rows
+      type(controls_t), intent(in) :: controls
+      type(contact_solution_t), intent(out) :: solution
+      real(wp), allocatable, intent(out) :: x(:)
+      type(status_t), intent(out) :: status
+      type(contact_solution_t) :: fresh
+      type(status_t) :: fine
+
+      if (data%keeps) allocate (fresh%multipliers)
+      if (serves_as_start(data%last, CONTACT_SPARSE)) then
+         solution = data%last
+         call solve_by_multipliers(data%assembled, rows, data%line, controls, data%reporter, solution, x, status)
+         if (is_ok(status) .and. solution%converged) return
+         call report_progress(data%reporter, 'not from the increment before; from the usual start')
+         status = fine
+      end if
+      solution = fresh
+      call solve_by_multipliers(data%assembled, rows, data%line, controls, data%reporter, solution, x, status)
+   end subroutine solve_rows
 
    !> A pivot that is not positive, by its body, node and dof.
    subroutine name_failure(data, status)

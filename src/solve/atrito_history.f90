@@ -1,0 +1,445 @@
+!> A history of loads, step by step and increment by increment: the table of contents of what a run solves.
+!>
+!> Bodies and contact line are factored as long as the same dofs are held; an increment changes what acts (atrito_step_loads) and the
+!> rest slips of friction (atrito_slip_memory), and starts from the one before. One that fails is cut. A run of one increment is
+!> solve_static and nothing else.
+module atrito_history
+   use atrito_body_cache, only: body_cache_t, release_bodies
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_history_rows, only: row_of_pair
+   use atrito_increment, only: complete_results, is_solved, solve_increment
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: increments_t, is_due, model_t, requests_t, step_t
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: ending_t, extreme_t, history_row_t, history_t, iteration_t, results_t, scene_t
+   use atrito_scene_builder, only: list_prescribed
+   use atrito_scene_data, only: check_known_points, scene_data_t, set_time
+   use atrito_scene_forecast, only: forecast_memory
+   use atrito_slip_memory, only: begin_memory, put_rest, remember_slips, slip_memory_t
+   use atrito_solution_warnings, only: warn
+   use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
+   use atrito_status, only: is_ok, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_step_loads, only: moment_t
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: solve_history
+
+   real(wp), parameter :: CUT = 0.5_wp, RECOVER = 2.0_wp, GROW = 1.5_wp !< lengths after a failure, and after a success
+   real(wp), parameter :: SLIVER = 1.0e-6_wp       !< of an increment: what is left of a step by round-off
+
+   !> A history that is being solved.
+   type :: run_t
+      type(solve_options_t) :: options
+      type(reporter_t) :: reporter
+      type(scene_data_t) :: data
+      type(scene_t) :: scene                        !< with what is known of the bodies since they were factored
+      type(step_t) :: step                          !< that began with other supports than the one before
+      type(slip_memory_t) :: memory
+      type(results_t) :: last                       !< the last increment that converged
+      logical :: has_last = .false.
+      real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
+      real(wp) :: condition = 1.0_wp                !< the largest of the contact line
+      integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
+   end type run_t
+
+   !> Where a step is.
+   type :: progress_t
+      integer(ip) :: increment = 0                  !< that is tried, or was last
+      real(wp) :: time = 0.0_wp                     !< of the step, that it has come to
+      real(wp) :: length = 0.0_wp                   !< of the next increment
+      integer(ip) :: cuts = 0                       !< of the increment that is tried
+   end type progress_t
+
+contains
+
+   !> Solves all steps. status: of a run of one increment that of solve_static; of others OK, or why the history ended early, with
+   !> STATUS_NOT_CONVERGED, STATUS_SINGULAR, or a status of begin_scene. What converged before is in the history.
+   subroutine solve_history(model, options, reporter, history, status, store)
+      type(model_t), intent(in), target :: model
+      type(solve_options_t), intent(in) :: options
+      type(reporter_t), intent(in) :: reporter
+      type(history_t), intent(out) :: history
+      type(status_t), intent(out) :: status
+      type(body_cache_t), intent(inout) :: store     !< bodies of an earlier run, or none; on return those of this one
+      type(run_t), target :: run
+      integer(ip) :: k
+
+      allocate (history%rows(0), history%iterations(0))
+      if (has_one_increment(model)) then
+         call solve_only_increment(model, options, reporter, history, status, store)
+         return
+      end if
+      allocate (history%frames(0))
+      run%options = options
+      run%reporter = reporter
+      do k = 1, size(model%steps, kind=ip)
+         call begin_step(model, k, store, run, status)
+         if (.not. is_ok(status)) then
+            call end_early(k, progress_t(), run, history, status)
+         else
+            call go_through_step(model, k, store, run, history, status)
+         end if
+         if (.not. is_ok(status)) exit
+         run%began = run%began + model%steps(k)%increments%period
+      end do
+      call finish(run, history)
+      call release_bodies(store)
+   end subroutine solve_history
+
+   !> Whether there is one step that is one increment, which is not cut.
+   pure logical function has_one_increment(model)
+      type(model_t), intent(in) :: model
+
+      associate (control => model%steps(1)%increments)
+         has_one_increment = size(model%steps) == 1 .and. control%initial >= control%period .and. control%least >= control%period
+      end associate
+   end function has_one_increment
+
+   subroutine solve_only_increment(model, options, reporter, history, status, store)
+      type(model_t), intent(in), target :: model
+      type(solve_options_t), intent(in) :: options
+      type(reporter_t), intent(in) :: reporter
+      type(history_t), intent(inout) :: history
+      type(status_t), intent(out) :: status
+      type(body_cache_t), intent(inout) :: store
+      integer(ip) :: i
+
+      allocate (history%frames(1))
+      call solve_static(model, options, reporter, history%frames(1), status, store)
+      if (.not. is_ok(status)) then
+         deallocate (history%frames)
+         allocate (history%frames(0))
+         return
+      end if
+      associate (frame => history%frames(1))
+         frame%time = model%steps(1)%increments%period
+         frame%step_time = frame%time
+         do i = 1, size(frame%contact, kind=ip)
+            frame%contact(i)%slip_increment = frame%contact(i)%slip
+         end do
+         history%iterations = frame%iterations
+      end associate
+   end subroutine solve_only_increment
+
+   !> Makes the scene of a step. With the same dofs held it is the one that is there.
+   subroutine begin_step(model, k, store, run, status)
+      type(model_t), intent(in), target :: model
+      integer(ip), intent(in) :: k
+      type(body_cache_t), intent(inout) :: store
+      type(run_t), intent(inout), target :: run
+      type(status_t), intent(out) :: status
+      logical, allocatable :: held(:, :), before(:, :)
+      real(wp), allocatable :: value(:, :), released(:, :)
+
+      if (k == 1) then
+         call begin_scene(model, run%options, store, .false., run%data, run%scene, status)
+         if (.not. is_ok(status)) return
+         call begin_memory(model, run%data%points%n, run%memory)
+         call note_method(run%data)
+      else
+         call list_prescribed(model%steps(k)%prescribed, model%mesh%n_nodes, held, value)
+         if (all(held .eqv. run%data%held)) then
+            run%data%step => model%steps(k)
+            if (allocated(run%data%released)) deallocate (run%data%released)
+            return
+         end if
+         before = run%data%held
+         run%step = model%steps(k)
+         call begin_from(before, run%last%u, run%step)
+         released = merge(run%last%reaction, 0.0_wp, before .and. .not. held)
+         call begin_scene(model, run%options, store, .false., run%data, run%scene, status, run%step)
+         if (.not. is_ok(status)) return
+         call move_alloc(released, run%data%released)
+         call put_rest(run%memory, run%data%line)
+      end if
+      run%data%keeps = .true.
+   end subroutine begin_step
+
+   !> A displacement that is prescribed now and was free before begins where it is.
+   pure subroutine begin_from(held_before, u, step)
+      logical, intent(in) :: held_before(:, :)       !< (2, n_nodes)
+      real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) at the end of the step before [L]
+      type(step_t), intent(inout) :: step
+      integer(ip) :: i
+
+      associate (prescribed => step%prescribed)
+         if (.not. allocated(prescribed%from)) allocate (prescribed%from(prescribed%n), source=0.0_wp)
+         do i = 1, prescribed%n
+            if (held_before(prescribed%dof(i), prescribed%node(i))) cycle
+            prescribed%from(i) = u(prescribed%dof(i), prescribed%node(i))
+         end do
+      end associate
+   end subroutine begin_from
+
+   !> All increments of a step.
+   subroutine go_through_step(model, k, store, run, history, status)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k
+      type(body_cache_t), intent(inout) :: store
+      type(run_t), intent(inout) :: run
+      type(history_t), intent(inout) :: history
+      type(status_t), intent(out) :: status
+      type(progress_t) :: now
+      type(results_t) :: results
+      type(contact_solution_t) :: solution
+      real(wp) :: to
+
+      associate (control => model%steps(k)%increments)
+         now%length = control%initial
+         do while (now%time < control%period)
+            to = next_time(now, control%period)
+            now%increment = now%increment + 1
+            if (now%increment > control%most) then
+               call set_status(status, STATUS_NOT_CONVERGED, 'the step takes more than INC='//to_text(control%most)//' increments')
+               call end_early(k, now, run, history, status)
+               return
+            end if
+            call try_increment(k, now%increment, to, store, run, results, solution, status)
+            if (is_solved(results, status)) then
+               call tell(run%reporter, results, now%cuts)
+               call keep_increment(model, results, solution, run, history)
+               now%time = to
+               call lengthen(control, now)
+            else
+               now%length = to - now%time
+               if (.not. may_be_cut(status) .or. now%length <= control%least) then
+                  call explain(results, status)
+                  call end_early(k, now, run, history, status)
+                  return
+               end if
+               call report_progress(run%reporter, 'increment '//to_text(now%increment)//' of step '//to_text(k) &
+                                    //' has no solution; cut')
+               now%length = max(CUT*now%length, control%least)
+               now%cuts = now%cuts + 1
+               now%increment = now%increment - 1
+            end if
+         end do
+      end associate
+   end subroutine go_through_step
+
+   !> The end of the next increment. What round-off would leave of the step goes with it.
+   pure real(wp) function next_time(now, period) result(to)
+      type(progress_t), intent(in) :: now
+      real(wp), intent(in) :: period
+
+      to = now%time + now%length
+      if (period - to <= SLIVER*now%length) to = period
+   end function next_time
+
+   !> The length after a success: back to what it was before it was cut; beyond it where the deck lets it grow.
+   pure subroutine lengthen(control, now)
+      type(increments_t), intent(in) :: control
+      type(progress_t), intent(inout) :: now
+
+      now%cuts = 0
+      if (now%length < control%initial) then
+         now%length = min(RECOVER*now%length, control%initial)
+      else
+         now%length = max(min(GROW*now%length, control%greatest), control%initial)
+      end if
+   end subroutine lengthen
+
+   !> Shorter increments are of use where there is no solution, not where memory or the deck fail.
+   pure logical function may_be_cut(status)
+      type(status_t), intent(in) :: status
+
+      may_be_cut = is_ok(status) .or. status%code == STATUS_NOT_CONVERGED .or. status%code == STATUS_SINGULAR
+   end function may_be_cut
+
+   subroutine try_increment(k, increment, to, store, run, results, solution, status)
+      integer(ip), intent(in) :: k, increment
+      real(wp), intent(in) :: to                     !< time of the step
+      type(body_cache_t), intent(inout) :: store
+      type(run_t), intent(inout) :: run
+      type(results_t), intent(out) :: results
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+
+      results%scene = run%scene
+      results%step = k
+      results%increment = increment
+      results%step_time = to
+      results%time = run%began + to
+      results%ends_step = to >= run%data%step%increments%period
+      run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
+      call set_time(run%data, moment_t(to, results%time))
+      call check_known_points(run%data, status)
+      if (is_ok(status)) call solve_increment(run%data, run%options%contact_form, store, results, solution, status)
+   end subroutine try_increment
+
+   !> Whether anything is printed of an increment.
+   pure logical function is_wanted(requests, increment, ends_step)
+      type(requests_t), intent(in) :: requests
+      integer(ip), intent(in) :: increment
+      logical, intent(in) :: ends_step
+
+      associate (every => requests%every)
+         is_wanted = any(is_due([every%nodes, every%reactions, every%stress, every%contact, every%bodies, every%joints, &
+                                 every%fields], increment, ends_step))
+      end associate
+   end function is_wanted
+
+   !> A converged increment: rest slips, rows, iterations, and the frame where it is printed.
+   subroutine keep_increment(model, results, solution, run, history)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(in) :: solution
+      type(run_t), intent(inout) :: run
+      type(history_t), intent(inout) :: history
+      integer(ip) :: i
+
+      run%data%last = solution
+      run%condition = max(run%condition, solution%inner%condition)
+      run%scene%bodies = results%scene%bodies        ! as they were factored
+      call remember_slips(run%data%line, results%contact, run%memory)
+      call put_rest(run%memory, run%data%line)
+      do i = 1, size(results%contact, kind=ip)
+         call add_row(row_of_pair(run%data%points(i), results, i, run%memory%dissipation(i)), run%n_rows, history%rows)
+      end do
+      results%iterations%step = results%step
+      results%iterations%increment = results%increment
+      call add_iterations(results%iterations, run%n_iterations, history%iterations)
+      if (run%data%is_printed) then
+         results%scene%memory = forecast_memory(model, run%data, results%scene)
+         call add_frame(results, run%n_frames, history%frames)
+      end if
+      run%last = results
+      run%has_last = .true.
+   end subroutine keep_increment
+
+   pure subroutine add_row(row, n, rows)
+      type(history_row_t), intent(in) :: row
+      integer(ip), intent(inout) :: n
+      type(history_row_t), allocatable, intent(inout) :: rows(:)
+      type(history_row_t), allocatable :: longer(:)
+
+      if (n == size(rows)) then
+         allocate (longer(2*n + 8))
+         longer(:n) = rows
+         call move_alloc(longer, rows)
+      end if
+      n = n + 1
+      rows(n) = row
+   end subroutine add_row
+
+   pure subroutine add_iterations(new, n, iterations)
+      type(iteration_t), intent(in) :: new(:)
+      integer(ip), intent(inout) :: n
+      type(iteration_t), allocatable, intent(inout) :: iterations(:)
+      type(iteration_t), allocatable :: longer(:)
+
+      if (n + size(new) > size(iterations)) then
+         allocate (longer(2*n + size(new)))
+         longer(:n) = iterations(:n)
+         call move_alloc(longer, iterations)
+      end if
+      iterations(n + 1:n + size(new)) = new
+      n = n + size(new, kind=ip)
+   end subroutine add_iterations
+
+   subroutine add_frame(frame, n, frames)
+      type(results_t), intent(in) :: frame
+      integer(ip), intent(inout) :: n
+      type(results_t), allocatable, intent(inout) :: frames(:)
+      type(results_t), allocatable :: longer(:)
+
+      if (n == size(frames)) then
+         allocate (longer(2*n + 1))
+         longer(:n) = frames
+         call move_alloc(longer, frames)
+      end if
+      n = n + 1
+      frames(n) = frame
+   end subroutine add_frame
+
+   !> Why an increment has no solution, as a status.
+   pure subroutine explain(results, status)
+      type(results_t), intent(in) :: results
+      type(status_t), intent(inout) :: status
+
+      if (.not. is_ok(status)) return
+      call set_status(status, STATUS_NOT_CONVERGED, 'not converged')
+      if (allocated(results%verdict)) call set_status(status, STATUS_NOT_CONVERGED, results%verdict)
+   end subroutine explain
+
+   !> The history ends here: what converged last is printed, whatever was asked for.
+   subroutine end_early(k, now, run, history, status)
+      integer(ip), intent(in) :: k
+      type(progress_t), intent(in) :: now
+      type(run_t), intent(inout) :: run
+      type(history_t), intent(inout) :: history
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: reason
+
+      reason = 'no reason is known'
+      if (allocated(status%text)) reason = status%text
+      history%ending = ending_t(.true., k, max(now%increment, 1_ip), run%began + now%time + now%length, reason)
+      if (allocated(status%text)) call set_status(status, status%code, ending_text(history%ending)//reason)
+      if (.not. run%has_last .or. now%increment == 0) return
+      if (run%data%is_printed .and. run%last%ends_step) return
+      if (run%n_frames > 0) then
+         if (history%frames(run%n_frames)%time >= run%last%time) then
+            history%frames(run%n_frames)%ends_step = .true.
+            return
+         end if
+      end if
+      if (run%last%step /= k) return                 ! the end of a step is a frame
+      call set_time(run%data, moment_t(run%last%step_time, run%last%time))
+      call complete_results(run%data, run%data%last, run%last)
+      run%last%ends_step = .true.
+      call add_frame(run%last, run%n_frames, history%frames)
+   end subroutine end_early
+
+   !> Where a history ended.
+   pure function ending_text(ending) result(text)
+      type(ending_t), intent(in) :: ending
+      character(len=:), allocatable :: text
+
+      text = 'ended in step '//to_text(ending%step)//', increment '//to_text(ending%increment)//', time ' &
+             //to_text(ending%time)//': '
+   end function ending_text
+
+   !> Lists to their lengths, and what a careful user should know, once.
+   subroutine finish(run, history)
+      type(run_t), intent(inout) :: run
+      type(history_t), intent(inout) :: history
+      integer(ip) :: i
+
+      history%frames = history%frames(:run%n_frames)
+      history%rows = history%rows(:run%n_rows)
+      history%iterations = history%iterations(:run%n_iterations)
+      if (.not. run%has_last .or. run%n_frames == 0 .or. .not. allocated(run%data%last)) return
+      run%data%last%inner%condition = run%condition
+      run%last = history%frames(run%n_frames)
+      do i = 1, run%n_frames
+         call take_larger(history%frames(i)%large_strain, run%last%large_strain)
+         call take_larger(history%frames(i)%large_rotation, run%last%large_rotation)
+         call take_larger(history%frames(i)%large_slip, run%last%large_slip)
+         run%last%contraction = max(run%last%contraction, history%frames(i)%contraction)
+         run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
+      end do
+      call warn(run%data, run%data%last, run%last)
+   end subroutine finish
+
+   pure subroutine take_larger(one, largest)
+      type(extreme_t), intent(in) :: one
+      type(extreme_t), intent(inout) :: largest
+
+      if (one%value > largest%value) largest = one
+   end subroutine take_larger
+
+   !> One line an increment.
+   subroutine tell(reporter, results, cuts)
+      type(reporter_t), intent(in) :: reporter
+      type(results_t), intent(in) :: results
+      integer(ip), intent(in) :: cuts
+      character(len=:), allocatable :: text
+
+      text = 'step '//to_text(results%step)//'  increment '//to_text(results%increment)//'  time '//to_text(results%time, 6) &
+             //'  outer '//to_text(results%outer_iterations)
+      if (cuts > 0) text = text//'  cut '//to_text(cuts)//trim(merge(' time ', ' times', cuts == 1))
+      call report_progress(reporter, text)
+   end subroutine tell
+
+end module atrito_history

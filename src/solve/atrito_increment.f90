@@ -1,0 +1,348 @@
+!> One increment: from what acts to displacements, contact and its checks. The form of the contact system, and what is tried where
+!> it finds no solution.
+module atrito_increment
+   use atrito_body_cache, only: body_cache_t
+   use atrito_body_sums, only: sum_bodies
+   use atrito_condensed_body, only: body_text, how_it_moves
+   use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
+   use atrito_contact_problem, only: motion_body
+   use atrito_contact_scales, only: usual_growth
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_dense_form, only: solve_dense_form
+   use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
+   use atrito_force_sums, only: sum_forces
+   use atrito_joint_sums, only: sum_joints
+   use atrito_kinds, only: ip, wp
+   use atrito_linear_limits, only: find_large
+   use atrito_mesh, only: is_revolved
+   use atrito_model, only: controls_t, METHOD_ANDERSON, METHOD_NEWTON, METHOD_PICARD
+   use atrito_outer_loop, only: FREE_MOTION
+   use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
+   use atrito_reporter, only: report_progress
+   use atrito_results, only: results_t, scene_t, pair_scene_t
+   use atrito_row_forces, only: share_out_rows, clear_balance
+   use atrito_scene_data, only: scene_data_t
+   use atrito_sparse_form, only: solve_sparse_form
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: to_text
+   use atrito_thermal_loads, only: elastic_energy
+   use atrito_timers, only: start_phase, stop_phase
+   use atrito_verdict, only: judge_balance
+   use atrito_weak_forces, only: contact_sizes_t
+   implicit none (type, external)
+   private
+   public :: solve_increment, complete_results, is_solved
+
+   !> Entries of C to go through where either form may be taken: with 400 unknown forces 900 linear solves, with 100 15,000.
+   real(wp), parameter :: MOST_ENTRIES = 1.5e8_wp
+
+   !> What is tried last, in the order of what it found in 10,000 random scenes that nothing else had solved.
+   type :: attempt_t
+      integer :: form, method
+      integer(ip) :: times                                 !< MAXIT
+      real(wp) :: relaxation
+      logical :: is_coarse                                 !< controls_t
+   end type attempt_t
+
+   type(attempt_t), parameter :: PATIENT(5) = [attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 1, 1.0_wp, .true.), &
+                                               attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 3, 1.0_wp, .false.), &
+                                               attempt_t(CONTACT_SPARSE, METHOD_ANDERSON, 2, 1.0_wp, .false.), &
+                                               attempt_t(CONTACT_DENSE, METHOD_PICARD, 10, 0.3_wp, .false.), &
+                                               attempt_t(CONTACT_DENSE, METHOD_PICARD, 10, 1.0_wp, .false.)]
+   integer, parameter :: MOST_PATIENT = 400                !< unknown forces
+
+contains
+
+   !> Solves for what acts in `data`. status: as solve_static. results%converged and law_holds tell the rest.
+   subroutine solve_increment(data, asked_form, store, results, solution, status)
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: asked_form                     !< CONTACT_*
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      type(controls_t) :: controls
+
+      controls = data%step%controls
+      if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
+      call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
+      if (results%scene%near_elements .and. .not. is_solved(results, status)) then
+         call solve_without_near(data, controls, store, results, solution, status)
+      end if
+      if (asked_form == CONTACT_AUTO .and. data%assembled%failed > 0 .and. .not. is_ok(status)) then
+         ! what is singular for the one form need not be so for the other
+         if (can_be_dense(size(data%line%point, kind=ip))) then
+            call solve_one_form(data, CONTACT_DENSE, controls, store, results, solution, status)
+         end if
+      end if
+      if (asked_form == CONTACT_AUTO .and. is_ok(status) .and. .not. (results%converged .and. results%law_holds)) then
+         call try_others(data, controls, store, results, solution)
+      end if
+   end subroutine solve_increment
+
+   pure logical function is_solved(results, status)
+      type(results_t), intent(in) :: results
+      type(status_t), intent(in) :: status
+
+      is_solved = is_ok(status) .and. results%converged .and. results%law_holds
+   end function is_solved
+
+   !> Solves again with the stiffness of each element: where a body is as slender as the digits of its nodes are few, taking near
+   !> elements as equal says nothing of it, and refinement does not converge.
+   subroutine solve_without_near(data, controls, store, results, solution, status)
+      type(scene_data_t), intent(inout) :: data
+      type(controls_t), intent(in) :: controls
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      type(results_t) :: again
+
+      call report_progress(data%reporter, 'not solved; each element with its own last digits')
+      again%scene = results%scene
+      again%scene%near_elements = .false.
+      results = again
+      data%fem%grain = 0.0_wp
+      data%is_assembled = .false.
+      if (allocated(data%flexibility)) deallocate (data%flexibility)
+      if (allocated(data%last)) deallocate (data%last)
+      call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
+   end subroutine solve_without_near
+
+   !> Solves by one form of the contact system, and checks what it found. Without a solution it is judged whether there can be one:
+   !> status is STATUS_SINGULAR where there is none.
+   subroutine solve_one_form(data, form, controls, store, results, solution, status)
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
+      type(controls_t), intent(in) :: controls
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
+      type(contact_solution_t), intent(out) :: solution
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
+
+      if (form == CONTACT_SPARSE) then
+         call solve_sparse_form(data, controls, results, solution, u, status)
+      else
+         call solve_dense_form(data, controls, store, results, solution, u, status)
+      end if
+      solution%form = form
+      call start_phase('iterate')
+      call judge_outcome(data, results%scene%pairs, solution, status)
+      call stop_phase('iterate')
+      if (.not. is_ok(status)) return
+      call start_phase('recover')
+      call recover(data, solution, u, results)
+      call stop_phase('recover')
+      if (data%is_printed) call complete_results(data, solution, results)
+      call start_phase('check')
+      call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
+                     growth_of_bodies(data, results%scene))
+      call judge_failed_check(data, results, status)
+      call stop_phase('check')
+   end subroutine solve_one_form
+
+   !> By how much round-off grows in the displacements of each body, as far as its factorisation tells.
+   pure function growth_of_bodies(data, scene) result(growth)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(in) :: scene
+      real(wp) :: growth(data%fem%bodies%n)
+      integer(ip) :: b
+
+      do b = 1, size(growth, kind=ip)
+         growth(b) = usual_growth(data%fem%bodies%list(b)%n, scene%bodies(b)%digits_lost)
+      end do
+   end function growth_of_bodies
+
+   !> The other form of the contact system, and Newton's method from a start of its own; with few points also what takes long:
+   !> what is found counts when it converges and its law holds.
+   subroutine try_others(data, controls, store, results, solution)
+      type(scene_data_t), intent(inout) :: data
+      type(controls_t), intent(in) :: controls
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(inout) :: solution
+      type(controls_t) :: newton, patient_controls
+      integer :: attempt
+
+      if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
+      call try_form(data, merge(CONTACT_SPARSE, CONTACT_DENSE, data%contact_form == CONTACT_DENSE), controls, store, results, &
+                    solution)
+      if (results%converged .and. results%law_holds) return
+      newton = controls
+      newton%method = METHOD_NEWTON
+      call try_form(data, CONTACT_DENSE, newton, store, results, solution)
+      if (size(data%line%point) > MOST_PATIENT) return
+      do attempt = 1, size(PATIENT)
+         if (results%converged .and. results%law_holds) return
+         patient_controls = controls_t(PATIENT(attempt)%method, controls%tolerance, &
+                                       PATIENT(attempt)%times*controls%max_iterations, PATIENT(attempt)%relaxation, &
+                                       PATIENT(attempt)%is_coarse, controls%most_entries)
+         call try_form(data, PATIENT(attempt)%form, patient_controls, store, results, solution)
+      end do
+   end subroutine try_others
+
+   subroutine try_form(data, form, controls, store, results, solution)
+      type(scene_data_t), intent(inout) :: data
+      integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
+      type(controls_t), intent(in) :: controls
+      type(body_cache_t), intent(inout) :: store
+      type(results_t), intent(inout) :: results
+      type(contact_solution_t), intent(inout) :: solution
+      type(results_t) :: other
+      type(contact_solution_t) :: other_solution
+      type(status_t) :: status
+
+      if (form == CONTACT_DENSE .and. .not. can_be_dense(size(data%line%point, kind=ip))) return
+      call report_progress(data%reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
+                           attempt_text(data%step%controls%max_iterations, controls))
+      other%scene = results%scene
+      other%scene%contact_form = contact_form_name(form)
+      other%scene%contact_reason = 'what was tried before found no solution'
+      call solve_one_form(data, form, controls, store, other, other_solution, status)
+      if (.not. (is_ok(status) .and. other%converged .and. other%law_holds)) return
+      solution = other_solution
+      results = other
+   end subroutine try_form
+
+   !> What an attempt is, besides its form.
+   function attempt_text(usual, controls) result(text)
+      integer(ip), intent(in) :: usual                      !< MAXIT of the deck
+      type(controls_t), intent(in) :: controls
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (controls%method == METHOD_NEWTON) text = ', NEWTON'
+      if (controls%method == METHOD_PICARD) text = ', PICARD, RELAXATION='//to_text(controls%relaxation)
+      if (controls%is_coarse) text = text//', coarse round-off'
+      if (controls%max_iterations > usual) text = text//', MAXIT='//to_text(controls%max_iterations)
+   end function attempt_text
+
+   !> Without a solution: whether there can be one. Free motion becomes a proof of it, or a last iterate that did not converge.
+   subroutine judge_outcome(data, pairs, solution, status)
+      type(scene_data_t), intent(in) :: data
+      type(pair_scene_t), intent(in) :: pairs(:)
+      type(contact_solution_t), intent(inout) :: solution
+      type(status_t), intent(inout) :: status
+      logical :: moves
+
+      moves = .false.
+      if (.not. is_ok(status)) moves = status%text == FREE_MOTION
+      if (.not. moves .and. (solution%converged .or. .not. is_ok(status))) return
+      solution%converged = .false.
+      if (moves) solution%verdict = 'no friction bound that was tried holds the bodies'//moving_text(data, solution)
+      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, pairs, solution%verdict, status)
+   end subroutine judge_outcome
+
+   !> The body that moved most under the last friction bound, and how.
+   function moving_text(data, solution) result(text)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      character(len=:), allocatable :: text
+      integer(ip) :: b
+      real(wp) :: mode(3)
+
+      text = ''
+      if (.not. allocated(solution%inner%motion)) return
+      if (.not. any(abs(solution%inner%motion) > 0.0_wp)) return
+      call motion_body(data%fem, solution%inner%motion, b, mode)
+      text = ': '//body_text(data%fem, b)//' would '//how_it_moves(data%fem, b, mode)
+   end function moving_text
+
+   !> The same where the loop ended well and the final check did not.
+   subroutine judge_failed_check(data, results, status)
+      type(scene_data_t), intent(in) :: data
+      type(results_t), intent(inout) :: results
+      type(status_t), intent(inout) :: status
+
+      if (results%law_holds .or. .not. results%converged .or. data%line%n == 0) return
+      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, results%scene%pairs, results%verdict, status)
+   end subroutine judge_failed_check
+
+   !> What is worth its time where it is printed: sums by body and joint, stresses and their error, the limits of a linear theory.
+   subroutine complete_results(data, solution, results)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+      real(wp) :: strain_bound
+
+      call start_phase('recover')
+      if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, &
+                                                     contact_forces(data%fem, data%rows, data%line, solution), results%bodies)
+      call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
+      call recover_stress(data%step%requests, data%fem, results)
+      call stop_phase('recover')
+      call start_phase('estimate')
+      call estimate_error(data%fem, results, strain_bound)
+      call find_large(data%model, data%fem, strain_bound, results)
+      call stop_phase('estimate')
+   end subroutine complete_results
+
+   !> Displacements, reactions, contact fields, energies and balances.
+   subroutine recover(data, solution, u, results)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      real(wp), allocatable, intent(inout) :: u(:, :)      !< without rigid motions, (2, n_nodes) [L]; moved to the results
+      type(results_t), intent(inout) :: results
+      real(wp), allocatable :: contact(:, :)
+      type(equilibrium_t) :: equilibrium
+      real(wp) :: imbalance, others(2)
+
+      contact = contact_forces(data%fem, data%rows, data%line, solution)
+      call move_alloc(u, results%u)
+      allocate (results%reaction, mold=results%u)
+      call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
+                             sizes_at_points(data, solution), data%thermal)
+      imbalance = check_balance(data%fem, data%f, contact, data%rows)
+      results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
+      call add_rigid_motions(data%fem, solution%state%a, results%u)
+      results%converged = solution%converged
+      results%law_holds = equilibrium%holds .and. imbalance <= 1.0e-8_wp
+      if (equilibrium%largest_force > 0.0_wp) results%equilibrium_residual = equilibrium%residual/equilibrium%largest_force
+      if (.not. results%law_holds) results%verdict = 'the bodies are not in equilibrium: residual ' &
+                                                     //to_text(results%equilibrium_residual, 3)//', imbalance ' &
+                                                     //to_text(imbalance, 3)
+      if (.not. solution%converged) results%verdict = solution%verdict
+      others = 0.0_wp
+      results%prescribed = data%held
+      if (data%rows%n_bilateral > 0) call share_out_rows(data, solution, contact, results, others)
+      call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
+      results%balance%is_revolved = is_revolved(data%fem%mesh)
+      results%balance%rows = others
+      results%balance%rigid = results%balance%rigid - others
+      if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
+      call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
+      call copy_history(solution, results)
+   end subroutine recover
+
+   !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
+   pure function sizes_at_points(data, solution) result(sizes)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(contact_sizes_t) :: sizes
+      integer(ip) :: b, first, n
+
+      sizes%force = data%line%weight*hypot(solution%p, solution%t)
+      sizes%pair = data%line%pair
+      sizes%rows = data%rows
+      allocate (sizes%motion(data%fem%bodies%n))
+      first = 1
+      do b = 1, data%fem%bodies%n
+         n = size(data%fem%bodies%list(b)%modes, 2, kind=ip)
+         sizes%motion(b) = sum(abs(solution%state%a(first:first + n - 1)))
+         first = first + n
+      end do
+   end function sizes_at_points
+
+   pure subroutine copy_history(solution, results)
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+
+      allocate (results%iterations(0))
+      if (solution%history%n > 0) results%iterations = solution%history%records(:solution%history%n)
+      results%outer_iterations = solution%history%outer
+      results%linear_solves = max(solution%history%n, 1_ip)
+      results%contraction = solution%contraction
+   end subroutine copy_history
+
+end module atrito_increment

@@ -1,0 +1,77 @@
+!> What a careful user should know of a solution, told as warnings and notes.
+module atrito_solution_warnings
+   use atrito_blas_info, only: is_reference_blas
+   use atrito_condensed_body, only: motion_text
+   use atrito_contact_problem, only: motion_body
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_friction_law, only: FRICTION_NONE
+   use atrito_kinds, only: ip, wp
+   use atrito_linear_limits, only: warn_of_large
+   use atrito_messages, only: add_warning
+   use atrito_model, only: model_t
+   use atrito_results, only: results_t
+   use atrito_scene_data, only: scene_data_t
+   use atrito_shared_points, only: note_shared_points
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: warn
+
+   real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
+   real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
+   real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
+
+contains
+
+   !> What a careful user should know of a solution.
+   subroutine warn(data, solution, results)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(in) :: results
+      integer(ip) :: b
+      real(wp) :: mode(3)
+
+      if (is_reference_blas()) call add_warning('W-BLAS', 'this program was linked with the reference BLAS; with OpenBLAS' &
+                                                //' it is about three times as fast')
+      if (allocated(solution%inner%undetermined)) then
+         call motion_body(data%fem, solution%inner%undetermined, b, mode)
+         call add_warning('W-IDLE', motion_text(data%fem, b, mode)//': no load does it and nothing prevents it; the least' &
+                          //' motion is given')
+      end if
+      do b = 1, size(results%scene%bodies, kind=ip)
+         associate (body => results%scene%bodies(b))
+            if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
+                              //to_text(body%worst_node)//' dof '//to_text(body%worst_dof)//' lost '//to_text(body%digits_lost, 3) &
+                                        //' digits: a very slender or nearly incompressible body, or one that is barely held there')
+         end associate
+      end do
+      if (solution%inner%condition > MUCH_LOST) call add_warning('W-DIGITS', 'the equations of the contact line lose ' &
+                                                     //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
+                                                                 //' with more points than its soft master has nodes, or points' &
+                                                                 //' that are almost one')
+      call note_shared_points(data%fem%mesh, data%rows, data%line, solution)
+      call warn_of_others(data%model, results)
+      call warn_of_large(results)
+   end subroutine warn
+
+   !> Whether there may be other solutions.
+   subroutine warn_of_others(model, results)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: measured
+      real(wp) :: nu
+
+      nu = maxval([pack(model%interactions%nu, model%interactions%friction /= FRICTION_NONE), 0.0_wp])
+      if (results%contraction_estimate < 1.0_wp .and. nu < LARGE_FRICTION) return
+      measured = ' (estimated contraction of the outer loop '//to_text(results%contraction_estimate, 3)
+      if (results%contraction > 0.0_wp) measured = measured//', measured '//to_text(results%contraction, 3)
+      if (results%contraction_estimate >= 1.0_wp) then
+         call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found;' &
+                          //' one alone is expected below '//to_text(nu/results%contraction_estimate, 3)//measured//')')
+      else
+         call add_warning('W-UNIQUE', 'friction coefficient '//to_text(nu)//': there may be other solutions than the one found' &
+                          //measured//'; below 1 others are rare)')
+      end if
+   end subroutine warn_of_others
+
+end module atrito_solution_warnings

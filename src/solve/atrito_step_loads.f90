@@ -1,0 +1,204 @@
+!> What acts at a time of a step: the values that the loads, the prescribed displacements and the temperatures have come to.
+!>
+!> Without an amplitude a value goes linearly from that of the beginning of the step to that of its end, which it has to the last
+!> digit when the time has come; with one it is multiplied by it. A hydrostatic pressure whose level changes is the sum of two,
+!> one that goes and one that comes: what it does is linear in the pressure, and not in the level.
+module atrito_step_loads
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: amplitude_t, element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC
+   implicit none (type, external)
+   private
+   public :: moment_t, is_end, share_at, amplitude_at, act_at
+
+   !> A time of a history.
+   type :: moment_t
+      real(wp) :: step_time = 1.0_wp                !< since the step began
+      real(wp) :: time = 1.0_wp                     !< since the history began
+   end type moment_t
+
+contains
+
+   !> Whether every value is that of the end of the step, as the step has it.
+   pure logical function is_end(step, moment)
+      type(step_t), intent(in) :: step
+      type(moment_t), intent(in) :: moment
+
+      is_end = (moment%step_time >= step%increments%period .or. step%at_once) &
+               .and. .not. (follows(step%prescribed%amplitude) .or. follows(step%node_loads%amplitude) &
+                            .or. follows(step%element_loads%amplitude))
+   end function is_end
+
+   pure logical function follows(amplitude)
+      integer(ip), allocatable, intent(in) :: amplitude(:)
+
+      follows = .false.
+      if (allocated(amplitude)) follows = any(amplitude > 0)
+   end function follows
+
+   !> The share of the way from the beginning of the step to its end.
+   pure real(wp) function share_at(step, moment) result(share)
+      type(step_t), intent(in) :: step
+      type(moment_t), intent(in) :: moment
+
+      share = 1.0_wp
+      if (.not. step%at_once .and. moment%step_time < step%increments%period) share = moment%step_time/step%increments%period
+   end function share_at
+
+   !> The loads, displacements and temperatures of a step at a time of it, as those of a step that ends there.
+   pure subroutine act_at(model, step, moment, now)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
+      type(moment_t), intent(in) :: moment
+      type(step_t), intent(out) :: now              !< with nothing else of the step
+      real(wp) :: share
+
+      share = share_at(step, moment)
+      call values_at(model, step%prescribed, moment, share, now%prescribed)
+      call values_at(model, step%node_loads, moment, share, now%node_loads)
+      call element_loads_at(model, step%element_loads, moment, share, now%element_loads)
+      if (.not. allocated(step%heating)) return
+      now%heating = step%heating
+      if (share == 1.0_wp) return
+      if (allocated(step%heating_from)) then
+         now%heating = between(step%heating_from, step%heating, share)
+      else
+         now%heating = share*step%heating
+      end if
+   end subroutine act_at
+
+   pure elemental real(wp) function between(from, to, share)
+      real(wp), intent(in) :: from, to, share
+
+      between = to
+      if (share < 1.0_wp) between = from + share*(to - from)
+   end function between
+
+   pure subroutine values_at(model, values, moment, share, now)
+      type(model_t), intent(in) :: model
+      type(nodal_values_t), intent(in) :: values
+      type(moment_t), intent(in) :: moment
+      real(wp), intent(in) :: share
+      type(nodal_values_t), intent(out) :: now
+      real(wp) :: from
+      integer(ip) :: i, a
+
+      now%n = values%n
+      if (values%n == 0) return
+      now%node = values%node
+      now%dof = values%dof
+      now%value = values%value
+      do i = 1, values%n
+         a = amplitude_of(values%amplitude, i)
+         if (a > 0) then
+            now%value(i) = values%value(i)*amplitude_at(model%amplitudes(a), moment)
+         else
+            from = 0.0_wp
+            if (allocated(values%from)) from = values%from(i)
+            now%value(i) = between(from, values%value(i), share)
+         end if
+      end do
+   end subroutine values_at
+
+   pure integer(ip) function amplitude_of(amplitude, i) result(a)
+      integer(ip), allocatable, intent(in) :: amplitude(:)
+      integer(ip), intent(in) :: i
+
+      a = 0
+      if (allocated(amplitude)) a = amplitude(i)
+   end function amplitude_of
+
+   pure subroutine element_loads_at(model, loads, moment, share, now)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      type(moment_t), intent(in) :: moment
+      real(wp), intent(in) :: share
+      type(element_load_t), intent(out) :: now
+      integer(ip) :: i, a
+
+      if (loads%n == 0) return
+      call take_loads(loads, loads%value, [(i, i=1, loads%n)], now)
+      do i = 1, loads%n
+         a = amplitude_of(loads%amplitude, i)
+         associate (value => now%value(:, i))
+            if (a > 0) then
+               value(scaled(loads%kind(i))) = value(scaled(loads%kind(i)))*amplitude_at(model%amplitudes(a), moment)
+            else if (share < 1.0_wp) then
+               if (loads%kind(i) == LOAD_HYDROSTATIC) then
+                  value(1) = share*value(1)
+               else if (allocated(loads%from)) then
+                  value = between(loads%from(:, i), value, share)
+               else
+                  value = share*value
+               end if
+            end if
+         end associate
+      end do
+      if (share < 1.0_wp .and. allocated(loads%from)) call add_levels_that_go(loads, share, now)
+   end subroutine element_loads_at
+
+   !> The entries of a load's value that an amplitude multiplies: of a hydrostatic pressure not its levels.
+   pure function scaled(kind) result(entries)
+      integer(ip), intent(in) :: kind
+      integer(ip), allocatable :: entries(:)
+
+      entries = [1_ip, 2_ip]
+      if (kind == LOAD_HYDROSTATIC) entries = [1_ip]
+   end function scaled
+
+   !> Some loads, with their values.
+   pure subroutine take_loads(loads, value, wanted, now)
+      type(element_load_t), intent(in) :: loads
+      real(wp), intent(in) :: value(:, :)           !< of all loads
+      integer(ip), intent(in) :: wanted(:)
+      type(element_load_t), intent(out) :: now
+
+      now%n = size(wanted, kind=ip)
+      now%element = loads%element(wanted)
+      now%kind = loads%kind(wanted)
+      now%face = loads%face(wanted)
+      now%value = value(:, wanted)
+   end subroutine take_loads
+
+   !> Adds what is left of the hydrostatic pressures of the beginning.
+   pure subroutine add_levels_that_go(loads, share, now)
+      type(element_load_t), intent(in) :: loads
+      real(wp), intent(in) :: share
+      type(element_load_t), intent(inout) :: now
+      type(element_load_t) :: own, going
+      integer(ip), allocatable :: wanted(:)
+      integer(ip) :: i
+
+      wanted = pack([(i, i=1, loads%n)], [(loads%kind(i) == LOAD_HYDROSTATIC .and. amplitude_of(loads%amplitude, i) == 0 &
+                                           .and. loads%from(1, i) /= 0.0_wp, i=1, loads%n)])
+      if (size(wanted) == 0) return
+      call take_loads(loads, loads%from, wanted, going)
+      going%value(1, :) = (1.0_wp - share)*going%value(1, :)
+      own = now
+      now%n = own%n + going%n
+      now%element = [own%element, going%element]
+      now%kind = [own%kind, going%kind]
+      now%face = [own%face, going%face]
+      now%value = reshape([own%value, going%value], [size(own%value, 1), int(now%n)])
+   end subroutine add_levels_that_go
+
+   !> The factor of an amplitude: linear between its times, or with no slope at them; before the first and after the last it stays.
+   pure real(wp) function amplitude_at(amplitude, moment) result(factor)
+      type(amplitude_t), intent(in) :: amplitude
+      type(moment_t), intent(in) :: moment
+      real(wp) :: t, xi
+      integer(ip) :: i, n
+
+      t = moment%step_time
+      if (amplitude%is_total_time) t = moment%time
+      n = size(amplitude%time, kind=ip)
+      i = count(amplitude%time <= t, kind=ip)
+      if (i == 0 .or. i == n) then
+         factor = amplitude%value(max(i, 1_ip))
+         return
+      end if
+      xi = (t - amplitude%time(i))/(amplitude%time(i + 1) - amplitude%time(i))
+      if (amplitude%is_smooth) xi = xi**3*(10.0_wp + xi*(6.0_wp*xi - 15.0_wp))
+      factor = amplitude%value(i) + xi*(amplitude%value(i + 1) - amplitude%value(i))
+   end function amplitude_at
+
+end module atrito_step_loads
