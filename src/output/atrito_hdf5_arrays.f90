@@ -125,7 +125,7 @@ contains
       if (is_ok(file%status)) call write_list(file, dataset, H5T_NATIVE_CHARACTER, c_loc(text), len(text) > 0)
    end subroutine put_text
 
-   !> A dataset with a checksum for every chunk; no dates, so that equal runs write equal files.
+   !> A dataset with a checksum for every chunk, and without dates.
    subroutine create_list(file, path, kind, n, dataset)
       type(hdf5_arrays_t), intent(inout) :: file
       character(len=*), intent(in) :: path

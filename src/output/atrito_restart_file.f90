@@ -9,7 +9,7 @@ module atrito_restart_file
    use atrito_fingerprint, only: fingerprint_t, find_difference
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
-   use atrito_restart_state, only: restart_state_t
+   use atrito_restart_state, only: restart_state_t, warm_start_t
    use atrito_results, only: results_t, history_t, history_row_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_DECK, STATUS_FILE
    use atrito_strings, only: to_text
@@ -137,6 +137,9 @@ contains
       call begin_part(archive, 'state')
       call exchange_state(archive, state)
       call end_part(archive)
+      call begin_part(archive, 'increment')
+      call exchange_results(archive, state%last)
+      call end_part(archive)
       call begin_part(archive, 'history')
       call exchange_row_list(archive, 'rows', history%rows)
       call exchange_iteration_list(archive, 'iterations', history%iterations)
@@ -158,21 +161,61 @@ contains
 
       call exchange(archive, 'step', state%step)
       call exchange(archive, 'increment', state%increment)
-      call exchange(archive, 'time', state%time)
       call exchange(archive, 'step_time', state%step_time)
       call exchange(archive, 'length', state%length)
       call exchange(archive, 'ends_step', state%ends_step)
-      call exchange(archive, 'u', state%u)
-      call exchange(archive, 'reaction', state%reaction)
+      call exchange(archive, 'began', state%began)
+      call exchange(archive, 'condition', state%condition)
+      call exchange(archive, 'grain', state%grain)
+      call exchange(archive, 'from', state%from)
+      call exchange(archive, 'released', state%released)
+      call exchange(archive, 'rest', state%rest)
       call exchange(archive, 'slip', state%slip)
-      call exchange(archive, 'rest_slip', state%rest_slip)
       call exchange(archive, 'shear', state%shear)
-      call exchange(archive, 'bound', state%bound)
-      call exchange(archive, 'states', state%states)
-      call exchange(archive, 'q', state%q)
-      call exchange(archive, 'x', state%x)
+      call exchange(archive, 'slides', state%slides)
       call exchange(archive, 'dissipation', state%dissipation)
+      call exchange_start(archive, state%start)
    end subroutine exchange_state
+
+   !> Its kind among the forms, and plain arrays.
+   subroutine exchange_start(archive, start)
+      type(archive_t), intent(inout) :: archive
+      type(warm_start_t), intent(inout) :: start
+
+      call exchange(archive, 'form', start%form)
+      call exchange(archive, 'p', start%p)
+      call exchange(archive, 'tau', start%tau)
+      call exchange(archive, 't', start%t)
+      call exchange(archive, 'state', start%state)
+      call exchange(archive, 'q', start%q)
+      call exchange(archive, 'a', start%a)
+      call exchange(archive, 'r', start%r)
+      call exchange(archive, 'shift', start%shift)
+      call exchange(archive, 'slack', start%slack)
+      call exchange(archive, 'lower', start%lower)
+      call exchange(archive, 'upper', start%upper)
+      call exchange(archive, 'd', start%d)
+      call exchange(archive, 'is_shared', start%is_shared)
+      call exchange(archive, 'tangential_of', start%tangential_of)
+      call exchange(archive, 'residual', start%residual)
+      call exchange(archive, 'contraction', start%contraction)
+      call exchange(archive, 'has_multipliers', start%has_multipliers)
+      call exchange(archive, 'step_size', start%step_size)
+      call exchange(archive, 'pull_size', start%pull_size)
+      call exchange(archive, 'x', start%x)
+      call exchange(archive, 'e', start%e)
+      call exchange(archive, 'noise', start%noise)
+      call exchange(archive, 'q_old', start%q_old)
+      call exchange(archive, 'a_old', start%a_old)
+      call exchange(archive, 'hold', start%hold)
+      call exchange(archive, 'pair', start%pair)
+      call exchange(archive, 'n_pairs', start%n_pairs)
+      call exchange(archive, 'n_contact_pairs', start%n_contact_pairs)
+      call exchange(archive, 'stiffness', start%stiffness)
+      call exchange(archive, 'pull', start%pull)
+      call exchange(archive, 'settled', start%settled)
+      call exchange(archive, 'changed', start%changed)
+   end subroutine exchange_start
 
    subroutine exchange_row_list(archive, name, list)
       type(archive_t), intent(inout) :: archive
@@ -224,7 +267,8 @@ contains
       integer(ip) :: i
 
       call demand(archive, state%step >= 1 .and. state%increment >= 1, 'step and increment')
-      call demand(archive, is_nodal(state%u, model), 'u')
+      call check_frame(archive, model, state%last)
+      call demand(archive, allocated(state%last%u), 'u')
       if (.not. allocated(history%frames)) return
       do i = 1, size(history%frames, kind=ip)
          call check_frame(archive, model, history%frames(i))
