@@ -202,8 +202,8 @@ contains
                now%time = to
                call lengthen(control, now)
             else
-               now%length = to - now%time
-               if (.not. may_be_cut(status) .or. now%length <= control%least) then
+               now%length = min(now%length, to - now%time)
+               if (.not. may_be_cut(status) .or. now%length <= (1.0_wp + SLIVER)*control%least) then
                   call explain(results, status)
                   call end_early(k, now, run, history, status)
                   return
