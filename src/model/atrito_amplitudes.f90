@@ -9,8 +9,7 @@ module atrito_amplitudes
 contains
 
    !> What an amplitude multiplies by. Between two times the value goes linearly, or as s^3 (10 - 15 s + 6 s^2) with s from 0 to 1,
-   !> whose first and second derivatives are 0 at both; before the first time and after the last it stays. Two values of one time
-   !> are a jump: the later one holds from there on.
+   !> whose first and second derivatives are 0 at both; before the first time and after the last it stays.
    pure real(wp) function amplitude_at(amplitude, time) result(value)
       type(amplitude_t), intent(in) :: amplitude
       real(wp), intent(in) :: time                     !< of the step, or of the history where the amplitude has total times

@@ -79,7 +79,7 @@ module atrito_build_context
       type(model_t), pointer :: model => null()        !< so far
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(name_list_t) :: invalid                     !< names whose definition is faulty
-      type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
+      type(name_list_t) :: surface_names, material_names, interaction_names, amplitude_names !< in the order of the model's lists
       type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
       type(numbered_t) :: nodes, elements
       integer(ip) :: n_blocks = 0
@@ -94,6 +94,7 @@ module atrito_build_context
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: ties(:)            !< of each the slave
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
+      type(token_t), allocatable :: amplitudes(:)
       logical, allocatable :: elastic_given(:), elastic_invalid(:)  !< for each material
       logical :: sections_undetermined = .false.             !< a *SOLID SECTION could not be understood
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
@@ -117,7 +118,7 @@ contains
       allocate (context%blocks(64), context%set_card(0))
       allocate (context%nodes%place(64), context%elements%place(64))
       allocate (context%surfaces(0), context%materials(0), context%poisson(0), context%sections(0), context%interactions(0))
-      allocate (context%slaves(0), context%masters(0))
+      allocate (context%slaves(0), context%masters(0), context%amplitudes(0))
       allocate (context%card_done(deck%n_cards), source=.false.)
       allocate (context%block_of_card(deck%n_cards), source=0_ip)
       if (.not. has_errors()) return
@@ -153,6 +154,8 @@ contains
       select case (keyword_name(card))
       case ('MATERIAL')
          if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'material')
+      case ('AMPLITUDE')
+         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'amplitude')
       case ('SURFACE INTERACTION')
          if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface interaction')
       case ('SURFACE')

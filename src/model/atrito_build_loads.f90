@@ -2,6 +2,7 @@
 module atrito_build_loads
    use atrito_deck, only: data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
+   use atrito_build_amplitudes, only: take_amplitude
    use atrito_build_context, only: build_context_t, carried_t, ids_text, is_invalid
    use atrito_carry_on, only: is_of_step, removes_all, carry_values, carry_loads, list_carried, take_force_place, &
                               take_load_place, remove_load
@@ -10,7 +11,7 @@ module atrito_build_loads
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_load_lists, only: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, trim_nodal_values, &
-                               trim_element_loads
+                               trim_element_loads, amplitude_of, from_of
    use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_BODY, LOAD_TRACTION, SURFACE_ELEMENTS
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -25,6 +26,8 @@ module atrito_build_loads
    public :: build_loads, in_no_element
 
    integer(ip), parameter :: LAST_DOF = 6              !< of a node in three dimensions: 3..6 do not exist here
+
+   character(len=6), parameter :: LOAD_KEYWORDS(3) = [character(len=6) :: 'CLOAD', 'DLOAD', 'DSLOAD']
 
    !> Of *DSLOAD, and then of *DLOAD: a line of a later step takes the place of a load of the same label.
    integer(ip), parameter :: N_SURFACE_LABELS = 3
@@ -42,6 +45,7 @@ contains
       do i = 1, context%deck%n_cards
          if (.not. is_of_step(context, i)) cycle
          associate (card => context%deck%cards(i))
+            if (any(keyword_name(card) == LOAD_KEYWORDS)) call take_amplitude(context, card)
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
                context%open%line = k
@@ -227,7 +231,7 @@ contains
       type(build_context_t), intent(in) :: context
       type(nodal_values_t), intent(inout) :: loads
       real(wp) :: along(2), from
-      integer(ip) :: amplitude, axis, i
+      integer(ip) :: axis, i
 
       if (.not. allocated(context%axes)) then
          loads = context%open%forces
@@ -235,14 +239,12 @@ contains
       end if
       associate (forces => context%open%forces)
          do i = 1, forces%n
-            from = 0.0_wp
-            if (allocated(forces%from)) from = forces%from(i)
-            amplitude = 0
-            if (allocated(forces%amplitude)) amplitude = forces%amplitude(i)
+            from = from_of(forces, i)
             along = dof_direction(context, forces%node(i), forces%dof(i))
             do axis = 1, 2
                if (along(axis) == 0.0_wp .or. (forces%value(i) == 0.0_wp .and. from == 0.0_wp)) cycle
-               call add_nodal_value(loads, forces%node(i), axis, forces%value(i)*along(axis), from*along(axis), amplitude)
+               call add_nodal_value(loads, forces%node(i), axis, forces%value(i)*along(axis), from*along(axis), &
+                                    amplitude_of(forces, i))
             end do
          end do
       end associate

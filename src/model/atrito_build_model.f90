@@ -3,6 +3,7 @@ module atrito_build_model
    use atrito_adjustment, only: adjusted_t, adjust_pairs, close_adjusted
    use atrito_axis, only: hold_axis, check_axis
    use atrito_bilateral_rows, only: trim_rows
+   use atrito_build_amplitudes, only: build_amplitudes
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
@@ -107,6 +108,7 @@ contains
       call take_titles(deck, model)
       call take_parameters(deck, model)
       call build_steps(context)
+      call build_amplitudes(context)
       call build_nodes(context)
       call build_elements(context)
       call trim_mesh(model%mesh)

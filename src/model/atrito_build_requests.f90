@@ -9,7 +9,7 @@ module atrito_build_requests
    use atrito_model, only: controls_t, requested_t, requests_t, step_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set
-   use atrito_strings, only: same_name
+   use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
    public :: build_requests, refuse_field_files
@@ -45,25 +45,62 @@ contains
       type(card_t), intent(in) :: card
       type(step_t), intent(inout) :: step
 
-      associate (requests => step%requests)
+      associate (requests => step%requests, every => step%requests%every)
          select case (keyword_name(card))
          case ('CONTROLS')
             call read_controls_card(context%deck, card, step%controls)
-         case ('NODE PRINT', 'EL PRINT')
+         case ('NODE PRINT')
             call read_request_card(card, context, requests%requested_t)
+            if (asks_for(context%deck, card, 'U')) call read_frequency(context%deck, card, every%nodes)
+            if (asks_for(context%deck, card, 'RF')) call read_frequency(context%deck, card, every%reactions)
+         case ('EL PRINT')
+            call read_request_card(card, context, requests%requested_t)
+            call read_frequency(context%deck, card, every%stress)
          case ('CONTACT PRINT')
             requests%contact = .true.
+            call read_frequency(context%deck, card, every%contact)
          case ('BODY PRINT')
             requests%bodies = .true.
+            call read_frequency(context%deck, card, every%bodies)
          case ('JOINT PRINT')
             requests%joints = .true.
+            call read_frequency(context%deck, card, every%joints)
          case ('NODE FILE', 'EL FILE')
             call read_request_card(card, context, requests%fields)
+            call read_frequency(context%deck, card, every%fields)
          case ('CONTACT FILE')
             requests%fields%contact = .true.
+            call read_frequency(context%deck, card, every%fields)
          end select
       end associate
    end subroutine read_card
+
+   !> FREQUENCY= of a table or of the field file, one in a step.
+   subroutine read_frequency(deck, card, every)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(inout) :: every              !< 0: no card of the step has given it
+      character(len=*), parameter :: WHAT = 'increments from one print to the next, an integer >= 1; the end of the step is '// &
+                                     'printed always'
+      type(option_t) :: option
+      integer(ip) :: n
+      logical :: found
+
+      n = 0
+      call option_integer(deck, card, 'FREQUENCY', WHAT, n, found)
+      if (.not. found) return
+      call find_option(deck, card, 'FREQUENCY', option, found)
+      if (n < 1) then
+         call report_error(deck, option%value, 'E-VALUE', 'FREQUENCY = '//to_text(n)//' is out of range', expected=WHAT, &
+                           keyword=keyword_name(card))
+      else if (every > 0 .and. every /= n) then
+         call report_error(deck, option%value, 'E-CONFLICT', 'FREQUENCY = '//to_text(n)//' here, but '//to_text(every)// &
+                           ' before in this step', expected='one FREQUENCY= for a table, and for the field file, in a step', &
+                           keyword=keyword_name(card))
+      else
+         every = n
+      end if
+   end subroutine read_frequency
 
    !> What the cards of this step give anew.
    subroutine forget_replaced(context, requests)
@@ -76,12 +113,25 @@ contains
          select case (keyword_name(context%deck%cards(i)))
          case ('NODE PRINT')
             call forget_nodes(requests%requested_t)
+            requests%every%nodes = 0
+            requests%every%reactions = 0
          case ('NODE FILE')
             call forget_nodes(requests%fields)
+            requests%every%fields = 0
          case ('EL PRINT')
             call forget_stress(requests%requested_t)
+            requests%every%stress = 0
          case ('EL FILE')
             call forget_stress(requests%fields)
+            requests%every%fields = 0
+         case ('CONTACT FILE')
+            requests%every%fields = 0
+         case ('CONTACT PRINT')
+            requests%every%contact = 0
+         case ('BODY PRINT')
+            requests%every%bodies = 0
+         case ('JOINT PRINT')
+            requests%every%joints = 0
          end select
       end do
    end subroutine forget_replaced

@@ -1,5 +1,6 @@
 !> *BOUNDARY: prescribed displacements.
 module atrito_build_supports
+   use atrito_build_amplitudes, only: take_amplitude, refuse_step_options
    use atrito_build_loads, only: in_no_element
    use atrito_carry_on, only: carry_values, removes_all
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
@@ -7,7 +8,7 @@ module atrito_build_supports
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, replace_nodal_value, trim_nodal_values
+   use atrito_load_lists, only: add_nodal_value, replace_nodal_value, trim_nodal_values, amplitude_of
    use atrito_parameters, only: evaluate_function
    use atrito_references, only: find_nodes
    use atrito_refinement, only: edge_place, is_refined
@@ -73,6 +74,8 @@ contains
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i))
             if (keyword_name(card) /= 'BOUNDARY' .or. card%step /= step) cycle
+            if (card%level == LEVEL_MODEL) call refuse_step_options(context%deck, card)
+            call take_amplitude(context, card)
             call begin_numbers(context, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
@@ -268,7 +271,7 @@ contains
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value(:)                 !< of each node [L]
       type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: clashes
+      type(number_list_t) :: clashes, curves
       real(wp) :: first_value, scale
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
@@ -289,9 +292,12 @@ contains
          else if (.not. is_same(context%open%supports%value(entry), value(i), scale)) then
             if (clashes%n == 0) first_value = value(i)
             call add_number(clashes, nodes(i))
+         else if (abs(value(i)) > 0.0_wp .and. amplitude_of(context%open%supports, entry) /= context%open%amplitude) then
+            call add_number(curves, nodes(i))
          end if
       end do
       if (clashes%n > 0) call report_clash(line, context, numbers_of(clashes), dof, first_value)
+      if (curves%n > 0) call report_curves(line, context, numbers_of(curves), dof)
    end subroutine prescribe
 
    !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
@@ -321,5 +327,18 @@ contains
                                                                                            context%deck%tokens(line%first_token)), &
                         expected='one value for each dof [L]; those before *STEP hold in every step', keyword='BOUNDARY')
    end subroutine report_clash
+
+   !> One displacement with two amplitudes.
+   subroutine report_curves(line, context, nodes, dof)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: nodes(:), dof
+
+      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
+                        ids_text(context%model%mesh%node_id(nodes))//' has another amplitude here than in '// &
+                        place_text(context%deck, context%deck%tokens(context%dof_token(dof, nodes(1))), &
+                                   context%deck%tokens(line%first_token)), expected='one AMPLITUDE= for each dof in a step', &
+                        keyword='BOUNDARY')
+   end subroutine report_curves
 
 end module atrito_build_supports

@@ -6,6 +6,7 @@ module atrito_load_lists
    implicit none (type, external)
    private
    public :: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, trim_nodal_values, trim_element_loads
+   public :: amplitude_of, from_of
 
 contains
 
@@ -91,6 +92,24 @@ contains
       if (amplitude > 0 .and. .not. allocated(list%amplitude)) allocate (list%amplitude(size(list%element)), source=0_ip)
       if (allocated(list%amplitude)) list%amplitude(i) = amplitude
    end subroutine replace_element_load
+
+   !> What the i-th value was at the beginning of the step.
+   pure real(wp) function from_of(list, i) result(from)
+      type(nodal_values_t), intent(in) :: list
+      integer(ip), intent(in) :: i
+
+      from = 0.0_wp
+      if (allocated(list%from)) from = list%from(i)
+   end function from_of
+
+   !> The amplitude of the i-th value; 0: none.
+   pure integer(ip) function amplitude_of(list, i) result(amplitude)
+      type(nodal_values_t), intent(in) :: list
+      integer(ip), intent(in) :: i
+
+      amplitude = 0
+      if (allocated(list%amplitude)) amplitude = list%amplitude(i)
+   end function amplitude_of
 
    !> Gives back the room kept for growing.
    pure subroutine trim_nodal_values(list)

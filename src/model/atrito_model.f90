@@ -202,6 +202,7 @@ module atrito_model
       type(tie_t), allocatable :: ties(:)
       type(amplitude_t), allocatable :: amplitudes(:)
       type(step_t), allocatable :: steps(:)         !< the history, >= 1
+      integer(ip) :: restart_every = 0              !< increments between two restart files; 0: none is written
    end type model_t
 
 contains

@@ -5,7 +5,7 @@ module atrito_turn_supports
    use atrito_deck, only: token_t, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
+   use atrito_load_lists, only: add_nodal_value, trim_nodal_values, amplitude_of, from_of
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_model, only: model_t, nodal_values_t
    use atrito_strings, only: to_text
@@ -151,21 +151,5 @@ contains
                         expected='the same value through all steps, without an amplitude, or both dofs of the node', &
                         keyword='TRANSFORM')
    end subroutine refuse_inclined
-
-   pure real(wp) function from_of(list, i) result(from)
-      type(nodal_values_t), intent(in) :: list
-      integer(ip), intent(in) :: i
-
-      from = 0.0_wp
-      if (allocated(list%from)) from = list%from(i)
-   end function from_of
-
-   pure integer(ip) function amplitude_of(list, i) result(amplitude)
-      type(nodal_values_t), intent(in) :: list
-      integer(ip), intent(in) :: i
-
-      amplitude = 0
-      if (allocated(list%amplitude)) amplitude = list%amplitude(i)
-   end function amplitude_of
 
 end module atrito_turn_supports
