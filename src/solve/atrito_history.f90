@@ -297,8 +297,8 @@ contains
                call lengthen(control, now)
                call record(now, run, history)
             else
-               now%length = to - now%time
-               if (.not. may_be_cut(status) .or. now%length <= control%least) then
+               now%length = min(now%length, to - now%time)
+               if (.not. may_be_cut(status) .or. now%length <= (1.0_wp + SLIVER)*control%least) then
                   call explain(results, status)
                   call end_early(k, now, run, history, status)
                   return
