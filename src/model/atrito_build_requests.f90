@@ -258,14 +258,14 @@ contains
       end if
    end subroutine ask_for
 
-   !> Reports every card that asks for fields: for a build that cannot write them.
+   !> Reports every card that asks for fields or restart files: for a build that cannot write them.
    subroutine refuse_field_files(deck)
       type(deck_t), intent(in) :: deck
       integer(ip) :: i
 
       do i = 1, deck%n_cards
          select case (keyword_name(deck%cards(i)))
-         case ('NODE FILE', 'EL FILE', 'CONTACT FILE')
+         case ('NODE FILE', 'EL FILE', 'CONTACT FILE', 'RESTART')
             call report_error(deck, deck%cards(i)%place, 'E-NOT-BUILT', '*'//keyword_name(deck%cards(i))// &
                               ': this build of atrito has no HDF5', expected='an atrito built with -DATRITO_HDF5=ON, or no *'// &
                               keyword_name(deck%cards(i)), keyword=keyword_name(deck%cards(i)))

@@ -7,8 +7,12 @@ module atrito_hdf5_arrays
    private
    public :: hdf5_arrays_t, create_arrays, open_arrays, put_list, get_list, outcome_of, close_arrays
 
+   !> The same components as with HDF5: the test of this twin links it with an archive that was compiled with the other.
    type :: hdf5_arrays_t
       private
+      integer(lp) :: id = 0
+      logical :: is_open = .false.
+      character(len=:), allocatable :: path
       type(status_t) :: status
    end type hdf5_arrays_t
 
