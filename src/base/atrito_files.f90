@@ -243,8 +243,8 @@ contains
       if (.not. is_ok(status)) call discard_files(set)
    end subroutine commit_files
 
-   !> Gives each file of the set its final name in one step of the file system: at any moment there is the former file or the new one
-   !> under it, also when the process is killed. Meant for sets of one file.
+   !> Gives each file of the set its final name in one step of the file system: at any moment there is the former file or the
+   !> new one under it, also when the process is killed. Meant for sets of one file.
    !>
    !> status: STATUS_FILE, and then the former files are there but for those that were replaced before.
    subroutine commit_over(set, status)

@@ -35,7 +35,7 @@ module atrito_restart_state
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest so far
       real(wp) :: grain = 0.0_wp                    !< to which stiffnesses are taken as equal
-      real(wp), allocatable :: from(:)              !< prescribed displacements at the beginning of the step [L]; not allocated: the deck's
+      real(wp), allocatable :: from(:)              !< prescribed, at the beginning of the step [L]; not allocated: the deck's
       real(wp), allocatable :: released(:, :)       !< (2, n_nodes) of supports that the step does not have [F]
       real(wp), allocatable :: rest(:)              !< (points) rest slip [L]
       real(wp), allocatable :: slip(:)              !< (points) u_T [L]

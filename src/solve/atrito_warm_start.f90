@@ -1,5 +1,5 @@
-!> A solution of the contact line as plain arrays, and back, so that a history can be interrupted: the increment behind it starts from
-!> the same numbers, whether the run goes on or another one does.
+!> A solution of the contact line as plain arrays, and back, so that a history can be interrupted: the increment behind it starts
+!> from the same numbers, whether the run goes on or another one does.
 !>
 !> Factors are left out: they are larger than all else, and made anew. What they are used for depends on them in the last digits, so
 !> a run that is recorded leaves its own, too.
