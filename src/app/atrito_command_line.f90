@@ -33,6 +33,7 @@ module atrito_command_line
       integer :: task = TASK_USAGE
       type(string_t), allocatable :: names(:)       !< deck; the two paths to compare; the words behind `help`
       character(len=:), allocatable :: folder       !< -o; not allocated: the default
+      character(len=:), allocatable :: restart      !< file of --restart; not allocated: from the beginning
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
       character(len=7) :: solver = 'auto'           !< one of SOLVERS
       character(len=6) :: contact = 'auto'          !< one of CONTACT_FORMS
@@ -257,6 +258,9 @@ contains
       case ('-o')
          command%folder = without_slash(given%value)
          ok = len(command%folder) > 0
+      case ('--restart')
+         command%restart = given%value
+         ok = len_trim(given%value) > 0
       case ('--set')
          call append_string(command%settings, given%value)
          ok = index(given%value, '=') > 1

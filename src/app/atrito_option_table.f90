@@ -28,7 +28,7 @@ module atrito_option_table
    end type option_t
 
    logical, parameter :: Y = .true., N = .false.
-   type(option_t), parameter :: OPTIONS(19) = [ &
+   type(option_t), parameter :: OPTIONS(20) = [ &
                                 option_t('-o         ', Y, [Y, N, N, N, Y, Y, Y], 'a folder; it is made where it is missing'), &
                                 option_t('--set      ', Y, [Y, Y, N, N, Y, Y, Y], 'NAME=VALUE, VALUE an expression of numbers'), &
                                 option_t('--solver   ', Y, [Y, Y, N, N, Y, Y, Y], 'auto, skyline, banded, sparse or mumps'), &
@@ -41,6 +41,7 @@ module atrito_option_table
                                 option_t('--refine   ', Y, [Y, Y, N, N, Y, Y, Y], &
                                          'a whole number, 0 to 12: each element into 4, so many times'), &
                                 option_t('--plot     ', N, [Y, N, N, N, Y, Y, Y], ''), &
+                                option_t('--restart  ', Y, [Y, N, N, N, N, N, N], 'a restart file of this deck, NAME.restart.h5'), &
                                 option_t('--levels   ', Y, [N, N, N, N, N, Y, N], &
                                          'a whole number, 1 to 12: so many meshes, each with four elements for one'), &
                                 option_t('--vary     ', Y, [N, N, N, N, Y, N, Y], &

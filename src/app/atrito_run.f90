@@ -22,6 +22,7 @@ module atrito_run
    use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
+   use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t
    use atrito_screen, only: compose_summary
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
@@ -48,6 +49,7 @@ contains
       type(run_facts_t), intent(out), optional :: facts
       type(model_t) :: model
       type(history_t) :: history
+      type(restart_recorder_t) :: recorder
       type(reporter_t) :: reporter
       type(status_t) :: status
       integer(ip) :: told
@@ -57,12 +59,13 @@ contains
       call load_model(command, reporter, model, told, code)
       if (code /= STATUS_OK) return
       call check_folder(output_folder(command), status)
+      if (is_ok(status)) call begin_recorder(command, model, recorder, status)
       if (.not. is_ok(status)) then                 ! better now than after an hour
          call print_status(status, model%deck_path)
          code = status%code
          return
       end if
-      call solve_history(model, solve_options(command), reporter, history, status, store)
+      call solve_history(model, solve_options(command), reporter, history, status, store, recorder)
       call print_messages(command%quiet, told + 1)
       associate (n => size(history%frames))
          if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)

@@ -15,7 +15,7 @@ module atrito_usage
                                                '       atrito --help | --version']
 
    !> The long form: every command, option and exit code.
-   character(len=80), parameter :: HELP(46) = [character(len=80) :: &
+   character(len=80), parameter :: HELP(48) = [character(len=80) :: &
                                                '', &
                                                'atrito DECK.inp [options]   solve the deck and write tables', &
                                                'atrito check DECK.inp       read and check all, tell what the scene needs', &
@@ -37,6 +37,8 @@ module atrito_usage
                                                '  --digits N         significant digits of the tables, 6 to 17, default 10', &
                                                '  --plot             pictures by gnuplot: mesh and contact pairs, in DIR/plots', &
                                                '  --quiet            no progress, no notes, no summary; warnings and errors', &
+                                               'option of a run', &
+                                               '  --restart FILE     go on behind the increment in a file of *RESTART, WRITE', &
                                                'options of a sweep', &
                                                '  --vary NAME=v1,..  values of a *PARAMETER; several --vary: all combinations', &
                                                'options of a study', &

@@ -6,7 +6,7 @@ module atrito_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_null_char, c_null_ptr, c_ptr, c_size_t
    use atrito_kinds, only: lp
    use atrito_paths, only: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
-   use atrito_renaming, only: find_obstacle, replace_files, TEMPORARY
+   use atrito_renaming, only: find_obstacle, replace_files, rename_over, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
    use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_line, c_write_text, c_close_file, hold_interrupts, &
@@ -16,7 +16,7 @@ module atrito_files
    public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
              remove_empty_folder, check_folder
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, close_text, NEW_LINE_CHARACTER
-   public :: end_files, commit_files, discard_files
+   public :: end_files, commit_files, commit_over, discard_files, judge_file
 
    !> A set of files that appear together or not at all.
    type :: file_set_t
@@ -65,7 +65,7 @@ contains
       if (ios /= 0) call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
    end subroutine read_file
 
-   !> A deck must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
+   !> What is read must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
    subroutine judge_file(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
@@ -242,6 +242,25 @@ contains
       end if
       if (.not. is_ok(status)) call discard_files(set)
    end subroutine commit_files
+
+   !> Gives each file of the set its final name in one step of the file system: at any moment there is the former file or the
+   !> new one under it, also when the process is killed. Meant for sets of one file.
+   !>
+   !> status: STATUS_FILE, and then the former files are there but for those that were replaced before.
+   subroutine commit_over(set, status)
+      type(file_set_t), intent(in) :: set
+      type(status_t), intent(out) :: status
+      type(string_t) :: none(0)
+
+      call find_obstacle(set%folder, set%names, none, status)
+      if (is_ok(status)) then
+         call hold_interrupts()
+         call rename_over(set%folder, set%names, status)
+         if (is_ok(status)) call keep_files(set)
+         call release_interrupts()
+      end if
+      if (.not. is_ok(status)) call discard_files(set)
+   end subroutine commit_over
 
    !> The files have their names: they, and their folders, stay.
    subroutine keep_files(set)

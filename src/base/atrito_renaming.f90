@@ -11,7 +11,7 @@ module atrito_renaming
    use atrito_system, only: c_rename
    implicit none (type, external)
    private
-   public :: find_obstacle, replace_files, TEMPORARY
+   public :: find_obstacle, replace_files, rename_over, TEMPORARY
 
    character(len=*), parameter :: TEMPORARY = '.part', FORMER = '.old'//TEMPORARY
 
@@ -77,6 +77,20 @@ contains
          call take_back(paths, is_aside, done, status)
       end if
    end subroutine replace_files
+
+   !> Gives new files their names, over the former ones.
+   subroutine rename_over(folder, names, status)
+      character(len=*), intent(in) :: folder
+      type(string_t), intent(in) :: names(:)        !< of new files, which have temporary names; without folder
+      type(status_t), intent(out) :: status
+      integer :: i
+
+      do i = 1, size(names)
+         if (renamed(folder//'/'//names(i)%s//TEMPORARY, folder//'/'//names(i)%s)) cycle
+         call set_status(status, STATUS_FILE, folder//'/'//names(i)%s//': cannot be written')
+         return
+      end do
+   end subroutine rename_over
 
    !> Gives former files their second name; a folder with the name of a stale file is somebody else's.
    subroutine move_aside(paths, is_aside, status)

@@ -3,6 +3,7 @@ module atrito_card_order
    use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_keyword, only: LEVEL_BOTH
+   use atrito_kinds, only: ip
    implicit none (type, external)
    private
    public :: order_t, check_order, check_end
@@ -10,7 +11,7 @@ module atrito_card_order
    !> What has been read so far.
    type :: order_t
       logical :: in_step = .false.
-      integer :: n_steps = 0
+      integer(ip) :: n_steps = 0
       type(token_t) :: step                        !< the *STEP begun last
       character(len=32) :: parent = ''             !< keyword to whose block the next ones belong
       logical :: incomplete = .false.              !< a file could not be read: no word about what is missing
@@ -25,6 +26,7 @@ contains
       type(card_t), intent(inout) :: card
 
       card%level = merge(LEVEL_STEP, LEVEL_MODEL, order%in_step)
+      card%step = merge(order%n_steps, 0_ip, order%in_step)
       if (card%keyword == KEYWORD_UNKNOWN) return
       select case (card%name)
       case ('STEP')
@@ -43,15 +45,12 @@ contains
       type(order_t), intent(inout) :: order
       type(card_t), intent(inout) :: card
 
-      if (order%in_step) then
-         call refuse(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
-      else if (order%n_steps > 0) then
-         call refuse(deck, card, 'E-NOT-BUILT', 'a second *STEP is not built yet', 'one step')
-      end if
+      if (order%in_step) call refuse(deck, card, 'E-STEP', '*STEP inside a step', 'the *END STEP of the step before')
       order%n_steps = order%n_steps + 1
       order%in_step = .true.
       order%step = card%place
       card%level = LEVEL_STEP
+      card%step = order%n_steps
    end subroutine begin_step
 
    subroutine check_level(deck, order, card)
@@ -62,7 +61,8 @@ contains
 
       level = deck%keywords(card%keyword)%level
       if (order%n_steps > 0 .and. .not. order%in_step) then
-         call refuse(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after the last *END STEP', 'nothing behind it')
+         call refuse(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
+                     'a *STEP, or nothing behind it')
       else if (level == LEVEL_MODEL .and. order%in_step) then
          call refuse(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
       else if (level == LEVEL_STEP .and. .not. order%in_step) then

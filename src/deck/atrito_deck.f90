@@ -48,6 +48,7 @@ module atrito_deck
       integer(ip) :: first_line = 1                !< deck%lines(first_line : first_line + n_lines - 1)
       integer(ip) :: n_lines = 0
       integer :: level = LEVEL_MODEL               !< where it stands: LEVEL_MODEL or LEVEL_STEP
+      integer(ip) :: step = 0                      !< in which it stands; 0: none
       logical :: ok = .true.                       !< nothing wrong with its keyword line
    end type card_t
 

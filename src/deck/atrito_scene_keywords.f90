@@ -86,8 +86,13 @@ contains
                           parent='SURFACE INTERACTION', &
                           doc='Local: shear = min(stick slope |u_T|, nu p); without a stick slope exact stick. NONLOCAL: '// &
                           'shear = nu S_rho(p) phi''(|u_T|) with the average S_rho of the pressure and the smoothed phi of '// &
-                          'the paper. nu = 0 is no friction, eps = 0 exact stick, rho = 0 local.')
+                          'the paper. nu = 0 is no friction, eps = 0 exact stick, rho = 0 local. In a '// &
+                          'history a local law remembers where it stuck: slip counts from the last increment, as in Abaqus and '// &
+                          'CalculiX. The nonlocal law of the paper has the whole slip u_T since the beginning. SLIP= chooses '// &
+                          'the other way. In one increment from rest both are the same.')
       call add_option(k, 'NONLOCAL+', KIND_FLAG, 'the law of the paper')
+      call add_option(k, 'SLIP+', KIND_WORD, 'from where slip counts: from the beginning, or from the last increment; '// &
+                      'INCREMENTAL when left out, with NONLOCAL TOTAL', choices='TOTAL INCREMENTAL')
       call add_option(k, 'KERNEL+', KIND_WORD, 'average normalised on the quadrature points, or on the whole line', &
                       default='POINTS', choices='POINTS LINE', needs='NONLOCAL')
       call add_form(k, 'local', 1, 1, when='-NONLOCAL')
@@ -172,10 +177,13 @@ contains
 
       call define_keyword(k, 'BOUNDARY', LEVEL_BOTH, 'prescribed displacements', &
                           doc='Before *STEP zero values only, which hold in every step. Dof 1 is x and 2 is y; a dof 3 to 6 of '// &
-                          'value 0 is a note. Two different values for one dof in a step are an error. FUNCTION: in the step, '// &
+                          'value 0 is a note. Two different values for one dof in a step are an error. A later step has the '// &
+                          'displacements of the one before, but for the dofs that its lines give anew. FUNCTION: in the step, '// &
                           'evaluated at each node.')
       call add_option(k, 'FUNCTION+', KIND_FLAG, 'the value is an expression in x and y')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_option(k, 'AMPLITUDE', KIND_NAME, 'curve over time that multiplies the values, in a step')
+      call add_option(k, 'OP', KIND_WORD, 'MOD: lines change and add; NEW: what the steps before gave is removed, the same in '// &
+                      'all cards of the keyword in a step', default='MOD', choices='MOD NEW')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='-FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')

@@ -1,29 +1,39 @@
 !> Definitions of the keywords of a step: loads, controls, tables; and of those of other programs that have no effect here.
 module atrito_step_keywords
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
-                             LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, &
+                             LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, &
                              KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
    implicit none (type, external)
    private
    public :: define_step_keywords, define_harmless_keywords
 
    !> Output requests and marks of other programs.
-   character(len=16), parameter :: HARMLESS(11) = [character(len=16) :: 'OUTPUT', 'NODE OUTPUT', 'ELEMENT OUTPUT', &
-                         'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'RESTART', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
+   character(len=16), parameter :: HARMLESS(10) = [character(len=16) :: 'OUTPUT', 'NODE OUTPUT', 'ELEMENT OUTPUT', &
+                         'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
 
    character(len=*), parameter :: FIELD_FILE = '<deck name>.h5, an HDF5 file that ParaView opens by <deck name>.xdmf; there is '// &
                                   'one when a *... FILE asks for it.'
+
+   character(len=*), parameter :: FREQUENCY_DOC = 'every so many increments, >= 1, and at the end of the step; left '// &
+                                  'out: at the end alone'
+   character(len=*), parameter :: OP_DOC = 'MOD: lines change and add; NEW: what the steps before gave is removed, the same in '// &
+                                  'all cards of the keyword in a step'
 
 contains
 
    subroutine define_step_keywords(k)
       type(keyword_list_t), intent(inout) :: k
 
+      call define_amplitude(k)
       call define_step(k)
-      call define_loads(k)
+      call define_static(k)
+      call define_forces(k)
+      call define_element_loads(k)
+      call define_temperature(k)
       call define_controls(k)
       call define_print_keywords(k)
       call define_file_keywords(k)
+      call define_restart(k)
       call define_end_step(k)
    end subroutine define_step_keywords
 
@@ -36,49 +46,98 @@ contains
       end do
    end subroutine define_harmless_keywords
 
+   subroutine define_amplitude(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'AMPLITUDE', LEVEL_MODEL, 'a curve over time that multiplies loads or displacements', &
+                          doc='AMPLITUDE= of *BOUNDARY, *CLOAD, *DLOAD and *DSLOAD names it: each value is multiplied by '// &
+                          'that of the curve. Before the first time and after the last the curve stays what it is there. '// &
+                          'Times ascend.')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the curve')
+      call add_option(k, 'TIME', KIND_WORD, 'times since the beginning of the step, or of the history', default='STEP TIME', &
+                      choices='STEP_TIME TOTAL_TIME')
+      call add_option(k, 'DEFINITION', KIND_WORD, 'straight between two times, or s^3 (10 - 15 s + 6 s^2), which begins and '// &
+                      'ends without a kink', default='TABULAR', choices='TABULAR SMOOTH_STEP')
+      call add_option(k, 'VALUE', KIND_WORD, 'values are parts of what the lines of a load give', default='RELATIVE', &
+                      choices='RELATIVE -ABSOLUTE')
+      call add_option(k, '(SMOOTH)', KIND_REAL, 'for accelerations')
+      call add_form(k, 'up to four pairs of time and value a line', 1, ANY_NUMBER)
+      call add_item(k, 'time', KIND_REAL, 'later than the one before, >= 0', dimension='time')
+      call add_item(k, 'value', KIND_REAL, 'of the curve', dimension='-')
+      call add_item(k, '[further]...', KIND_REAL, 'pairs')
+      call add_example(k, '*AMPLITUDE, NAME=there-and-back|0., 0., 1., 1., 2., -1., 3., 0.')
+   end subroutine define_amplitude
+
+   subroutine define_restart(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'RESTART', LEVEL_BOTH, 'writes a file from which an interrupted history goes on', &
+                          doc='It goes on by atrito --restart FILE, not by the deck.')
+      call add_option(k, 'WRITE', KIND_FLAG, 'must be given')
+      call add_option(k, 'FREQUENCY', KIND_INTEGER, 'increments from one file to the next, >= 1', default='1', needs='WRITE')
+      call add_option(k, 'READ', KIND_FLAG, 'is an error: atrito --restart FILE')
+      call add_option(k, '(OVERLAY)', KIND_FLAG, 'there is one file, always the newest')
+      call add_example(k, '*RESTART, WRITE, FREQUENCY=5')
+   end subroutine define_restart
+
    subroutine define_step(k)
       type(keyword_list_t), intent(inout) :: k
 
-      call define_keyword(k, 'STEP', LEVEL_STEP, 'begins the step', &
-                          doc='A deck has one step; histories of several are not built yet. Displacements are small.')
+      call define_keyword(k, 'STEP', LEVEL_STEP, 'begins a step', &
+                          doc='A step has what the steps before gave, but for what its own lines change. Displacements are small.')
       call add_option(k, 'NLGEOM', KIND_OPTIONAL_WORD, 'large displacements', default='NO', choices='-YES NO')
       call add_option(k, '(NAME)', KIND_NAME, 'the step has no name here')
-      call add_option(k, '(INC)', KIND_INTEGER, 'the load is applied at once')
+      call add_option(k, 'INC', KIND_INTEGER, 'most increments, >= 1; one more ends the run', default='100')
       call add_option(k, '(PERTURBATION)', KIND_FLAG, 'of other programs')
-      call add_option(k, '(AMPLITUDE)', KIND_WORD, 'the load is applied at once')
+      call add_option(k, 'AMPLITUDE', KIND_WORD, 'values without an amplitude of their own go linearly over the step, or are '// &
+                      'there at once', default='RAMP', choices='RAMP STEP')
       call add_option(k, '(UNSYMM)', KIND_WORD, 'of other programs')
       call add_option(k, '(EXTRAPOLATION)', KIND_WORD, 'of other programs')
-      call add_form(k, 'a title of the step', 0, ANY_NUMBER, harmless=.true.)
-      call add_item(k, '[text]', KIND_TEXT, 'has no effect')
-      call add_example(k, '*STEP|*STATIC|*DSLOAD|plate-TOP, P, 10.|*NODE PRINT|U|*END STEP')
-
-      call define_keyword(k, 'STATIC', LEVEL_STEP, 'the step is static')
-      call add_option(k, '(SOLVER)', KIND_WORD, 'atrito takes it from --solver')
-      call add_option(k, '(DIRECT)', KIND_FLAG, 'of other programs')
-      call add_form(k, 'time and increments', 0, 1, harmless=.true.)
-      call add_item(k, '[time]...', KIND_REAL, 'has no effect: the load is applied at once')
-      call add_example(k, '*STATIC')
+      call add_form(k, 'a title of the step', 0, ANY_NUMBER)
+      call add_item(k, '[text]', KIND_TEXT, 'a line of the title')
+      call add_example(k, '*STEP|press, then|*STATIC|*DSLOAD|plate-TOP, P, 10.|*NODE PRINT|U|*END STEP')
    end subroutine define_step
 
-   subroutine define_loads(k)
+   subroutine define_static(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'STATIC', LEVEL_STEP, 'the step is static; its increments', &
+                          doc='Without a data line the step is one increment of time 1. With one, an increment that does not '// &
+                          'converge is halved, down to the least; afterwards increments grow again, up to the greatest.')
+      call add_option(k, '(SOLVER)', KIND_WORD, 'atrito takes it from --solver')
+      call add_option(k, 'DIRECT', KIND_FLAG, 'all increments are like the first; none is cut')
+      call add_form(k, 'increments', 0, 1)
+      call add_item(k, 'first increment', KIND_REAL, '> 0, not longer than the step', dimension='time', default='the step')
+      call add_item(k, 'length of the step', KIND_REAL, '> 0', dimension='time', default='1')
+      call add_item(k, 'least increment', KIND_REAL, '> 0, not longer than the first', dimension='time', &
+                    default='1e-5 of the step')
+      call add_item(k, 'greatest increment', KIND_REAL, 'not less than the first', dimension='time', default='the first')
+      call add_example(k, '*STATIC|0.1, 1., 1e-4, 0.2')
+   end subroutine define_static
+
+   subroutine define_forces(k)
       type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'CLOAD', LEVEL_STEP, 'forces at nodes', &
-                          doc='For the whole thickness, or the full circle of CAX elements. Lines on one dof add up; at a set '// &
-                          'every node takes the force.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+                          doc='For the whole thickness, or the full circle of CAX elements. Lines on one dof in a step add up; '// &
+                          'they take the place of what earlier steps gave there. At a set every node takes the force.')
+      call add_changes(k)
       call add_form(k, 'one force a line', 1, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'dof', KIND_INTEGER, '1 (x) or 2 (y)')
       call add_item(k, 'force', KIND_REAL, 'along the axis', dimension='F')
       call add_example(k, '*CLOAD|7, 2, -10.')
+   end subroutine define_forces
+
+   subroutine define_element_loads(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'DLOAD', LEVEL_STEP, 'pressure on faces, force per volume, weight', &
                           doc='P1 to P4: pressure on that face, positive pushes on the element. BX, BY: force per volume. '// &
                           'GRAV: acceleration times *DENSITY along a direction. HP1 to HP4 and TRVEC1 to TRVEC4: hydrostatic '// &
                           'pressure and traction on that face, as HP and TRVEC of *DSLOAD. All are multiplied by the '// &
                           'thickness, or go round the full circle.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_changes(k)
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
       call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
       call add_word_item(k, 'label', 'P1 P2 P3 P4 BX BY GRAV HP1 HP2 HP3 HP4 TRVEC1 TRVEC2 TRVEC3 TRVEC4', 'kind of load')
@@ -92,7 +151,7 @@ contains
                           doc='P: pressure, positive pushes on the body. TRVEC: traction of this size along a direction of '// &
                           'any length. HP: hydrostatic pressure, 0 at one level x2, the magnitude at another, linear between '// &
                           'and beyond; on the other side of the first level it is 0. All are multiplied by the thickness.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_changes(k)
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
       call add_item(k, 'surface', KIND_NAME, 'a surface of elements')
       call add_word_item(k, 'label', 'P TRVEC HP', 'kind of load')
@@ -101,17 +160,21 @@ contains
       call add_item(k, '[t2]', KIND_REAL, 'direction of TRVEC; of HP the level of the magnitude [L]', dimension='-')
       call add_item(k, '[t3]', KIND_REAL, 'direction of TRVEC, must be 0', dimension='-')
       call add_example(k, '*DSLOAD|plate-TOP, P, 10.|plate-TOP, TRVEC, 2., 1., 0.|plate-LEFT, HP, 9.81, 1., 0.')
+   end subroutine define_element_loads
+
+   subroutine define_temperature(k)
+      type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'TEMPERATURE', LEVEL_STEP, 'temperatures of nodes, which expand materials with *EXPANSION', &
                           doc='Nodes that no line names keep the temperature of *INITIAL CONDITIONS, or 0. The shape functions '// &
                           'of each element interpolate the temperatures of its nodes, those in the middle of its sides '// &
                           'included; --refine does not change that field.')
-      call add_option(k, 'OP', KIND_WORD, 'MOD is what happens', choices='MOD -NEW')
+      call add_option(k, 'OP', KIND_WORD, OP_DOC, default='MOD', choices='MOD NEW')
       call add_form(k, 'one temperature a line', 1, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'value', KIND_REAL, 'temperature', dimension='temperature')
       call add_example(k, '*TEMPERATURE|all, 120.')
-   end subroutine define_loads
+   end subroutine define_temperature
 
    subroutine define_controls(k)
       type(keyword_list_t), intent(inout) :: k
@@ -157,13 +220,15 @@ contains
 
       call define_keyword(k, 'BODY PRINT+', LEVEL_STEP, 'writes bodies.tab', &
                           doc='A row a body: its best rigid motion, and the resultants of loads, supports and contact. '// &
-                          'There are no options and no data lines.')
+                          'There are no data lines.')
+      call add_option(k, 'FREQUENCY', KIND_INTEGER, FREQUENCY_DOC)
       call add_example(k, '*BODY PRINT')
 
       call define_keyword(k, 'JOINT PRINT+', LEVEL_STEP, 'writes joints.tab', &
                           doc='A row for each two bodies that a contact pair brings together: the resultant, its moment '// &
                           'and its place, opening and sliding. With --plot also a picture of the joints and the line of '// &
-                          'thrust. There are no options and no data lines.')
+                          'thrust. There are no data lines.')
+      call add_option(k, 'FREQUENCY', KIND_INTEGER, FREQUENCY_DOC)
       call add_example(k, '*JOINT PRINT')
    end subroutine define_print_keywords
 
@@ -202,21 +267,29 @@ contains
       call add_example(k, '*END STEP')
    end subroutine define_end_step
 
+   !> How loads change from step to step.
+   subroutine add_changes(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call add_option(k, 'AMPLITUDE', KIND_NAME, 'curve over time that multiplies the values')
+      call add_option(k, 'OP', KIND_WORD, OP_DOC, default='MOD', choices='MOD NEW')
+   end subroutine add_changes
+
    subroutine add_print_options(k)
       type(keyword_list_t), intent(inout) :: k
 
-      call add_option(k, '(FREQUENCY)', KIND_INTEGER, 'there is one step')
+      call add_option(k, 'FREQUENCY', KIND_INTEGER, FREQUENCY_DOC)
       call add_option(k, '(TOTALS)', KIND_WORD, 'the listing has the resultants')
       call add_option(k, '(GLOBAL)', KIND_WORD, 'axes are global')
-      call add_option(k, '(TIME POINTS)', KIND_NAME, 'there is one step')
+      call add_option(k, '(TIME POINTS)', KIND_NAME, 'FREQUENCY= says when')
    end subroutine add_print_options
 
    subroutine add_file_options(k)
       type(keyword_list_t), intent(inout) :: k
 
-      call add_option(k, '(FREQUENCY)', KIND_INTEGER, 'there is one step')
+      call add_option(k, 'FREQUENCY', KIND_INTEGER, FREQUENCY_DOC)
       call add_option(k, '(GLOBAL)', KIND_WORD, 'axes are global')
-      call add_option(k, '(TIME POINTS)', KIND_NAME, 'there is one step')
+      call add_option(k, '(TIME POINTS)', KIND_NAME, 'FREQUENCY= says when')
       call add_option(k, '(OUTPUT)', KIND_WORD, 'the file is of the plane')
    end subroutine add_file_options
 

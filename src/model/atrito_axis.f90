@@ -28,17 +28,19 @@ contains
       call find_axis(context, nodes, element)
       if (element == 0) return
       do i = 1, size(nodes, kind=ip)
-         associate (entry => context%dof_entry(1, nodes(i)), id => context%model%mesh%node_id(nodes(i)))
+         associate (entry => context%dof_entry(1, nodes(i)), id => context%model%mesh%node_id(nodes(i)), &
+                    supports => context%open%supports)
             if (entry == 0) then
                call add_number(held, id)
-               call add_nodal_value(context%model%steps(1)%prescribed, nodes(i), 1_ip, 0.0_wp)
-               entry = context%model%steps(1)%prescribed%n
-            else if (abs(context%model%steps(1)%prescribed%value(entry)) > 0.0_wp) then
-               call add_number(moved, id)
+               call add_nodal_value(supports, nodes(i), 1_ip, 0.0_wp)
+               entry = supports%n
+            else if (abs(supports%value(entry)) > 0.0_wp) then
+               ! what is carried on has been told
+               if (context%dof_token(1, nodes(i)) >= context%open%first_token) call add_number(moved, id)
             end if
          end associate
       end do
-      call trim_nodal_values(context%model%steps(1)%prescribed)
+      call trim_nodal_values(context%open%supports)
       if (moved%n > 0) call report_error(context%deck, place_token(context%deck, context%elements%place(element)), 'E-AXIS', &
                                          'u1 of node '//ids_text(numbers_of(moved))// &
                                          ' on the axis x1 = 0 is prescribed, not as 0', &

@@ -146,7 +146,9 @@ contains
             call get_value(deck, card, line_item(deck, line, 2_ip), 'slip eps, a real >= 0 [L]', interaction%eps, ok)
             call get_value(deck, card, line_item(deck, line, 3_ip), 'radius rho, a real >= 0 [L]', interaction%rho, ok)
             if (option_word(deck, card, 'KERNEL') == 'LINE') interaction%kernel = KERNEL_LINE
+            interaction%is_incremental = option_word(deck, card, 'SLIP') == 'INCREMENTAL'
          else
+            interaction%is_incremental = option_word(deck, card, 'SLIP') /= 'TOTAL'
             interaction%friction = FRICTION_LOCAL
             if (.not. is_empty_token(line_item(deck, line, 2_ip))) then
                call get_value(deck, card, line_item(deck, line, 2_ip), 'stick slope, a real > 0 [F/L^3]', &

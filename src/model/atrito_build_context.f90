@@ -13,14 +13,14 @@ module atrito_build_context
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, nodal_values_t
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: build_context_t, numbered_t, block_t, BLOCK_SIDES
+   public :: build_context_t, open_step_t, carried_t, numbered_t, block_t, BLOCK_SIDES
    public :: prepare_context, add_context_block, invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, &
              has_errors
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text
@@ -52,12 +52,34 @@ module atrito_build_context
       integer(ip), allocatable :: place(:)             !< of each, by its place in the mesh; > 0: token; < 0: card
    end type numbered_t
 
+   !> Loads that a step has from the one before, in lists by the dof or the element on which they act.
+   type :: carried_t
+      integer(ip) :: n = 0                             !< the first of the step's loads
+      integer(ip), allocatable :: head(:)              !< of each dof or element the last of these; 0: none
+      integer(ip), allocatable :: next(:)              !< (n)
+      integer(ip), allocatable :: label(:)             !< (n) of loads on elements: place in the labels of the deck
+      logical, allocatable :: is_given(:)              !< (n) a line of the step has taken its place
+   end type carried_t
+
+   !> The step that is being built.
+   type :: open_step_t
+      integer(ip) :: number = 1
+      integer(ip) :: first_token = 0                   !< of its lines: what stands before it has been carried on
+      integer(ip) :: line = 0                          !< of the deck, that is being read
+      integer(ip) :: label = 0                         !< of its load, place in the labels of the deck
+      integer(ip) :: amplitude = 0                     !< that the card being read names
+      integer(ip) :: n_fixed = 0                       !< of the supports those that hold in every step
+      type(nodal_values_t) :: supports, forces         !< along the dofs of the deck, which may be local axes
+      type(nodal_values_t) :: inclined                 !< supports of the first step along directions that are no axis
+      type(carried_t) :: old_forces, old_loads
+   end type open_step_t
+
    type :: build_context_t
       type(deck_t), pointer :: deck => null()
       type(model_t), pointer :: model => null()        !< so far
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(name_list_t) :: invalid                     !< names whose definition is faulty
-      type(name_list_t) :: surface_names, material_names, interaction_names      !< in the order of the model's lists
+      type(name_list_t) :: surface_names, material_names, interaction_names, amplitude_names !< in the order of the model's lists
       type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
       type(numbered_t) :: nodes, elements
       integer(ip) :: n_blocks = 0
@@ -65,17 +87,19 @@ module atrito_build_context
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
       integer(ip) :: elements_to_come = 0              !< of blocks whose elements are not made yet
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
+      type(open_step_t) :: open
       logical, allocatable :: card_done(:)             !< *NSET and *ELSET cards that are read already
       type(node_elements_t) :: around                  !< elements round each node
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: ties(:)            !< of each the slave
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
+      type(token_t), allocatable :: amplitudes(:)
       logical, allocatable :: elastic_given(:), elastic_invalid(:)  !< for each material
       logical :: sections_undetermined = .false.             !< a *SOLID SECTION could not be understood
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
-      integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in the prescribed of its step; 0: free
+      integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in open%supports; 0: free
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
       integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
    end type build_context_t
@@ -94,7 +118,7 @@ contains
       allocate (context%blocks(64), context%set_card(0))
       allocate (context%nodes%place(64), context%elements%place(64))
       allocate (context%surfaces(0), context%materials(0), context%poisson(0), context%sections(0), context%interactions(0))
-      allocate (context%slaves(0), context%masters(0))
+      allocate (context%slaves(0), context%masters(0), context%amplitudes(0))
       allocate (context%card_done(deck%n_cards), source=.false.)
       allocate (context%block_of_card(deck%n_cards), source=0_ip)
       if (.not. has_errors()) return
@@ -130,6 +154,8 @@ contains
       select case (keyword_name(card))
       case ('MATERIAL')
          if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'material')
+      case ('AMPLITUDE')
+         if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'amplitude')
       case ('SURFACE INTERACTION')
          if (is_nameless(context%deck, card, 'NAME')) call note_undetermined(context, 'surface interaction')
       case ('SURFACE')

@@ -1,6 +1,6 @@
-!> Bilateral rows of single nodes: supports along local axes, and *EQUATION.
+!> Bilateral rows of *EQUATION.
 module atrito_build_equations
-   use atrito_bilateral_rows, only: bilateral_rows_t, begin_rows, add_row, ROW_SUPPORT, ROW_EQUATION
+   use atrito_bilateral_rows, only: add_row, ROW_EQUATION
    use atrito_build_context, only: build_context_t, ids_text
    use atrito_build_loads, only: in_no_element
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, is_empty_token, keyword_name
@@ -8,15 +8,16 @@ module atrito_build_equations
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, trim_nodal_values
-   use atrito_local_axes, only: dof_direction, has_local_axes
-   use atrito_model, only: model_t, nodal_values_t
+   use atrito_local_axes, only: dof_direction
+   use atrito_model, only: model_t
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
    use atrito_set_partners, only: order_like
    use atrito_strings, only: to_text
+   use atrito_turn_supports, only: row_weight
    implicit none (type, external)
    private
-   public :: turn_supports, build_equations, row_weight
+   public :: build_equations
 
    integer(ip), parameter :: ITEMS_A_TERM = 3
    character(len=*), parameter :: KEYWORD = 'EQUATION'
@@ -30,50 +31,6 @@ module atrito_build_equations
    end type term_t
 
 contains
-
-   !> What forces of rows are divided by where several may share a load [L^2].
-   pure real(wp) function row_weight(model) result(weight)
-      type(model_t), intent(in) :: model
-
-      weight = norm2(maxval(model%mesh%x(:, :model%mesh%n_nodes), dim=2) - minval(model%mesh%x(:, :model%mesh%n_nodes), dim=2))
-      if (.not. weight > 0.0_wp) weight = 1.0_wp
-      if (size(model%sections) > 0) weight = weight*model%sections(1)%thickness
-   end function row_weight
-
-   !> Prescribed displacements along local axes: both of a node become prescribed ones along x and y, a single one a row.
-   subroutine turn_supports(context)
-      type(build_context_t), intent(inout) :: context
-      type(nodal_values_t) :: local
-      integer(ip) :: i, other, axis
-      real(wp) :: direction(2), value(2)
-
-      call begin_rows(context%model%bilateral)
-      if (.not. allocated(context%axes)) return
-      local = context%model%steps(1)%prescribed
-      context%model%steps(1)%prescribed = nodal_values_t()
-      do i = 1, local%n
-         direction = dof_direction(context, local%node(i), local%dof(i))
-         other = context%dof_entry(3 - local%dof(i), local%node(i))
-         if (.not. has_local_axes(context, local%node(i))) then
-            call add_nodal_value(context%model%steps(1)%prescribed, local%node(i), local%dof(i), local%value(i))
-         else if (other > 0) then
-            value = local%value(i)*direction + local%value(other)*dof_direction(context, local%node(i), 3 - local%dof(i))
-            ! once, by the first of the two
-            if (i < other) then
-               do axis = 1, 2
-                  call add_nodal_value(context%model%steps(1)%prescribed, local%node(i), axis, value(axis))
-               end do
-            end if
-         else if (any(direction == 0.0_wp)) then
-            axis = merge(2_ip, 1_ip, direction(1) == 0.0_wp)
-            call add_nodal_value(context%model%steps(1)%prescribed, local%node(i), axis, local%value(i)*direction(axis))
-         else
-            call add_row(local%node(i:i), reshape(direction, [2, 1]), local%value(i), 0.0_wp, row_weight(context%model), &
-                         [ROW_SUPPORT, 1_ip, local%dof(i)], context%model%bilateral)
-         end if
-      end do
-      call trim_nodal_values(context%model%steps(1)%prescribed)
-   end subroutine turn_supports
 
    !> All *EQUATION cards.
    subroutine build_equations(context)

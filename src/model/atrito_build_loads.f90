@@ -2,13 +2,17 @@
 module atrito_build_loads
    use atrito_deck, only: data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
-   use atrito_build_context, only: build_context_t, ids_text, is_invalid
+   use atrito_build_amplitudes, only: take_amplitude
+   use atrito_build_context, only: build_context_t, carried_t, ids_text, is_invalid
+   use atrito_carry_on, only: is_of_step, removes_all, carry_values, carry_loads, list_carried, take_force_place, &
+                              take_load_place, remove_load
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
-   use atrito_load_lists, only: add_nodal_value, add_element_load, trim_nodal_values, trim_element_loads
-   use atrito_model, only: model_t, LOAD_BODY, LOAD_TRACTION, SURFACE_ELEMENTS
+   use atrito_load_lists, only: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, trim_nodal_values, &
+                               trim_element_loads, amplitude_of, from_of
+   use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_BODY, LOAD_TRACTION, SURFACE_ELEMENTS
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
@@ -23,18 +27,29 @@ module atrito_build_loads
 
    integer(ip), parameter :: LAST_DOF = 6              !< of a node in three dimensions: 3..6 do not exist here
 
+   character(len=6), parameter :: LOAD_KEYWORDS(3) = [character(len=6) :: 'CLOAD', 'DLOAD', 'DSLOAD']
+
+   !> Of *DSLOAD, and then of *DLOAD: a line of a later step takes the place of a load of the same label.
+   integer(ip), parameter :: N_SURFACE_LABELS = 3
+   character(len=6), parameter :: LABELS(18) = [character(len=6) :: 'P', 'TRVEC', 'HP', 'BX', 'BY', 'GRAV', 'P1', 'P2', 'P3', &
+                                                'P4', 'HP1', 'HP2', 'HP3', 'HP4', 'TRVEC1', 'TRVEC2', 'TRVEC3', 'TRVEC4']
+
 contains
 
-   !> All loads of the step.
+   !> All loads of a step: those that are carried on, and its own.
    subroutine build_loads(context)
-      type(build_context_t), intent(in) :: context
-      integer(ip) :: i, k, n
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i, k
 
+      if (context%open%number > 1) call carry_on(context)
       do i = 1, context%deck%n_cards
+         if (.not. is_of_step(context, i)) cycle
          associate (card => context%deck%cards(i))
+            if (any(keyword_name(card) == LOAD_KEYWORDS)) call take_amplitude(context, card)
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
-               n = context%model%steps(1)%element_loads%n
+               context%open%line = k
+               if (context%open%old_loads%n > 0) context%open%label = label_place(context, k)
                select case (keyword_name(card))
                case ('CLOAD')
                   call read_cload_line(context%deck%lines(k), context)
@@ -45,15 +60,105 @@ contains
                case default
                   exit
                end select
-               associate (loads => context%model%steps(1)%element_loads)
-                  if (loads%n > n) loads%line(n + 1:loads%n) = k
-               end associate
             end do
          end associate
       end do
-      call trim_nodal_values(context%model%steps(1)%node_loads)
-      call trim_element_loads(context%model%steps(1)%element_loads)
+      call trim_nodal_values(context%open%forces)
+      call turn_forces(context, context%model%steps(context%open%number)%node_loads)
+      call trim_element_loads(context%model%steps(context%open%number)%element_loads)
    end subroutine build_loads
+
+   !> The loads of the step before; OP=NEW lets them go to 0.
+   subroutine carry_on(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      associate (open => context%open, loads => context%model%steps(context%open%number)%element_loads)
+         call carry_values(context, open%forces, keeps_zeros=.false.)
+         call list_carried(2*context%model%mesh%n_nodes, dof_places(open%forces), open%old_forces)
+         if (removes_all(context, 'CLOAD')) then
+            do i = 1, open%forces%n
+               call replace_nodal_value(open%forces, i, 0.0_wp, 0_ip)
+            end do
+         end if
+         loads = context%model%steps(open%number - 1)%element_loads
+         call carry_loads(context, loads)
+         call list_carried(context%model%mesh%n_elements, loads%element(:loads%n), open%old_loads)
+         open%old_loads%label = labels_of(context, loads)
+         call remove_loads(removes_all(context, 'DLOAD'), removes_all(context, 'DSLOAD'), open%old_loads, loads)
+      end associate
+   end subroutine carry_on
+
+   pure function dof_places(forces) result(places)
+      type(nodal_values_t), intent(in) :: forces
+      integer(ip) :: places(forces%n)
+      integer(ip) :: i
+
+      places = [(2*forces%node(i) + forces%dof(i) - 2, i=1, forces%n)]
+   end function dof_places
+
+   !> Which label of the deck each load has.
+   pure function labels_of(context, loads) result(labels)
+      type(build_context_t), intent(in) :: context
+      type(element_load_t), intent(in) :: loads
+      integer(ip) :: labels(loads%n)
+      integer(ip) :: i, label, line
+
+      label = 0
+      line = 0
+      do i = 1, loads%n
+         if (loads%line(i) /= line) label = label_place(context, loads%line(i))
+         line = loads%line(i)
+         labels(i) = label
+      end do
+   end function labels_of
+
+   !> Place in LABELS of the label on a line.
+   pure integer(ip) function label_place(context, line) result(place)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: line
+      character(len=:), allocatable :: label
+
+      label = upper_case(token_text(context%deck, line_item(context%deck, context%deck%lines(line), 2_ip)))
+      do place = 1, size(LABELS, kind=ip)
+         if (LABELS(place) == label) return
+      end do
+      place = 0
+   end function label_place
+
+   !> Loads of *DLOAD, and of *DSLOAD, go to 0.
+   pure subroutine remove_loads(of_elements, of_surfaces, carried, loads)
+      logical, intent(in) :: of_elements, of_surfaces
+      type(carried_t), intent(in) :: carried
+      type(element_load_t), intent(inout) :: loads
+      integer(ip) :: i
+
+      if (.not. (of_elements .or. of_surfaces)) return
+      do i = 1, carried%n
+         if (merge(of_surfaces, of_elements, carried%label(i) <= N_SURFACE_LABELS)) call remove_load(loads, i)
+      end do
+   end subroutine remove_loads
+
+   !> A load in the place of one that is carried on, or a new one.
+   pure subroutine add_load(context, element, kind, face, value)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: element, kind, face
+      real(wp), intent(in) :: value(:)
+      integer(ip) :: place
+
+      associate (open => context%open, loads => context%model%steps(context%open%number)%element_loads)
+         place = 0
+         if (open%old_loads%n > 0) call take_load_place(element, face, open%label, open%amplitude, open%old_loads, &
+                                                        loads, place)
+         if (place > 0) then
+            call replace_element_load(loads, place, value, open%amplitude)
+         else
+            call add_element_load(loads, element, kind, face, value, open%amplitude)
+            place = loads%n
+         end if
+         loads%line(place) = open%line
+      end associate
+   end subroutine add_load
 
    !> The nodes of a list that belong to no element.
    pure function in_no_element(context, nodes) result(loose)
@@ -67,7 +172,7 @@ contains
    !> Node or set, dof, force.
    subroutine read_cload_line(line, context)
       type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       character(len=*), parameter :: WHAT = 'degree of freedom: 1 (x) or 2 (y)'
       integer(ip), allocatable :: nodes(:)
       real(wp) :: force
@@ -103,23 +208,48 @@ contains
       call note_supported(line, context, nodes, dof)
    end subroutine read_cload_line
 
-   !> A force along a dof, which may be a local axis.
-   subroutine add_force(context, node, dof, force)
-      type(build_context_t), intent(in) :: context
+   !> A force along a dof of the deck, in the place of what is carried on there or besides what the step has.
+   pure subroutine add_force(context, node, dof, force)
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: node, dof
       real(wp), intent(in) :: force                    !< [F]
-      real(wp) :: along(2)
-      integer(ip) :: axis
+      integer(ip) :: place
 
-      if (.not. has_local_axes(context, node)) then
-         call add_nodal_value(context%model%steps(1)%node_loads, node, dof, force)
+      associate (open => context%open)
+         place = 0
+         if (open%old_forces%n > 0) call take_force_place(2*node + dof - 2, open%amplitude, open%old_forces, open%forces, place)
+         if (place > 0) then
+            call replace_nodal_value(open%forces, place, force, open%amplitude)
+         else
+            call add_nodal_value(open%forces, node, dof, force, amplitude=open%amplitude)
+         end if
+      end associate
+   end subroutine add_force
+
+   !> The forces of a step along x and y.
+   subroutine turn_forces(context, loads)
+      type(build_context_t), intent(in) :: context
+      type(nodal_values_t), intent(inout) :: loads
+      real(wp) :: along(2), from
+      integer(ip) :: axis, i
+
+      if (.not. allocated(context%axes)) then
+         loads = context%open%forces
          return
       end if
-      along = force*dof_direction(context, node, dof)
-      do axis = 1, 2
-         if (along(axis) /= 0.0_wp) call add_nodal_value(context%model%steps(1)%node_loads, node, axis, along(axis))
-      end do
-   end subroutine add_force
+      associate (forces => context%open%forces)
+         do i = 1, forces%n
+            from = from_of(forces, i)
+            along = dof_direction(context, forces%node(i), forces%dof(i))
+            do axis = 1, 2
+               if (along(axis) == 0.0_wp .or. (forces%value(i) == 0.0_wp .and. from == 0.0_wp)) cycle
+               call add_nodal_value(loads, forces%node(i), axis, forces%value(i)*along(axis), from*along(axis), &
+                                    amplitude_of(forces, i))
+            end do
+         end do
+      end associate
+      call trim_nodal_values(loads)
+   end subroutine turn_forces
 
    !> A force on a prescribed dof moves nothing.
    subroutine note_supported(line, context, nodes, dof)
@@ -138,7 +268,7 @@ contains
    !> Element or set, label, magnitude[, direction or levels].
    subroutine read_dload_line(line, context)
       type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       character(len=:), allocatable :: label
       integer(ip), allocatable :: elements(:)
       integer(ip) :: kind
@@ -156,9 +286,9 @@ contains
       ok = ok .and. good .and. has_no_rest(line, context, label, 'DLOAD')
       select case (label)
       case ('BX')
-         if (ok) call pull_elements(context%model, elements, [magnitude, 0.0_wp])
+         if (ok) call pull_elements(context, elements, [magnitude, 0.0_wp])
       case ('BY')
-         if (ok) call pull_elements(context%model, elements, [0.0_wp, magnitude])
+         if (ok) call pull_elements(context, elements, [0.0_wp, magnitude])
       case ('GRAV')
          call weigh_elements(line, context, elements, magnitude, ok)
       end select
@@ -167,7 +297,7 @@ contains
    !> A load on the face of each element that the label ends with.
    subroutine load_faces(line, context, elements, label, kind, value)
       type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: elements(:)
       character(len=*), intent(in) :: label
       integer(ip), intent(in) :: kind
@@ -182,7 +312,7 @@ contains
       if (.not. ok) return
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(context%refinement, elements(i), face)) cycle
-         call add_element_load(context%model%steps(1)%element_loads, elements(i), kind, face, value)
+         call add_load(context, elements(i), kind, face, value)
          if (.not. is_outer_face(context%model%mesh, context%around, elements(i), face)) then
             call add_number(inside, context%model%mesh%element_id(elements(i)))
          end if
@@ -193,21 +323,21 @@ contains
                                             expected='elements on the outline of the body', keyword='DLOAD')
    end subroutine load_faces
 
-   pure subroutine pull_elements(model, elements, force)
-      type(model_t), intent(inout) :: model
+   pure subroutine pull_elements(context, elements, force)
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: elements(:)
       real(wp), intent(in) :: force(2)                 !< per volume [F/L^3]
       integer(ip) :: i
 
       do i = 1, size(elements, kind=ip)
-         call add_element_load(model%steps(1)%element_loads, elements(i), LOAD_BODY, 0_ip, force)
+         call add_load(context, elements(i), LOAD_BODY, 0_ip, force)
       end do
    end subroutine pull_elements
 
    !> GRAV: density times acceleration, along a direction of any length.
    subroutine weigh_elements(line, context, elements, acceleration, good)
       type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: elements(:)
       real(wp), intent(in) :: acceleration             !< [L/T^2]
       logical, intent(in) :: good                      !< elements and acceleration are known
@@ -220,7 +350,7 @@ contains
       call need_density(line, context, elements)
       do i = 1, size(elements, kind=ip)
          density = density_of(context%model, elements(i))
-         call add_element_load(context%model%steps(1)%element_loads, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction)
+         call add_load(context, elements(i), LOAD_BODY, 0_ip, density*acceleration*direction)
       end do
    end subroutine weigh_elements
 
@@ -253,7 +383,7 @@ contains
    !> Surface, label, magnitude[, direction or levels].
    subroutine read_dsload_line(line, context)
       type(data_line_t), intent(in) :: line
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       type(token_t) :: token
       character(len=:), allocatable :: label
       real(wp) :: value(3)
@@ -280,8 +410,7 @@ contains
          end if
          if (.not. ok) return
          do i = 1, surface%faces%n
-            call add_element_load(context%model%steps(1)%element_loads, surface%faces%element(i), kind, surface%faces%face(i), &
-                                  value)
+            call add_load(context, surface%faces%element(i), kind, surface%faces%face(i), value)
          end do
       end associate
    end subroutine read_dsload_line

@@ -3,16 +3,18 @@ module atrito_build_model
    use atrito_adjustment, only: adjusted_t, adjust_pairs, close_adjusted
    use atrito_axis, only: hold_axis, check_axis
    use atrito_bilateral_rows, only: trim_rows
+   use atrito_build_amplitudes, only: build_amplitudes
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
    use atrito_build_elements, only: read_element_card, read_elgen_card
-   use atrito_build_equations, only: turn_supports, build_equations
+   use atrito_build_equations, only: build_equations
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
+   use atrito_build_steps, only: build_steps, open_step
    use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
    use atrito_build_temperatures, only: read_temperatures, check_temperatures
@@ -38,6 +40,7 @@ module atrito_build_model
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_strings, only: deck_name
+   use atrito_turn_supports, only: turn_supports
    implicit none (type, external)
    private
    public :: build_model
@@ -102,9 +105,10 @@ contains
       call prepare_context(deck, context)
       context%model => model
       context%memory = memory
-      allocate (model%steps(1))
       call take_titles(deck, model)
       call take_parameters(deck, model)
+      call build_steps(context)
+      call build_amplitudes(context)
       call build_nodes(context)
       call build_elements(context)
       call trim_mesh(model%mesh)
@@ -120,13 +124,9 @@ contains
       call read_contact_rules(context, rules)
       call read_ties(context)
       call read_local_axes(context)
-      call build_supports(context)
-      call hold_axis(context)
-      call turn_supports(context)
+      call fill_steps(context)
       call build_equations(context)
       call build_springs(context)
-      call build_loads(context)
-      call build_requests(context)
       call check_mesh(model, context)
       call check_axis(model, context)
       call order_slaves(model, chains)
@@ -149,6 +149,21 @@ contains
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
    end subroutine build_once
+
+   !> What acts in each step and what it asks for.
+   subroutine fill_steps(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      do i = 1, size(context%model%steps, kind=ip)
+         call open_step(context, i)
+         call build_supports(context)
+         call hold_axis(context)
+         call turn_supports(context)
+         call build_loads(context)
+         call build_requests(context)
+      end do
+   end subroutine fill_steps
 
    subroutine take_titles(deck, model)
       type(deck_t), intent(in) :: deck

@@ -3,12 +3,13 @@ module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
+   use atrito_carry_on, only: is_of_step
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: controls_t, requested_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
+   use atrito_model, only: controls_t, requested_t, requests_t, step_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set
-   use atrito_strings, only: same_name
+   use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
    public :: build_requests, refuse_field_files
@@ -20,33 +21,136 @@ module atrito_build_requests
 
 contains
 
-   !> Controls and requests of the step.
+   !> Controls and requests of a step: those of the step before, and what its own cards change. Cards of a keyword take the place
+   !> of what the same keyword asked for in the steps before.
    subroutine build_requests(context)
       type(build_context_t), intent(in) :: context
       integer(ip) :: i
 
-      do i = 1, context%deck%n_cards
-         associate (card => context%deck%cards(i), requests => context%model%steps(1)%requests)
-            select case (keyword_name(card))
-            case ('CONTROLS')
-               call read_controls_card(context%deck, card, context%model%steps(1)%controls)
-            case ('NODE PRINT', 'EL PRINT')
-               call read_request_card(card, context, requests%requested_t)
-            case ('CONTACT PRINT')
-               requests%contact = .true.
-            case ('BODY PRINT')
-               requests%bodies = .true.
-            case ('JOINT PRINT')
-               requests%joints = .true.
-            case ('NODE FILE', 'EL FILE')
-               call read_request_card(card, context, requests%fields)
-            case ('CONTACT FILE')
-               requests%fields%contact = .true.
-            end select
-         end associate
-      end do
-      call check_relaxation(context%deck, context%model%steps(1)%controls)
+      associate (steps => context%model%steps, k => context%open%number)
+         if (k > 1) then
+            steps(k)%controls = steps(k - 1)%controls
+            steps(k)%requests = steps(k - 1)%requests
+            call forget_replaced(context, steps(k)%requests)
+         end if
+         do i = 1, context%deck%n_cards
+            if (is_of_step(context, i)) call read_card(context, context%deck%cards(i), steps(k))
+         end do
+         call check_relaxation(context, steps(k)%controls)
+      end associate
    end subroutine build_requests
+
+   subroutine read_card(context, card, step)
+      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card
+      type(step_t), intent(inout) :: step
+
+      associate (requests => step%requests, every => step%requests%every)
+         select case (keyword_name(card))
+         case ('CONTROLS')
+            call read_controls_card(context%deck, card, step%controls)
+         case ('NODE PRINT')
+            call read_request_card(card, context, requests%requested_t)
+            if (asks_for(context%deck, card, 'U')) call read_frequency(context%deck, card, every%nodes)
+            if (asks_for(context%deck, card, 'RF')) call read_frequency(context%deck, card, every%reactions)
+         case ('EL PRINT')
+            call read_request_card(card, context, requests%requested_t)
+            call read_frequency(context%deck, card, every%stress)
+         case ('CONTACT PRINT')
+            requests%contact = .true.
+            call read_frequency(context%deck, card, every%contact)
+         case ('BODY PRINT')
+            requests%bodies = .true.
+            call read_frequency(context%deck, card, every%bodies)
+         case ('JOINT PRINT')
+            requests%joints = .true.
+            call read_frequency(context%deck, card, every%joints)
+         case ('NODE FILE', 'EL FILE')
+            call read_request_card(card, context, requests%fields)
+            call read_frequency(context%deck, card, every%fields)
+         case ('CONTACT FILE')
+            requests%fields%contact = .true.
+            call read_frequency(context%deck, card, every%fields)
+         end select
+      end associate
+   end subroutine read_card
+
+   !> FREQUENCY= of a table or of the field file, one in a step.
+   subroutine read_frequency(deck, card, every)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(inout) :: every              !< 0: no card of the step has given it
+      character(len=*), parameter :: WHAT = 'increments from one print to the next, an integer >= 1; the end of the step is '// &
+                                     'printed always'
+      type(option_t) :: option
+      integer(ip) :: n
+      logical :: found
+
+      n = 0
+      call option_integer(deck, card, 'FREQUENCY', WHAT, n, found)
+      if (.not. found) return
+      call find_option(deck, card, 'FREQUENCY', option, found)
+      if (n < 1) then
+         call report_error(deck, option%value, 'E-VALUE', 'FREQUENCY = '//to_text(n)//' is out of range', expected=WHAT, &
+                           keyword=keyword_name(card))
+      else if (every > 0 .and. every /= n) then
+         call report_error(deck, option%value, 'E-CONFLICT', 'FREQUENCY = '//to_text(n)//' here, but '//to_text(every)// &
+                           ' before in this step', expected='one FREQUENCY= for a table, and for the field file, in a step', &
+                           keyword=keyword_name(card))
+      else
+         every = n
+      end if
+   end subroutine read_frequency
+
+   !> What the cards of this step give anew.
+   subroutine forget_replaced(context, requests)
+      type(build_context_t), intent(in) :: context
+      type(requests_t), intent(inout) :: requests
+      integer(ip) :: i
+
+      do i = 1, context%deck%n_cards
+         if (.not. is_of_step(context, i)) cycle
+         select case (keyword_name(context%deck%cards(i)))
+         case ('NODE PRINT')
+            call forget_nodes(requests%requested_t)
+            requests%every%nodes = 0
+            requests%every%reactions = 0
+         case ('NODE FILE')
+            call forget_nodes(requests%fields)
+            requests%every%fields = 0
+         case ('EL PRINT')
+            call forget_stress(requests%requested_t)
+            requests%every%stress = 0
+         case ('EL FILE')
+            call forget_stress(requests%fields)
+            requests%every%fields = 0
+         case ('CONTACT FILE')
+            requests%every%fields = 0
+         case ('CONTACT PRINT')
+            requests%every%contact = 0
+         case ('BODY PRINT')
+            requests%every%bodies = 0
+         case ('JOINT PRINT')
+            requests%every%joints = 0
+         end select
+      end do
+   end subroutine forget_replaced
+
+   pure subroutine forget_nodes(requested)
+      type(requested_t), intent(inout) :: requested
+
+      requested%nodes = .false.
+      requested%reactions = .false.
+      if (allocated(requested%node_u)) deallocate (requested%node_u)
+      if (allocated(requested%node_rf)) deallocate (requested%node_rf)
+   end subroutine forget_nodes
+
+   pure subroutine forget_stress(requested)
+      type(requested_t), intent(inout) :: requested
+
+      requested%stress = .false.
+      if (allocated(requested%element_s)) deallocate (requested%element_s)
+   end subroutine forget_stress
 
    subroutine read_controls_card(deck, card, controls)
       type(deck_t), intent(in) :: deck
@@ -101,20 +205,21 @@ contains
    end subroutine judge
 
    !> RELAXATION= belongs to PICARD: the other methods choose their steps themselves.
-   subroutine check_relaxation(deck, controls)
-      type(deck_t), intent(in) :: deck
+   subroutine check_relaxation(context, controls)
+      type(build_context_t), intent(in) :: context
       type(controls_t), intent(in) :: controls
       type(option_t) :: option
       integer(ip) :: i
       logical :: found
 
       if (controls%method == METHOD_PICARD) return
-      do i = 1, deck%n_cards
-         if (keyword_name(deck%cards(i)) /= 'CONTROLS' .or. .not. deck%cards(i)%ok) cycle
-         call find_option(deck, deck%cards(i), 'RELAXATION', option, found)
-         if (found) call report_error(deck, option%name, 'E-CONFLICT', 'RELAXATION= is for METHOD=PICARD; the method here is '// &
-                                      trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=', &
-                                      keyword='CONTROLS')
+      do i = 1, context%deck%n_cards
+         if (.not. is_of_step(context, i)) cycle
+         if (keyword_name(context%deck%cards(i)) /= 'CONTROLS' .or. .not. context%deck%cards(i)%ok) cycle
+         call find_option(context%deck, context%deck%cards(i), 'RELAXATION', option, found)
+         if (.not. found) cycle
+         call report_error(context%deck, option%name, 'E-CONFLICT', 'RELAXATION= is for METHOD=PICARD; the method here is '// &
+                           trim(METHOD_NAME(controls%method)), expected='METHOD=PICARD, or no RELAXATION=', keyword='CONTROLS')
       end do
    end subroutine check_relaxation
 
@@ -153,14 +258,14 @@ contains
       end if
    end subroutine ask_for
 
-   !> Reports every card that asks for fields: for a build that cannot write them.
+   !> Reports every card that asks for fields or restart files: for a build that cannot write them.
    subroutine refuse_field_files(deck)
       type(deck_t), intent(in) :: deck
       integer(ip) :: i
 
       do i = 1, deck%n_cards
          select case (keyword_name(deck%cards(i)))
-         case ('NODE FILE', 'EL FILE', 'CONTACT FILE')
+         case ('NODE FILE', 'EL FILE', 'CONTACT FILE', 'RESTART')
             call report_error(deck, deck%cards(i)%place, 'E-NOT-BUILT', '*'//keyword_name(deck%cards(i))// &
                               ': this build of atrito has no HDF5', expected='an atrito built with -DATRITO_HDF5=ON, or no *'// &
                               keyword_name(deck%cards(i)), keyword=keyword_name(deck%cards(i)))

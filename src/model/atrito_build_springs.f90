@@ -2,7 +2,7 @@
 module atrito_build_springs
    use atrito_bilateral_rows, only: add_row, ROW_SPRING
    use atrito_build_context, only: build_context_t
-   use atrito_build_equations, only: row_weight
+   use atrito_turn_supports, only: row_weight
    use atrito_build_loads, only: in_no_element
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error

@@ -1,12 +1,14 @@
 !> *BOUNDARY: prescribed displacements.
 module atrito_build_supports
+   use atrito_build_amplitudes, only: take_amplitude, refuse_step_options
    use atrito_build_loads, only: in_no_element
+   use atrito_carry_on, only: carry_values, removes_all
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, trim_nodal_values
+   use atrito_load_lists, only: add_nodal_value, replace_nodal_value, trim_nodal_values, amplitude_of
    use atrito_parameters, only: evaluate_function
    use atrito_references, only: find_nodes
    use atrito_refinement, only: edge_place, is_refined
@@ -31,18 +33,49 @@ module atrito_build_supports
 
 contains
 
-   !> All prescribed displacements, those of the model and of the step.
+   !> All prescribed displacements of a step, along the dofs of the deck: those of the model, which hold in every step, those that
+   !> are carried on, and its own.
    subroutine build_supports(context)
       type(build_context_t), intent(inout) :: context
       type(by_number_t) :: numbered
+
+      if (context%open%number == 1) then
+         allocate (context%dof_entry(PLANE_DOFS, context%model%mesh%n_nodes), &
+                   context%dof_token(PLANE_DOFS, context%model%mesh%n_nodes), source=0_ip)
+         call read_cards(context, 0_ip, numbered)
+         context%open%n_fixed = context%open%supports%n
+      else
+         if (removes_all(context, 'BOUNDARY')) call release_all(context)
+         call carry_values(context, context%open%supports, keeps_zeros=.true.)
+      end if
+      call read_cards(context, context%open%number, numbered)
+   end subroutine build_supports
+
+   !> OP=NEW leaves those of the model.
+   pure subroutine release_all(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      associate (supports => context%open%supports)
+         do i = context%open%n_fixed + 1, supports%n
+            context%dof_entry(supports%dof(i), supports%node(i)) = 0
+         end do
+         supports%n = context%open%n_fixed
+      end associate
+   end subroutine release_all
+
+   !> The cards of a step; 0: of the model.
+   subroutine read_cards(context, step, numbered)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: step
+      type(by_number_t), intent(inout) :: numbered
       integer(ip) :: i, k
 
-      allocate (context%dof_entry(PLANE_DOFS, context%model%mesh%n_nodes), context%dof_token(PLANE_DOFS, &
-                                                                                             context%model%mesh%n_nodes), &
-                source=0_ip)
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i))
-            if (keyword_name(card) /= 'BOUNDARY') cycle
+            if (keyword_name(card) /= 'BOUNDARY' .or. card%step /= step) cycle
+            if (card%level == LEVEL_MODEL) call refuse_step_options(context%deck, card)
+            call take_amplitude(context, card)
             call begin_numbers(context, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
@@ -56,8 +89,8 @@ contains
             call hold_edges(context, numbered)
          end associate
       end do
-      call trim_nodal_values(context%model%steps(1)%prescribed)
-   end subroutine build_supports
+      call trim_nodal_values(context%open%supports)
+   end subroutine read_cards
 
    !> Node or set, first dof[, last dof[, value]].
    subroutine read_line(line, in_model, context, numbered)
@@ -238,7 +271,7 @@ contains
       integer(ip), intent(in) :: nodes(:), dof
       real(wp), intent(in) :: value(:)                 !< of each node [L]
       type(build_context_t), intent(inout) :: context
-      type(number_list_t) :: clashes
+      type(number_list_t) :: clashes, curves
       real(wp) :: first_value, scale
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
@@ -250,15 +283,21 @@ contains
          if (loose(i)) cycle
          entry = context%dof_entry(dof, nodes(i))
          if (entry == 0) then
-            call add_nodal_value(context%model%steps(1)%prescribed, nodes(i), dof, value(i))
-            context%dof_entry(dof, nodes(i)) = context%model%steps(1)%prescribed%n
+            call add_nodal_value(context%open%supports, nodes(i), dof, value(i), amplitude=context%open%amplitude)
+            context%dof_entry(dof, nodes(i)) = context%open%supports%n
             context%dof_token(dof, nodes(i)) = line%first_token
-         else if (.not. is_same(context%model%steps(1)%prescribed%value(entry), value(i), scale)) then
+         else if (entry > context%open%n_fixed .and. context%dof_token(dof, nodes(i)) < context%open%first_token) then
+            call replace_nodal_value(context%open%supports, entry, value(i), context%open%amplitude)
+            context%dof_token(dof, nodes(i)) = line%first_token
+         else if (.not. is_same(context%open%supports%value(entry), value(i), scale)) then
             if (clashes%n == 0) first_value = value(i)
             call add_number(clashes, nodes(i))
+         else if (abs(value(i)) > 0.0_wp .and. amplitude_of(context%open%supports, entry) /= context%open%amplitude) then
+            call add_number(curves, nodes(i))
          end if
       end do
       if (clashes%n > 0) call report_clash(line, context, numbers_of(clashes), dof, first_value)
+      if (curves%n > 0) call report_curves(line, context, numbers_of(curves), dof)
    end subroutine prescribe
 
    !> Equal but for round-off: 0.3 x and 0.1 x + 0.2 at x = 1.
@@ -280,13 +319,26 @@ contains
       integer :: digits
 
       earlier = context%deck%tokens(context%dof_token(dof, nodes(1)))
-      other = context%model%steps(1)%prescribed%value(context%dof_entry(dof, nodes(1)))
+      other = context%open%supports%value(context%dof_entry(dof, nodes(1)))
       digits = merge(ALL_DIGITS, FEW, to_text(value, FEW) == to_text(other, FEW))
       call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
                         ids_text(context%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '//to_text(other, &
                                                                                 digits)//' in '//place_text(context%deck, earlier, &
                                                                                            context%deck%tokens(line%first_token)), &
-                        expected='one value for each dof [L]; those before *STEP hold in the step', keyword='BOUNDARY')
+                        expected='one value for each dof [L]; those before *STEP hold in every step', keyword='BOUNDARY')
    end subroutine report_clash
+
+   !> One displacement with two amplitudes.
+   subroutine report_curves(line, context, nodes, dof)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: nodes(:), dof
+
+      call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-CONFLICT', 'dof '//to_text(dof)//' of node '// &
+                        ids_text(context%model%mesh%node_id(nodes))//' has another amplitude here than in '// &
+                        place_text(context%deck, context%deck%tokens(context%dof_token(dof, nodes(1))), &
+                                   context%deck%tokens(line%first_token)), expected='one AMPLITUDE= for each dof in a step', &
+                        keyword='BOUNDARY')
+   end subroutine report_curves
 
 end module atrito_build_supports

@@ -5,12 +5,15 @@
 module atrito_build_temperatures
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_build_loads, only: in_no_element
+   use atrito_build_steps, only: open_step
+   use atrito_carry_on, only: removes_all
    use atrito_deck, only: data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_note, report_warning
    use atrito_element_table, only: CORNERS_OF, DEGREE_OF
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
+   use atrito_model, only: model_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: find_nodes
    use atrito_refinement, only: map_element
@@ -36,9 +39,15 @@ contains
    subroutine read_temperatures(context)
       type(build_context_t), intent(inout) :: context
       type(temperatures_t) :: before, now
+      integer(ip) :: k
 
-      call read_cards(context, 'INITIAL CONDITIONS', before)
-      call read_cards(context, 'TEMPERATURE', now)
+      call begin_temperatures(context, 'INITIAL CONDITIONS', before)
+      call read_cards(context, 0_ip, before)
+      call begin_temperatures(context, 'TEMPERATURE', now)
+      do k = 1, size(context%model%steps, kind=ip)
+         call open_step(context, k)
+         call read_step(context, before, now)
+      end do
       if (before%last == 0 .and. now%last == 0) return
       if (now%last == 0) then
          call report_note(context%deck, context%deck%tokens(before%last), 'N-TEMPERATURE', 'no *TEMPERATURE of the step makes' &
@@ -46,24 +55,50 @@ contains
          return
       end if
       call warn_of_middles(context, before)
-      call warn_of_middles(context, now)
-      where (now%token == 0) now%value = before%value
-      if (any(abs(now%value - before%value) > 0.0_wp)) context%model%steps(1)%heating = now%value - before%value
    end subroutine read_temperatures
 
-   !> All cards of a keyword.
-   subroutine read_cards(context, keyword, temperatures)
+   !> The temperatures of a step: those of the step before but for what its lines change.
+   subroutine read_step(context, before, now)
+      type(build_context_t), intent(inout) :: context
+      type(temperatures_t), intent(in) :: before
+      type(temperatures_t), intent(inout) :: now
+      integer(ip) :: last
+
+      associate (steps => context%model%steps, k => context%open%number)
+         if (removes_all(context, 'TEMPERATURE')) now%token = 0
+         last = now%last
+         call read_cards(context, k, now)
+         if (now%last /= last) call warn_of_middles(context, now)
+         if (now%last == 0) return
+         where (now%token == 0) now%value = before%value
+         if (any(abs(now%value - before%value) > 0.0_wp)) steps(k)%heating = now%value - before%value
+         if (k == 1) return
+         if (.not. allocated(steps(k - 1)%heating)) return
+         if (any(abs(steps(k - 1)%heating) > 0.0_wp)) steps(k)%heating_from = steps(k - 1)%heating
+         if (.not. allocated(steps(k)%heating) .and. allocated(steps(k)%heating_from)) steps(k)%heating = now%value - before%value
+      end associate
+   end subroutine read_step
+
+   subroutine begin_temperatures(context, keyword, temperatures)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: keyword
       type(temperatures_t), intent(out) :: temperatures
-      integer(ip) :: i, k
 
       temperatures%keyword = keyword
       allocate (temperatures%token(context%model%mesh%n_nodes), source=0_ip)
       allocate (temperatures%value(context%model%mesh%n_nodes), source=0.0_wp)
+   end subroutine begin_temperatures
+
+   !> All cards of a step; 0: of the model.
+   subroutine read_cards(context, step, temperatures)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: step
+      type(temperatures_t), intent(inout) :: temperatures
+      integer(ip) :: i, k
+
       do i = 1, context%deck%n_cards
          associate (card => context%deck%cards(i))
-            if (keyword_name(card) /= keyword) cycle
+            if (keyword_name(card) /= temperatures%keyword .or. card%step /= step) cycle
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (context%deck%lines(k)%ok) call read_line(context%deck%lines(k), context, temperatures)
             end do
@@ -90,7 +125,7 @@ contains
       call note_loose(line, context, nodes, trim(temperatures%keyword))
       do i = 1, size(nodes, kind=ip)
          associate (token => temperatures%token(nodes(i)), there => temperatures%value(nodes(i)))
-            if (token == 0) then
+            if (token == 0 .or. token < context%open%first_token) then
                token = line%first_token
                there = value
             else if (abs(there - value) > SAME_VALUE*max(abs(there), abs(value))) then
@@ -171,41 +206,49 @@ contains
    subroutine refine_temperatures(coarse, context)
       type(mesh_t), intent(in) :: coarse
       type(build_context_t), intent(inout) :: context
+      integer(ip) :: k
+
+      do k = 1, size(context%model%steps, kind=ip)
+         call refine_field(coarse, context, context%model%steps(k)%heating)
+         call refine_field(coarse, context, context%model%steps(k)%heating_from)
+      end do
+   end subroutine refine_temperatures
+
+   subroutine refine_field(coarse, context, values)
+      type(mesh_t), intent(in) :: coarse
+      type(build_context_t), intent(in) :: context
+      real(wp), allocatable, intent(inout) :: values(:)  !< of the nodes
       type(mesh_t) :: field                            ! the coarse mesh with temperatures for coordinates
       real(wp), allocatable :: value(:, :)
       integer(ip), allocatable :: grid(:, :)
       integer(ip) :: e
 
-      if (.not. allocated(context%model%steps(1)%heating)) return
+      if (.not. allocated(values)) return
       field = coarse
-      field%x(1, :coarse%n_nodes) = context%model%steps(1)%heating
+      field%x(1, :coarse%n_nodes) = values
       field%x(2, :coarse%n_nodes) = 0.0_wp
       allocate (value(2, context%model%mesh%n_nodes), source=0.0_wp)
       value(:, :coarse%n_nodes) = field%x(:, :coarse%n_nodes)
       do e = 1, coarse%n_elements
          call map_element(field, context%refinement, e, value, grid)
       end do
-      context%model%steps(1)%heating = value(1, :)
-   end subroutine refine_temperatures
+      values = value(1, :)
+   end subroutine refine_field
 
    !> What grows warmer and has no *EXPANSION is told; where nothing expands there are no temperatures.
    subroutine check_temperatures(context)
       type(build_context_t), intent(inout) :: context
       logical, allocatable :: is_heated(:)             ! of the materials
       logical :: expands
-      integer(ip) :: e, i
+      integer(ip) :: i
 
-      if (has_errors() .or. .not. allocated(context%model%steps(1)%heating)) return
+      if (has_errors()) return
       associate (model => context%model)
          allocate (is_heated(size(model%materials)), source=.false.)
-         expands = .false.
-         do e = 1, model%mesh%n_elements
-            if (model%section_of(e) < 1) cycle
-            if (.not. any(abs(model%steps(1)%heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
-            i = model%sections(model%section_of(e))%material
-            is_heated(i) = .true.
-            expands = expands .or. abs(model%materials(i)%expansion) > 0.0_wp
+         do i = 1, size(model%steps, kind=ip)
+            if (allocated(model%steps(i)%heating)) call mark_heated(model, model%steps(i)%heating, is_heated)
          end do
+         expands = any(is_heated .and. abs(model%materials%expansion) > 0.0_wp)
          do i = 1, size(is_heated, kind=ip)
             if (is_heated(i) .and. .not. model%materials(i)%has_expansion) then
                call report_warning(context%deck, context%materials(i), 'W-EXPANSION', 'elements of material ' &
@@ -213,8 +256,26 @@ contains
                                    //' expand', expected='*EXPANSION in this material, 0 if this is meant', keyword='EXPANSION')
             end if
          end do
-         if (.not. expands) deallocate (model%steps(1)%heating)
+         do i = 1, size(model%steps, kind=ip)
+            if (expands) exit
+            if (allocated(model%steps(i)%heating)) deallocate (model%steps(i)%heating)
+            if (allocated(model%steps(i)%heating_from)) deallocate (model%steps(i)%heating_from)
+         end do
       end associate
    end subroutine check_temperatures
+
+   !> The materials of elements that grow warmer or colder.
+   pure subroutine mark_heated(model, heating, is_heated)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: heating(:)
+      logical, intent(inout) :: is_heated(:)
+      integer(ip) :: e
+
+      do e = 1, model%mesh%n_elements
+         if (model%section_of(e) < 1) cycle
+         if (.not. any(abs(heating(model%mesh%nodes(:model%mesh%shape(e), e))) > 0.0_wp)) cycle
+         is_heated(model%sections(model%section_of(e))%material) = .true.
+      end do
+   end subroutine mark_heated
 
 end module atrito_build_temperatures

@@ -6,7 +6,7 @@ module atrito_check_contact_sense
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_model, only: model_t, LOAD_BODY
+   use atrito_model, only: model_t, element_load_t, LOAD_BODY
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_smooth_normals, only: smooth_surface
    use atrito_sorting, only: each_once
@@ -92,30 +92,46 @@ contains
    subroutine warn_of_loaded_contact(model, context)
       type(model_t), intent(in) :: model
       type(build_context_t), intent(in) :: context
+      integer(ip) :: i, told
+
+      if (size(model%pairs) == 0) return
+      told = 0
+      do i = 1, size(model%steps, kind=ip)
+         associate (loads => model%steps(i)%element_loads)
+            if (loads%n == 0) cycle
+            if (any(loads%kind /= LOAD_BODY .and. loads%line > told)) call warn_of_loads(model, context, loads, told)
+            told = max(told, maxval(loads%line))
+         end associate
+      end do
+   end subroutine warn_of_loaded_contact
+
+   !> The loads of a step; those that are carried on have been told of.
+   subroutine warn_of_loads(model, context, loads, told)
+      type(model_t), intent(in) :: model
+      type(build_context_t), intent(in) :: context
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: told                  !< last line of the steps before
       integer(ip), allocatable :: pair_of(:)           ! of each load; 0: not on a contact face
       type(number_list_t) :: elements
       integer(ip) :: first, i, last
 
-      if (model%steps(1)%element_loads%n == 0 .or. size(model%pairs) == 0) return
-      if (all(model%steps(1)%element_loads%kind == LOAD_BODY)) return
-      call find_loaded_contact(model, pair_of)
+      call find_loaded_contact(model, loads, pair_of)
       first = 1
-      do while (first <= model%steps(1)%element_loads%n)
+      do while (first <= loads%n)
          last = first
-         do while (last < model%steps(1)%element_loads%n)
-            if (model%steps(1)%element_loads%line(last + 1) /= model%steps(1)%element_loads%line(first)) exit
+         do while (last < loads%n)
+            if (loads%line(last + 1) /= loads%line(first)) exit
             last = last + 1
          end do
          elements%n = 0
          do i = first, last
-            if (pair_of(i) > 0) call add_number(elements, model%mesh%element_id(model%steps(1)%element_loads%element(i)))
+            if (pair_of(i) > 0) call add_number(elements, model%mesh%element_id(loads%element(i)))
          end do
-         if (elements%n > 0) call report_loaded(model, context, model%steps(1)%element_loads%line(first), &
-                                                maxval(pair_of(first:last)), &
-                                                elements)
+         if (elements%n > 0 .and. loads%line(first) > told) call report_loaded(model, context, loads%line(first), &
+                                                                               maxval(pair_of(first:last)), elements)
          first = last + 1
       end do
-   end subroutine warn_of_loaded_contact
+   end subroutine warn_of_loads
 
    subroutine report_loaded(model, context, line, pair, elements)
       type(model_t), intent(in) :: model
@@ -132,84 +148,85 @@ contains
    end subroutine report_loaded
 
    !> For each load the pair of whose slave or master it loads a face that has contact points.
-   subroutine find_loaded_contact(model, pair_of)
+   subroutine find_loaded_contact(model, loads, pair_of)
       type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
       integer(ip), allocatable, intent(out) :: pair_of(:)
       type(number_list_t) :: loads_on(size(model%surfaces))
       integer(ip), allocatable :: first(:), load(:)
       logical, allocatable :: touched(:), is_listed(:)
       integer(ip) :: i, s, side
 
-      allocate (pair_of(model%steps(1)%element_loads%n), source=0_ip)
+      allocate (pair_of(loads%n), source=0_ip)
       allocate (touched(model%mesh%n_nodes), is_listed(size(model%surfaces)), source=.false.)
-      call list_loads(model, first, load)
+      call list_loads(model, loads, first, load)
       do i = 1, size(model%pairs, kind=ip)
          do side = 1, 2
             s = merge(model%pairs(i)%slave, model%pairs(i)%master, side == 1)
-            if (.not. is_listed(s)) call list_loads_on(model, s, first, load, loads_on(s))
+            if (.not. is_listed(s)) call list_loads_on(model%surfaces(s)%faces, loads, first, load, loads_on(s))
             is_listed(s) = .true.
-            if (loads_on(s)%n > 0) call mark_loads(model, i, numbers_of(loads_on(s)), touched, pair_of)
+            if (loads_on(s)%n > 0) call mark_loads(model, i, loads, numbers_of(loads_on(s)), &
+                                                        touched, pair_of)
          end do
       end do
    end subroutine find_loaded_contact
 
    !> The loads on the faces of each element: load(first(e):first(e + 1) - 1).
-   pure subroutine list_loads(model, first, load)
+   pure subroutine list_loads(model, loads, first, load)
       type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
       integer(ip), allocatable, intent(out) :: first(:), load(:)
       integer(ip), allocatable :: next(:)
       integer(ip) :: e, i
 
       allocate (first(model%mesh%n_elements + 1), source=0_ip)
-      associate (loads => model%steps(1)%element_loads)
-         do i = 1, loads%n
-            if (loads%kind(i) /= LOAD_BODY) first(loads%element(i) + 1) = first(loads%element(i) + 1) + 1
-         end do
-         first(1) = 1
-         do e = 1, model%mesh%n_elements
-            first(e + 1) = first(e + 1) + first(e)
-         end do
-         next = first
-         allocate (load(first(model%mesh%n_elements + 1) - 1))
-         do i = 1, loads%n
-            if (loads%kind(i) == LOAD_BODY) cycle
-            load(next(loads%element(i))) = i
-            next(loads%element(i)) = next(loads%element(i)) + 1
-         end do
-      end associate
+      do i = 1, loads%n
+         if (loads%kind(i) /= LOAD_BODY) first(loads%element(i) + 1) = first(loads%element(i) + 1) + 1
+      end do
+      first(1) = 1
+      do e = 1, model%mesh%n_elements
+         first(e + 1) = first(e + 1) + first(e)
+      end do
+      next = first
+      allocate (load(first(model%mesh%n_elements + 1) - 1))
+      do i = 1, loads%n
+         if (loads%kind(i) == LOAD_BODY) cycle
+         load(next(loads%element(i))) = i
+         next(loads%element(i)) = next(loads%element(i)) + 1
+      end do
    end subroutine list_loads
 
    !> The loads on the faces of a surface.
-   pure subroutine list_loads_on(model, s, first, load, list)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: s, first(:), load(:)
+   pure subroutine list_loads_on(faces, loads, first, load, list)
+      type(face_list_t), intent(in) :: faces
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: first(:), load(:)
       type(number_list_t), intent(inout) :: list
       integer(ip) :: k, l
 
-      associate (faces => model%surfaces(s)%faces)
-         do k = 1, faces%n
-            do l = first(faces%element(k)), first(faces%element(k) + 1) - 1
-               if (model%steps(1)%element_loads%face(load(l)) == faces%face(k)) call add_number(list, load(l))
-            end do
+      do k = 1, faces%n
+         do l = first(faces%element(k)), first(faces%element(k) + 1) - 1
+            if (loads%face(load(l)) == faces%face(k)) call add_number(list, load(l))
          end do
-      end associate
+      end do
    end subroutine list_loads_on
 
    !> Marks the loads on faces whose two ends have a part in the pair's points: of a master longer than its slave those that face
    !> nothing do not count.
-   pure subroutine mark_loads(model, i, loads, touched, pair_of)
+   pure subroutine mark_loads(model, i, loads, listed, touched, pair_of)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i                     !< the pair
-      integer(ip), intent(in) :: loads(:)
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: listed(:)             !< of the loads
       logical, intent(inout) :: touched(:)             !< (nodes) false, as on return
       integer(ip), intent(inout) :: pair_of(:)
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: k
 
       touched(model%points(i)%entry) = .true.
-      do k = 1, size(loads, kind=ip)
-         nodes = face_nodes(model%mesh, model%steps(1)%element_loads%element(loads(k)), model%steps(1)%element_loads%face(loads(k)))
-         if (all(touched(nodes(:2)))) pair_of(loads(k)) = i
+      do k = 1, size(listed, kind=ip)
+         nodes = face_nodes(model%mesh, loads%element(listed(k)), loads%face(listed(k)))
+         if (all(touched(nodes(:2)))) pair_of(listed(k)) = i
       end do
       touched(model%points(i)%entry) = .false.
    end subroutine mark_loads

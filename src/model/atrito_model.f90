@@ -112,7 +112,8 @@ module atrito_model
       integer(ip), allocatable :: line(:)           !< of the deck, that gives it
       real(wp), allocatable :: value(:, :)          !< (3, n): pressure [F/L^2] in the first; force per volume [F/L^3] or traction
       !< [F/L^2] in two; LOAD_HYDROSTATIC: pressure at a level x2, the level where it is 0, and that level [F/L^2], [L]
-      real(wp), allocatable :: from(:, :)           !< (3, n) the same at the beginning of a step; not allocated: 0
+      real(wp), allocatable :: from(:, :)           !< (3, n) the same at the beginning of a step; not allocated: 0, with the levels
+      !< of LOAD_HYDROSTATIC as they are in value
       integer(ip), allocatable :: amplitude(:)      !< (n) place in model%amplitudes; 0, or not allocated: none
    end type element_load_t
 
@@ -201,6 +202,7 @@ module atrito_model
       type(tie_t), allocatable :: ties(:)
       type(amplitude_t), allocatable :: amplitudes(:)
       type(step_t), allocatable :: steps(:)         !< the history, >= 1
+      integer(ip) :: restart_every = 0              !< increments between two restart files; 0: none is written
    end type model_t
 
 contains

@@ -1,5 +1,6 @@
 !> What was understood of a deck, for the listing and for `atrito check`.
 module atrito_model_report
+   use atrito_amplitudes, only: factor_at, time_before
    use atrito_element_table, only: KINDS, MOST_CORNERS, kind_of
    use atrito_row_tables, only: joined_text
    use atrito_kinds, only: ip, wp
@@ -8,12 +9,13 @@ module atrito_model_report
    use atrito_face_loads, only: traction_load, hydrostatic_load
    use atrito_mesh, only: face_end, face_nodes, side_count, is_revolved
    use atrito_sets, only: set_count
-   use atrito_model, only: model_t, interaction_t, FORMULATION_NAME, METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, &
-                           FRICTION_NONLOCAL, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, step_t, requested_t, increments_t, element_load_t, interaction_t, FORMULATION_NAME, &
+                           METHOD_NAME, FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_PRESSURE, LOAD_BODY, &
+                           LOAD_TRACTION, LOAD_HYDROSTATIC, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
    implicit none (type, external)
    private
-   public :: describe_model, describe_counts, force_t, load_resultants
+   public :: describe_model, describe_counts, describe_steps, is_history, force_t, load_resultants
 
    !> A resultant [F] and its moment about the origin [F L].
    type :: force_t
@@ -33,8 +35,8 @@ contains
       call describe_counts(page, model)
       call describe_parameters(page, model)
       call describe_materials(page, model)
-      call describe_supports(page, model)
-      call describe_loads(page, model)
+      call describe_amplitudes(page, model)
+      call describe_steps(page, model)
       call describe_interactions(page, model)
       call describe_fields(page, model)
    end subroutine describe_model
@@ -150,32 +152,113 @@ contains
       end do
    end subroutine describe_expansions
 
-   subroutine describe_supports(page, model)
+   subroutine describe_amplitudes(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      integer(ip) :: along_1, moved, n
+      integer(ip) :: i
+
+      if (.not. allocated(model%amplitudes)) return
+      if (size(model%amplitudes) > 0) call add_blank(page)
+      do i = 1, size(model%amplitudes, kind=ip)
+         associate (curve => model%amplitudes(i))
+            call add_entry(page, curve%name//', amplitude', number(minval(curve%value), DIGITS)//' to '// &
+                           number(maxval(curve%value), DIGITS)//' at times '//number(curve%time(1), DIGITS)//' to '// &
+                           number(curve%time(size(curve%time)), DIGITS)//trim(merge(' of the history', ' of the step   ', &
+                                                              curve%is_total_time))//trim(merge(', smooth', '        ', &
+                                                                                                curve%is_smooth)))
+         end associate
+      end do
+   end subroutine describe_amplitudes
+
+   !> What acts in each step; of a single one that is a single increment without more words.
+   subroutine describe_steps(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip) :: k, n
+
+      n = size(model%steps, kind=ip)
+      do k = 1, n
+         if (n > 1) then
+            call add_blank(page)
+            call add_line(page, '   step '//to_text(k)//step_title(model%steps(k)))
+         end if
+         call describe_increments(page, model%steps(k), n)
+         call describe_supports(page, model, k)
+         call describe_loads(page, model, k)
+      end do
+   end subroutine describe_steps
+
+   !> Several steps, or several increments of one.
+   pure logical function is_history(model)
+      type(model_t), intent(in) :: model
+
+      is_history = size(model%steps) > 1
+      if (.not. is_history) is_history = model%steps(1)%increments%initial < model%steps(1)%increments%period
+   end function is_history
+
+   pure function step_title(step) result(text)
+      type(step_t), intent(in) :: step
       character(len=:), allocatable :: text
 
-      n = model%steps(1)%prescribed%n
+      text = ''
+      if (.not. allocated(step%title)) return
+      if (len(step%title) > 0) text = ': '//step%title
+   end function step_title
+
+   subroutine describe_increments(page, step, n_steps)
+      type(page_t), intent(inout) :: page
+      type(step_t), intent(in) :: step
+      integer(ip), intent(in) :: n_steps
+      type(increments_t), parameter :: ONE = increments_t()
+      character(len=:), allocatable :: text
+
+      associate (this => step%increments)
+         text = 'one, of time '//number(this%period, DIGITS)
+         if (this%least < this%period) then
+            text = number(this%initial, DIGITS)//' to begin with, '//number(this%least, DIGITS)//' to '// &
+                   number(this%greatest, DIGITS)//', '//number(this%period, DIGITS)//' in all; at most '//to_text(this%most)
+         else if (n_steps == 1) then
+            if (this%period == ONE%period .and. .not. step%at_once) return
+         end if
+         if (n_steps == 1) call add_blank(page)
+      end associate
+      call add_entry(page, 'increments', text)
+      if (step%at_once) call add_entry(page, 'loads', 'at once, not over the step')
+   end subroutine describe_increments
+
+   subroutine describe_supports(page, model, k)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k                  !< the step
+      real(wp), allocatable :: value(:)
+      integer(ip) :: along_1, i, moved, n
+      character(len=:), allocatable :: text
+
+      n = model%steps(k)%prescribed%n
       call add_blank(page)
       if (n == 0) then
          call add_entry(page, 'prescribed displacements', 'none')
          return
       end if
-      along_1 = count(model%steps(1)%prescribed%dof(:n) == 1, kind=ip)
-      moved = count(abs(model%steps(1)%prescribed%value(:n)) > 0.0_wp, kind=ip)
+      along_1 = count(model%steps(k)%prescribed%dof(:n) == 1, kind=ip)
+      value = model%steps(k)%prescribed%value(:n)
+      if (allocated(model%steps(k)%prescribed%amplitude)) then
+         value = [(value(i)*last_factor(model, k, model%steps(k)%prescribed%amplitude(i)), i=1, n)]
+      end if
+      moved = count(abs(value) > 0.0_wp, kind=ip)
       text = to_text(n)//' ('//to_text(along_1)//' along 1, '//to_text(n - along_1)//' along 2)'
       if (moved > 0) text = text//', '//to_text(moved)//' not zero, the largest '// &
-                            number(maxval(abs(model%steps(1)%prescribed%value(:n))), DIGITS)//' [L]'
+                            number(maxval(abs(value)), DIGITS)//' [L]'
       call add_entry(page, 'prescribed displacements', text)
    end subroutine describe_supports
 
-   subroutine describe_loads(page, model)
+   subroutine describe_loads(page, model, k)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k                  !< the step
       type(force_t) :: concentrated, pressure, body
 
-      call load_resultants(model, concentrated, pressure, body)
+      call load_resultants(model, concentrated, pressure, body, k)
       if (is_revolved(model%mesh)) then              ! the circle has no resultant along a radius, and no moment
          concentrated = force_t([0.0_wp, concentrated%f(2)])
          pressure = force_t([0.0_wp, pressure%f(2)])
@@ -186,15 +269,15 @@ contains
                     right('moment about 0,0', 18))
       call add_force(page, 'on nodes', concentrated)
       call add_force(page, trim(merge('loads on faces   ', 'pressure on faces', &
-                                      any(model%steps(1)%element_loads%kind == LOAD_TRACTION))), pressure)
+                                      any(model%steps(k)%element_loads%kind == LOAD_TRACTION))), pressure)
       call add_force(page, 'in elements', body)
       call add_force(page, 'all', force_t(concentrated%f + pressure%f + body%f, &
                                           concentrated%moment + pressure%moment + body%moment))
-      if (.not. allocated(model%steps(1)%heating)) return
+      if (.not. allocated(model%steps(k)%heating)) return
       call add_blank(page)
-      call add_entry(page, 'rise of the temperature', number(minval(model%steps(1)%heating), DIGITS)//' to '// &
-                     number(maxval(model%steps(1)%heating), DIGITS)//' at the nodes, '// &
-                     to_text(count(abs(model%steps(1)%heating) > 0.0_wp, kind=ip))//' not zero')
+      call add_entry(page, 'rise of the temperature', number(minval(model%steps(k)%heating), DIGITS)//' to '// &
+                     number(maxval(model%steps(k)%heating), DIGITS)//' at the nodes, '// &
+                     to_text(count(abs(model%steps(k)%heating) > 0.0_wp, kind=ip))//' not zero')
    end subroutine describe_loads
 
    subroutine add_force(page, name, force)
@@ -206,33 +289,65 @@ contains
                     right(number(force%f(2), DIGITS), 16)//right(number(force%moment, DIGITS), 18))
    end subroutine add_force
 
-   !> Resultants of the three kinds of load.
-   pure subroutine load_resultants(model, concentrated, pressure, body)
+   !> Resultants of the three kinds of load at the end of a step.
+   pure subroutine load_resultants(model, concentrated, pressure, body, step)
       type(model_t), intent(in) :: model
       type(force_t), intent(out) :: concentrated    !< on nodes
       type(force_t), intent(out) :: pressure        !< on element faces
       type(force_t), intent(out) :: body            !< in elements, on the polygon of the corners
+      integer(ip), intent(in), optional :: step     !< default 1
+      type(element_load_t) :: last
       real(wp) :: f(2)
-      integer(ip) :: i
+      integer(ip) :: i, k
+      integer :: n
 
-      associate (loads => model%steps(1)%node_loads)
+      k = 1
+      if (present(step)) k = step
+      associate (loads => model%steps(k)%node_loads)
          do i = 1, loads%n
             f = 0.0_wp
             f(loads%dof(i)) = loads%value(i)
+            if (allocated(loads%amplitude)) f = f*last_factor(model, k, loads%amplitude(i))
             call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
          end do
       end associate
-      do i = 1, model%steps(1)%element_loads%n
-         select case (model%steps(1)%element_loads%kind(i))
+      if (.not. allocated(model%steps(k)%element_loads%amplitude)) then
+         call add_element_loads(model, model%steps(k)%element_loads, pressure, body)
+         return
+      end if
+      last = model%steps(k)%element_loads
+      do i = 1, last%n
+         n = merge(1, 3, last%kind(i) == LOAD_HYDROSTATIC)
+         last%value(:n, i) = last%value(:n, i)*last_factor(model, k, last%amplitude(i))
+      end do
+      call add_element_loads(model, last, pressure, body)
+   end subroutine load_resultants
+
+   !> What an amplitude multiplies by at the end of a step.
+   pure real(wp) function last_factor(model, k, amplitude) result(factor)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k, amplitude
+
+      factor = factor_at(model%amplitudes, amplitude, model%steps(k)%increments%period, time_before(model%steps, k + 1))
+   end function last_factor
+
+   pure subroutine add_element_loads(model, loads, pressure, body)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      type(force_t), intent(inout) :: pressure, body
+      integer(ip) :: i
+
+      do i = 1, loads%n
+         select case (loads%kind(i))
          case (LOAD_PRESSURE)
-            call add_pressure(model, i, pressure)
+            call add_pressure(model, loads, i, pressure)
          case (LOAD_BODY)
-            call add_body_force(model, i, body)
+            call add_body_force(model, loads, i, body)
          case default
-            call add_face_load(model, i, pressure)
+            call add_face_load(model, loads, i, pressure)
          end select
       end do
-   end subroutine load_resultants
+   end subroutine add_element_loads
 
    pure subroutine add_to(force, f, x)
       type(force_t), intent(inout) :: force
@@ -243,36 +358,38 @@ contains
    end subroutine add_to
 
    !> A uniform pressure on a face, curved or not, has the resultant of the same pressure on its chord.
-   pure subroutine add_pressure(model, i, force)
+   pure subroutine add_pressure(model, loads, i, force)
       type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
       integer(ip), intent(in) :: i                  !< place in the element_loads
       type(force_t), intent(inout) :: force
       real(wp) :: a(2), b(2), push
       integer(ip) :: e, face
 
-      e = model%steps(1)%element_loads%element(i)
-      face = model%steps(1)%element_loads%face(i)
+      e = loads%element(i)
+      face = loads%face(i)
       a = model%mesh%x(:, model%mesh%nodes(face, e))
       b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
-      push = model%steps(1)%element_loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
+      push = loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
       call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
    end subroutine add_pressure
 
    !> A load that is not uniform, or whose length counts: shape functions add up to 1, and times the nodes to the place.
-   pure subroutine add_face_load(model, i, force)
+   pure subroutine add_face_load(model, loads, i, force)
       type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
       integer(ip), intent(in) :: i                  !< place in the element_loads
       type(force_t), intent(inout) :: force
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: f(:, :)
       integer(ip) :: e, k
 
-      e = model%steps(1)%element_loads%element(i)
-      nodes = face_nodes(model%mesh, e, model%steps(1)%element_loads%face(i))
+      e = loads%element(i)
+      nodes = face_nodes(model%mesh, e, loads%face(i))
       allocate (f(2, size(nodes)))
-      associate (value => model%steps(1)%element_loads%value(:, i), x => model%mesh%x(:, nodes), &
+      associate (value => loads%value(:, i), x => model%mesh%x(:, nodes), &
                  thickness => model%sections(model%section_of(e))%thickness)
-         if (model%steps(1)%element_loads%kind(i) == LOAD_TRACTION) then
+         if (loads%kind(i) == LOAD_TRACTION) then
             call traction_load(x, value(:2), thickness, model%mesh%state(e), f)
          else
             call hydrostatic_load(x, value(1), value(2:3), thickness, model%mesh%state(e), f)
@@ -283,14 +400,15 @@ contains
       end associate
    end subroutine add_face_load
 
-   pure subroutine add_body_force(model, i, force)
+   pure subroutine add_body_force(model, loads, i, force)
       type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
       integer(ip), intent(in) :: i                  !< place in the element_loads
       type(force_t), intent(inout) :: force
       real(wp) :: x(2, MOST_CORNERS), middle(2), area
       integer(ip) :: e, k, n
 
-      e = model%steps(1)%element_loads%element(i)
+      e = loads%element(i)
       n = side_count(model%mesh, e)
       x(:, :n) = model%mesh%x(:, model%mesh%nodes(:n, e))
       do k = 3, n
@@ -298,7 +416,7 @@ contains
             area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
          end associate
          middle = (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp
-         call add_to(force, area*depth_of(model, e, middle(1))*model%steps(1)%element_loads%value(:2, i), middle)
+         call add_to(force, area*depth_of(model, e, middle(1))*loads%value(:2, i), middle)
       end do
    end subroutine add_body_force
 
@@ -321,7 +439,7 @@ contains
          call add_entry(page, model%interactions(i)%name//', contact', contact_text(model%interactions(i)))
          call add_entry(page, model%interactions(i)%name//', friction', friction_text(model%interactions(i)))
       end do
-      associate (controls => model%steps(1)%controls)
+      associate (controls => model%steps(size(model%steps))%controls)
          call add_entry(page, 'outer loop', trim(METHOD_NAME(controls%method))//', tolerance '// &
                         number(controls%tolerance, 3)//', at most '//plural(controls%max_iterations, 'iteration', 'iterations'))
       end associate
@@ -331,15 +449,24 @@ contains
    subroutine describe_fields(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
+      type(requested_t) :: fields
+      integer :: k
       character(len=:), allocatable :: text
 
-      associate (fields => model%steps(1)%requests%fields)
-         text = ''
-         if (fields%nodes) text = text//' U'
-         if (fields%reactions) text = text//' RF'
-         if (fields%stress) text = text//' S'
-         if (fields%contact) text = text//' contact'
-      end associate
+      fields = requested_t()
+      do k = 1, size(model%steps)
+         associate (of_step => model%steps(k)%requests%fields)
+            fields%nodes = fields%nodes .or. of_step%nodes
+            fields%reactions = fields%reactions .or. of_step%reactions
+            fields%stress = fields%stress .or. of_step%stress
+            fields%contact = fields%contact .or. of_step%contact
+         end associate
+      end do
+      text = ''
+      if (fields%nodes) text = text//' U'
+      if (fields%reactions) text = text//' RF'
+      if (fields%stress) text = text//' S'
+      if (fields%contact) text = text//' contact'
       if (len(text) == 0) return
       call add_blank(page)
       call add_entry(page, 'field file', model%deck_name//'.xdmf, with .h5:'//text)
@@ -366,6 +493,9 @@ contains
       else if (interaction%stick_slope > 0.0_wp) then
          text = text//', stick slope '//number(interaction%stick_slope, DIGITS)//' [F/L^3]'
       end if
+      ! the other way than the law has by itself
+      if (interaction%friction == FRICTION_NONLOCAL .and. interaction%is_incremental) text = text//', incremental slip'
+      if (interaction%friction /= FRICTION_NONLOCAL .and. .not. interaction%is_incremental) text = text//', total slip'
    end function friction_text
 
 end module atrito_model_report

@@ -7,7 +7,7 @@ module atrito_screen
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t, METHOD_NAME
    use atrito_results, only: results_t, scene_t
-   use atrito_model_report, only: describe_counts
+   use atrito_model_report, only: describe_counts, describe_steps, is_history
    use atrito_row_tables, only: joined_text
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
@@ -345,6 +345,10 @@ contains
       call begin_deck_report(page, model, ' check')
       call add_rule(page, '=')
       call describe_counts(page, model)
+      if (is_history(model)) then
+         call add_heading(page, 'history')
+         call describe_steps(page, model)
+      end if
       if (allocated(scene%pairs)) then
          if (size(scene%pairs) > 0) call add_heading(page, 'contact')
       end if

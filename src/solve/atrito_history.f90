@@ -6,21 +6,25 @@
 module atrito_history
    use atrito_body_cache, only: body_cache_t, release_bodies
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_history_lists, only: add_frame, add_iterations, add_row, trim_lists
    use atrito_history_rows, only: row_of_pair
    use atrito_increment, only: complete_results, is_solved, solve_increment
    use atrito_kinds, only: ip, wp
    use atrito_model, only: increments_t, is_due, model_t, requests_t, step_t
+   use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: ending_t, extreme_t, history_row_t, history_t, iteration_t, results_t, scene_t
+   use atrito_restart_state, only: restart_state_t
+   use atrito_results, only: ending_t, extreme_t, history_t, results_t, scene_t
    use atrito_scene_builder, only: list_prescribed
    use atrito_scene_data, only: check_known_points, scene_data_t, set_time
    use atrito_scene_forecast, only: forecast_memory
-   use atrito_slip_memory, only: begin_memory, put_rest, remember_slips, slip_memory_t
+   use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
    use atrito_solution_warnings, only: warn
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
    use atrito_status, only: is_ok, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
+   use atrito_warm_start, only: put_start, take_start
    implicit none (type, external)
    private
    public :: solve_history
@@ -41,6 +45,7 @@ module atrito_history
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest of the contact line
       integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
+      class(recorder_t), pointer :: recorder => null()
    end type run_t
 
    !> Where a step is.
@@ -55,37 +60,126 @@ contains
 
    !> Solves all steps. status: of a run of one increment that of solve_static; of others OK, or why the history ended early, with
    !> STATUS_NOT_CONVERGED, STATUS_SINGULAR, or a status of begin_scene. What converged before is in the history.
-   subroutine solve_history(model, options, reporter, history, status, store)
+   subroutine solve_history(model, options, reporter, history, status, store, recorder)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
       type(history_t), intent(out) :: history
       type(status_t), intent(out) :: status
       type(body_cache_t), intent(inout) :: store     !< bodies of an earlier run, or none; on return those of this one
+      class(recorder_t), intent(inout), target, optional :: recorder
       type(run_t), target :: run
-      integer(ip) :: k
+      type(progress_t) :: now
+      integer(ip) :: k, first
 
       allocate (history%rows(0), history%iterations(0))
-      if (has_one_increment(model)) then
+      if (present(recorder)) run%recorder => recorder
+      if (has_one_increment(model) .and. .not. is_recorded(run)) then
          call solve_only_increment(model, options, reporter, history, status, store)
          return
       end if
       allocate (history%frames(0))
       run%options = options
       run%reporter = reporter
-      do k = 1, size(model%steps, kind=ip)
-         call begin_step(model, k, store, run, status)
+      first = 1
+      if (is_resumed(run)) then
+         call resume(model, store, run, history, now, status)
+         if (.not. is_ok(status)) return
+         first = run%recorder%state%step
+      end if
+      do k = first, size(model%steps, kind=ip)
+         if (now%increment == 0) call begin_step(model, k, store, run, status)
          if (.not. is_ok(status)) then
             call end_early(k, progress_t(), run, history, status)
          else
-            call go_through_step(model, k, store, run, history, status)
+            call go_through_step(model, k, store, run, now, history, status)
          end if
          if (.not. is_ok(status)) exit
          run%began = run%began + model%steps(k)%increments%period
+         now = progress_t()
       end do
       call finish(run, history)
       call release_bodies(store)
    end subroutine solve_history
+
+   !> Whether increments are recorded, or have been before.
+   pure logical function is_recorded(run)
+      type(run_t), intent(in) :: run
+
+      is_recorded = is_resumed(run)
+      if (associated(run%recorder)) is_recorded = is_recorded .or. run%recorder%every > 0
+   end function is_recorded
+
+   pure logical function is_resumed(run)
+      type(run_t), intent(in) :: run
+
+      is_resumed = .false.
+      if (associated(run%recorder)) is_resumed = run%recorder%resumes
+   end function is_resumed
+
+   !> Makes the scene of the step in which a history was interrupted, and goes behind the increment that was recorded last.
+   subroutine resume(model, store, run, history, now, status)
+      type(model_t), intent(in), target :: model
+      type(body_cache_t), intent(inout) :: store
+      type(run_t), intent(inout), target :: run
+      type(history_t), intent(out) :: history
+      type(progress_t), intent(out) :: now
+      type(status_t), intent(out) :: status
+
+      history = run%recorder%found
+      run%n_frames = size(history%frames, kind=ip)
+      run%n_rows = size(history%rows, kind=ip)
+      run%n_iterations = size(history%iterations, kind=ip)
+      associate (state => run%recorder%state)
+         run%step = model%steps(state%step)
+         if (allocated(state%from)) run%step%prescribed%from = state%from
+         call begin_scene(model, run%options, store, .false., run%data, run%scene, status, run%step)
+         if (.not. is_ok(status)) return
+         if (.not. allocated(state%from)) run%data%step => model%steps(state%step)
+         call begin_memory(model, run%data%points%n, run%memory)
+         call note_method(run%data)
+         run%data%keeps = .true.
+         if (allocated(state%released)) run%data%released = state%released
+         run%data%fem%grain = state%grain
+         call take_memory(state, run%memory)
+         call put_rest(run%memory, run%data%line)
+         run%last = state%last
+         run%has_last = .true.
+         run%scene%bodies = state%last%scene%bodies
+         run%condition = state%condition
+         run%began = state%began
+         now = progress_t(state%increment, state%step_time, state%length)
+      end associate
+      call take_start(run%recorder%state%start, run%data%last)
+   end subroutine resume
+
+   !> Hands on what was found so far, where that is asked for. The next increment starts from what is recorded and from nothing else,
+   !> so that it does not matter which run solves it.
+   subroutine record(now, run, history)
+      type(progress_t), intent(in) :: now
+      type(run_t), intent(inout), target :: run
+      type(history_t), intent(inout) :: history
+      type(restart_state_t) :: state
+
+      if (.not. associated(run%recorder)) return
+      if (run%recorder%every == 0 .or. .not. is_due(run%recorder%every, now%increment, run%last%ends_step)) return
+      call trim_lists(run%n_frames, run%n_rows, run%n_iterations, history)
+      state%step = run%last%step
+      state%increment = now%increment
+      state%step_time = now%time
+      state%length = now%length
+      state%ends_step = run%last%ends_step
+      state%began = run%began
+      state%condition = run%condition
+      state%grain = run%data%fem%grain
+      if (associated(run%data%step, run%step)) state%from = run%step%prescribed%from
+      if (allocated(run%data%released)) state%released = run%data%released
+      call put_memory(run%memory, state)
+      state%last = run%last
+      call put_start(run%data%last, state%start)
+      call take_start(state%start, run%data%last)
+      call run%recorder%record(history, state)
+   end subroutine record
 
    !> Whether there is one step that is one increment, which is not cut.
    pure logical function has_one_increment(model)
@@ -173,20 +267,20 @@ contains
    end subroutine begin_from
 
    !> All increments of a step.
-   subroutine go_through_step(model, k, store, run, history, status)
+   subroutine go_through_step(model, k, store, run, now, history, status)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: k
       type(body_cache_t), intent(inout) :: store
-      type(run_t), intent(inout) :: run
+      type(run_t), intent(inout), target :: run
+      type(progress_t), intent(inout) :: now         !< at the beginning of the step, or behind an increment of it
       type(history_t), intent(inout) :: history
       type(status_t), intent(out) :: status
-      type(progress_t) :: now
       type(results_t) :: results
       type(contact_solution_t) :: solution
       real(wp) :: to
 
       associate (control => model%steps(k)%increments)
-         now%length = control%initial
+         if (now%increment == 0) now%length = control%initial
          do while (now%time < control%period)
             to = next_time(now, control%period)
             now%increment = now%increment + 1
@@ -201,9 +295,10 @@ contains
                call keep_increment(model, results, solution, run, history)
                now%time = to
                call lengthen(control, now)
+               call record(now, run, history)
             else
-               now%length = to - now%time
-               if (.not. may_be_cut(status) .or. now%length <= control%least) then
+               now%length = min(now%length, to - now%time)
+               if (.not. may_be_cut(status) .or. now%length <= (1.0_wp + SLIVER)*control%least) then
                   call explain(results, status)
                   call end_early(k, now, run, history, status)
                   return
@@ -308,51 +403,6 @@ contains
       run%has_last = .true.
    end subroutine keep_increment
 
-   pure subroutine add_row(row, n, rows)
-      type(history_row_t), intent(in) :: row
-      integer(ip), intent(inout) :: n
-      type(history_row_t), allocatable, intent(inout) :: rows(:)
-      type(history_row_t), allocatable :: longer(:)
-
-      if (n == size(rows)) then
-         allocate (longer(2*n + 8))
-         longer(:n) = rows
-         call move_alloc(longer, rows)
-      end if
-      n = n + 1
-      rows(n) = row
-   end subroutine add_row
-
-   pure subroutine add_iterations(new, n, iterations)
-      type(iteration_t), intent(in) :: new(:)
-      integer(ip), intent(inout) :: n
-      type(iteration_t), allocatable, intent(inout) :: iterations(:)
-      type(iteration_t), allocatable :: longer(:)
-
-      if (n + size(new) > size(iterations)) then
-         allocate (longer(2*n + size(new)))
-         longer(:n) = iterations(:n)
-         call move_alloc(longer, iterations)
-      end if
-      iterations(n + 1:n + size(new)) = new
-      n = n + size(new, kind=ip)
-   end subroutine add_iterations
-
-   subroutine add_frame(frame, n, frames)
-      type(results_t), intent(in) :: frame
-      integer(ip), intent(inout) :: n
-      type(results_t), allocatable, intent(inout) :: frames(:)
-      type(results_t), allocatable :: longer(:)
-
-      if (n == size(frames)) then
-         allocate (longer(2*n + 1))
-         longer(:n) = frames
-         call move_alloc(longer, frames)
-      end if
-      n = n + 1
-      frames(n) = frame
-   end subroutine add_frame
-
    !> Why an increment has no solution, as a status.
    pure subroutine explain(results, status)
       type(results_t), intent(in) :: results
@@ -406,9 +456,7 @@ contains
       type(history_t), intent(inout) :: history
       integer(ip) :: i
 
-      history%frames = history%frames(:run%n_frames)
-      history%rows = history%rows(:run%n_rows)
-      history%iterations = history%iterations(:run%n_iterations)
+      call trim_lists(run%n_frames, run%n_rows, run%n_iterations, history)
       if (.not. run%has_last .or. run%n_frames == 0 .or. .not. allocated(run%data%last)) return
       run%data%last%inner%condition = run%condition
       run%last = history%frames(run%n_frames)

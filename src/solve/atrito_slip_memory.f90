@@ -9,10 +9,11 @@ module atrito_slip_memory
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
+   use atrito_restart_state, only: restart_state_t
    use atrito_results, only: contact_result_t, POINT_OPEN, POINT_SLIP
    implicit none (type, external)
    private
-   public :: slip_memory_t, begin_memory, remember_slips, put_rest
+   public :: slip_memory_t, begin_memory, remember_slips, put_rest, put_memory, take_memory
 
    type :: slip_memory_t
       logical, allocatable :: is_incremental(:)      !< (points) the law has a rest slip
@@ -103,5 +104,28 @@ contains
          line%shear_before(j) = memory%shear(j)
       end do
    end subroutine put_rest
+
+   !> What is remembered, for a run that goes on later.
+   pure subroutine put_memory(memory, state)
+      type(slip_memory_t), intent(in) :: memory
+      type(restart_state_t), intent(inout) :: state
+
+      state%rest = memory%rest
+      state%slip = memory%slip
+      state%shear = memory%shear
+      state%slides = memory%slides
+      state%dissipation = memory%dissipation
+   end subroutine put_memory
+
+   pure subroutine take_memory(state, memory)
+      type(restart_state_t), intent(in) :: state
+      type(slip_memory_t), intent(inout) :: memory   !< of the same points
+
+      memory%rest = state%rest
+      memory%slip = state%slip
+      memory%shear = state%shear
+      memory%slides = state%slides
+      memory%dissipation = state%dissipation
+   end subroutine take_memory
 
 end module atrito_slip_memory

@@ -4,11 +4,12 @@
 !> digit when the time has come; with one it is multiplied by it. A hydrostatic pressure whose level changes is the sum of two,
 !> one that goes and one that comes: what it does is linear in the pressure, and not in the level.
 module atrito_step_loads
+   use atrito_amplitudes, only: factor_at
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: amplitude_t, element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC
+   use atrito_model, only: element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC
    implicit none (type, external)
    private
-   public :: moment_t, is_end, share_at, amplitude_at, act_at
+   public :: moment_t, is_end, share_at, act_at
 
    !> A time of a history.
    type :: moment_t
@@ -90,7 +91,7 @@ contains
       do i = 1, values%n
          a = amplitude_of(values%amplitude, i)
          if (a > 0) then
-            now%value(i) = values%value(i)*amplitude_at(model%amplitudes(a), moment)
+            now%value(i) = values%value(i)*factor_of(model, a, moment)
          else
             from = 0.0_wp
             if (allocated(values%from)) from = values%from(i)
@@ -107,6 +108,14 @@ contains
       if (allocated(amplitude)) a = amplitude(i)
    end function amplitude_of
 
+   pure real(wp) function factor_of(model, a, moment) result(factor)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: a                  !< amplitude
+      type(moment_t), intent(in) :: moment
+
+      factor = factor_at(model%amplitudes, a, moment%step_time, moment%time)
+   end function factor_of
+
    pure subroutine element_loads_at(model, loads, moment, share, now)
       type(model_t), intent(in) :: model
       type(element_load_t), intent(in) :: loads
@@ -121,7 +130,7 @@ contains
          a = amplitude_of(loads%amplitude, i)
          associate (value => now%value(:, i))
             if (a > 0) then
-               value(scaled(loads%kind(i))) = value(scaled(loads%kind(i)))*amplitude_at(model%amplitudes(a), moment)
+               value(scaled(loads%kind(i))) = value(scaled(loads%kind(i)))*factor_of(model, a, moment)
             else if (share < 1.0_wp) then
                if (loads%kind(i) == LOAD_HYDROSTATIC) then
                   value(1) = share*value(1)
@@ -180,25 +189,5 @@ contains
       now%face = [own%face, going%face]
       now%value = reshape([own%value, going%value], [size(own%value, 1), int(now%n)])
    end subroutine add_levels_that_go
-
-   !> The factor of an amplitude: linear between its times, or with no slope at them; before the first and after the last it stays.
-   pure real(wp) function amplitude_at(amplitude, moment) result(factor)
-      type(amplitude_t), intent(in) :: amplitude
-      type(moment_t), intent(in) :: moment
-      real(wp) :: t, xi
-      integer(ip) :: i, n
-
-      t = moment%step_time
-      if (amplitude%is_total_time) t = moment%time
-      n = size(amplitude%time, kind=ip)
-      i = count(amplitude%time <= t, kind=ip)
-      if (i == 0 .or. i == n) then
-         factor = amplitude%value(max(i, 1_ip))
-         return
-      end if
-      xi = (t - amplitude%time(i))/(amplitude%time(i + 1) - amplitude%time(i))
-      if (amplitude%is_smooth) xi = xi**3*(10.0_wp + xi*(6.0_wp*xi - 15.0_wp))
-      factor = amplitude%value(i) + xi*(amplitude%value(i + 1) - amplitude%value(i))
-   end function amplitude_at
 
 end module atrito_step_loads

@@ -1,0 +1,68 @@
+!> Between the solver, which knows of increments, and the restart file, which knows of files.
+module atrito_restart_recorder
+   use atrito_command_line, only: command_t, output_folder
+   use atrito_fingerprint, only: fingerprint_t, take_fingerprint
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_messages, only: message_t, add_message, SEVERITY_WARNING
+   use atrito_model, only: model_t
+   use atrito_recorder, only: recorder_t
+   use atrito_restart_file, only: read_restart, restart_name, write_restart
+   use atrito_restart_state, only: restart_state_t
+   use atrito_results, only: history_t
+   use atrito_status, only: status_t, is_ok
+   implicit none (type, external)
+   private
+   public :: restart_recorder_t, begin_recorder
+
+   type, extends(recorder_t) :: restart_recorder_t
+      private
+      character(len=:), allocatable :: folder, name
+      character(len=:), allocatable :: deck_path     !< for messages
+      type(fingerprint_t) :: fingerprint
+      logical :: has_warned = .false.
+   contains
+      procedure :: record => write_record
+   end type restart_recorder_t
+
+contains
+
+   !> Reads the file of --restart, and gets ready to write those that the deck asks for. status: that of read_restart.
+   subroutine begin_recorder(command, model, recorder, status)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(restart_recorder_t), intent(out) :: recorder
+      type(status_t), intent(out) :: status
+
+      recorder%resumes = allocated(command%restart)
+      recorder%every = model%restart_every
+      if (recorder%every == 0 .and. .not. recorder%resumes) return
+      recorder%folder = output_folder(command)
+      recorder%name = restart_name(model)
+      recorder%deck_path = model%deck_path
+      ! what is solved by another form or another solver differs in the last digits
+      call take_fingerprint(model, '--contact '//trim(command%contact)//', --solver '//trim(command%solver), recorder%fingerprint)
+      if (recorder%resumes) call read_restart(command%restart, model, recorder%fingerprint, recorder%found, recorder%state, status)
+   end subroutine begin_recorder
+
+   !> Writes the file anew. A failure is told once, and the run goes on: its tables are not lost with it.
+   subroutine write_record(self, history, state)
+      class(restart_recorder_t), intent(inout) :: self
+      type(history_t), intent(inout) :: history
+      type(restart_state_t), intent(inout) :: state
+      type(folder_claim_t) :: claim
+      type(status_t) :: status
+      type(message_t) :: message
+
+      call claim_folder(self%folder, claim, status)
+      if (is_ok(status)) call write_restart(self%folder, self%name, self%fingerprint, history, state, status)
+      call release_folder(claim)
+      if (is_ok(status) .or. self%has_warned) return
+      message%severity = SEVERITY_WARNING
+      message%id = 'W-RESTART'
+      message%file = self%deck_path
+      message%text = 'no restart file: '//status%text
+      call add_message(message)
+      self%has_warned = .true.
+   end subroutine write_record
+
+end module atrito_restart_recorder

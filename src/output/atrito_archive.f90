@@ -1,0 +1,470 @@
+!> An archive of named values, which is written or read by the same calls, so that what is stored is described once:
+!>
+!>     call exchange(archive, 'time', state%time)      ! writes it, or reads it
+!>
+!> Values are kept in parts, each of which is three lists in the file (reals, whole numbers, text): some thousands of arrays cost
+!> no more than a few. Before each value stands a number that is made of its name and kind, and the extents of arrays, so reading
+!> that does not agree with what was written is found at the first value. Reals come back bit by bit. Arrays and strings may be
+!> unallocated. The first failure is kept until close_archive; after it reading gives unallocated arrays, zeros and blanks.
+module atrito_archive
+   use atrito_hdf5_arrays, only: hdf5_arrays_t, create_arrays, open_arrays, put_list, get_list, outcome_of, close_arrays
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
+   implicit none (type, external)
+   private
+   public :: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, exchange_word, &
+             exchange_size, demand, is_sound, close_archive
+
+   type :: archive_t
+      logical :: is_reading = .false.
+      character(len=:), allocatable :: path          !< for messages
+      type(status_t) :: status                       !< first failure
+      type(hdf5_arrays_t), private :: file
+      character(len=:), allocatable, private :: part
+      real(wp), allocatable, private :: reals(:)     !< of the part
+      integer(lp), allocatable, private :: longs(:)
+      character(len=:), allocatable, private :: text
+      integer(lp), private :: n_reals = 0, n_longs = 0, n_text = 0   !< of them written or read so far
+   end type archive_t
+
+   integer(lp), parameter :: SOME = 1024
+   !> What stands in the place of an extent of an array or a string that is not allocated.
+   integer(lp), parameter :: NOT_ALLOCATED = -1
+   !> Kinds of values.
+   integer, parameter :: IS_REAL = 1, IS_INTEGER = 2, IS_LONG = 3, IS_LOGICAL = 4, IS_TEXT = 5
+
+   !> Writes or reads a value with its name. Arrays and strings are allocatable.
+   interface exchange
+      module procedure exchange_real, exchange_reals, exchange_columns, exchange_integer, exchange_integers, exchange_long, &
+         exchange_logical, exchange_logicals, exchange_logical_columns, exchange_text
+   end interface exchange
+
+contains
+
+   subroutine create_archive(path, final_path, archive)
+      character(len=*), intent(in) :: path            !< where it is written
+      character(len=*), intent(in) :: final_path      !< what messages call it
+      type(archive_t), intent(out) :: archive
+
+      archive%path = final_path
+      call create_arrays(path, final_path, archive%file)
+      call empty_part(archive)
+   end subroutine create_archive
+
+   subroutine open_archive(path, archive)
+      character(len=*), intent(in) :: path
+      type(archive_t), intent(out) :: archive
+
+      archive%is_reading = .true.
+      archive%path = path
+      call open_arrays(path, archive%file)
+      call empty_part(archive)
+   end subroutine open_archive
+
+   subroutine empty_part(archive)
+      type(archive_t), intent(inout) :: archive
+
+      archive%part = ''
+      archive%n_reals = 0
+      archive%n_longs = 0
+      archive%n_text = 0
+      if (allocated(archive%reals)) return
+      allocate (archive%reals(SOME), archive%longs(SOME))
+      allocate (character(len=SOME) :: archive%text)
+   end subroutine empty_part
+
+   !> All went well so far.
+   pure logical function is_sound(archive)
+      type(archive_t), intent(in) :: archive
+
+      is_sound = is_ok(archive%status)
+   end function is_sound
+
+   !> Begins a part of the file, /part.
+   subroutine begin_part(archive, part)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: part
+
+      call empty_part(archive)
+      archive%part = '/'//part
+      if (.not. archive%is_reading) return
+      call get_list(archive%file, archive%part//'/reals', archive%reals)
+      call get_list(archive%file, archive%part//'/integers', archive%longs)
+      call get_list(archive%file, archive%part//'/text', archive%text)
+      if (is_ok(archive%status)) call outcome_of(archive%file, archive%status)
+      ! no room to hold them: there is nothing, and the first value will be missing
+      if (.not. allocated(archive%reals)) allocate (archive%reals(0))
+      if (.not. allocated(archive%longs)) allocate (archive%longs(0))
+      if (.not. allocated(archive%text)) archive%text = ''
+   end subroutine begin_part
+
+   !> Ends a part: writes it, or asks whether all of it was read.
+   subroutine end_part(archive)
+      type(archive_t), intent(inout) :: archive
+
+      if (archive%is_reading) then
+         call demand(archive, archive%n_reals == size(archive%reals) .and. archive%n_longs == size(archive%longs) .and. &
+                     archive%n_text == len(archive%text), 'the end')
+      else if (is_ok(archive%status)) then
+         call put_list(archive%file, archive%part//'/reals', archive%reals(:archive%n_reals))
+         call put_list(archive%file, archive%part//'/integers', archive%longs(:archive%n_longs))
+         call put_list(archive%file, archive%part//'/text', archive%text(:archive%n_text))
+      end if
+   end subroutine end_part
+
+   !> What is read must be so; a file in which it is not is damaged.
+   subroutine demand(archive, condition, name)
+      type(archive_t), intent(inout) :: archive
+      logical, intent(in) :: condition
+      character(len=*), intent(in) :: name            !< of the value
+
+      if (condition .or. .not. is_ok(archive%status)) return
+      call set_status(archive%status, STATUS_FILE, archive%path//': is damaged: '//archive%part//' has no '//name// &
+                      ' of the size that is expected')
+   end subroutine demand
+
+   !> Completes an archive. status: STATUS_FILE when any part of it could not be written or read.
+   subroutine close_archive(archive, status)
+      type(archive_t), intent(inout) :: archive
+      type(status_t), intent(out) :: status
+      type(status_t) :: of_file
+
+      status = archive%status
+      call close_arrays(archive%file, of_file)
+      ! what fails in the file makes nothing but failures behind it
+      if (.not. is_ok(of_file)) status = of_file
+   end subroutine close_archive
+
+   !> A number made of the name and the kind of a value.
+   pure integer(lp) function mark_of(name, kind, rank) result(mark)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: kind, rank
+      integer(lp), parameter :: PRIME = 2147483647_lp, PLACE = 1103515245_lp
+      integer :: i
+
+      mark = 10*kind + rank
+      do i = 1, len(name)
+         mark = modulo(mark*PLACE + iachar(name(i:i)), PRIME)
+      end do
+   end function mark_of
+
+   !> Writes the mark of a value and its extents, or reads them: the number of its elements, NOT_ALLOCATED where it is not.
+   subroutine exchange_head(archive, name, kind, extents, n)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: kind
+      integer(lp), intent(inout) :: extents(:)        !< none: a scalar
+      integer(lp), intent(out) :: n
+      integer(lp) :: head(0:size(extents))
+      integer :: k
+
+      head(0) = mark_of(name, kind, size(extents))
+      head(1:) = extents
+      call pass_longs(archive, name, head)
+      if (archive%is_reading) then
+         call demand(archive, head(0) == mark_of(name, kind, size(extents)) .and. all(head(1:) >= NOT_ALLOCATED), name)
+         ! extents that no part of a file can have; the products below are not too large then
+         call demand(archive, all(head(1:) <= huge(1_ip)), name)
+         if (.not. is_ok(archive%status)) head(1:) = NOT_ALLOCATED
+         extents = head(1:)
+      end if
+      n = 1
+      do k = 1, size(extents)
+         n = n*extents(k)
+      end do
+      if (any(extents == NOT_ALLOCATED)) n = NOT_ALLOCATED
+      if (archive%is_reading .and. n /= NOT_ALLOCATED) call demand(archive, has_enough(archive, kind, n), name)
+      if (.not. is_ok(archive%status)) n = NOT_ALLOCATED
+      if (n == NOT_ALLOCATED) extents = NOT_ALLOCATED
+   end subroutine exchange_head
+
+   !> The part has so many values more.
+   pure logical function has_enough(archive, kind, n)
+      type(archive_t), intent(in) :: archive
+      integer, intent(in) :: kind
+      integer(lp), intent(in) :: n
+
+      select case (kind)
+      case (IS_REAL)
+         has_enough = n <= size(archive%reals, kind=lp) - archive%n_reals
+      case (IS_TEXT)
+         has_enough = n <= len(archive%text, kind=lp) - archive%n_text
+      case default
+         has_enough = n <= size(archive%longs, kind=lp) - archive%n_longs
+      end select
+   end function has_enough
+
+   !> Writes or reads whole numbers, without a head.
+   subroutine pass_longs(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      integer(lp), intent(inout) :: values(:)
+      integer(lp), allocatable :: larger(:)
+      integer(lp) :: next
+
+      next = archive%n_longs + size(values, kind=lp)
+      if (archive%is_reading) then
+         call demand(archive, next <= size(archive%longs, kind=lp), name)
+         if (.not. is_ok(archive%status)) values = 0
+         if (.not. is_ok(archive%status)) return
+         values = archive%longs(archive%n_longs + 1:next)
+      else
+         if (next > size(archive%longs, kind=lp)) then
+            allocate (larger(2*next))
+            larger(:archive%n_longs) = archive%longs(:archive%n_longs)
+            call move_alloc(larger, archive%longs)
+         end if
+         archive%longs(archive%n_longs + 1:next) = values
+      end if
+      archive%n_longs = next
+   end subroutine pass_longs
+
+   !> Writes or reads reals, of which there are enough.
+   subroutine pass_reals(archive, values)
+      type(archive_t), intent(inout) :: archive
+      real(wp), intent(inout) :: values(:)
+      real(wp), allocatable :: larger(:)
+      integer(lp) :: next
+
+      next = archive%n_reals + size(values, kind=lp)
+      if (archive%is_reading) then
+         values = archive%reals(archive%n_reals + 1:next)
+      else
+         if (next > size(archive%reals, kind=lp)) then
+            allocate (larger(2*next))
+            larger(:archive%n_reals) = archive%reals(:archive%n_reals)
+            call move_alloc(larger, archive%reals)
+         end if
+         archive%reals(archive%n_reals + 1:next) = values
+      end if
+      archive%n_reals = next
+   end subroutine pass_reals
+
+   !> Writes or reads characters, of which there are enough.
+   subroutine pass_text(archive, text)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(inout) :: text
+      character(len=:), allocatable :: larger
+      integer(lp) :: next
+
+      next = archive%n_text + len(text, kind=lp)
+      if (archive%is_reading) then
+         text = archive%text(archive%n_text + 1:next)
+      else
+         if (next > len(archive%text, kind=lp)) then
+            allocate (character(len=2*next) :: larger)
+            larger(:archive%n_text) = archive%text(:archive%n_text)
+            call move_alloc(larger, archive%text)
+         end if
+         archive%text(archive%n_text + 1:next) = text
+      end if
+      archive%n_text = next
+   end subroutine pass_text
+
+   subroutine exchange_real(archive, name, value)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      real(wp), intent(inout) :: value
+      real(wp) :: values(1)
+
+      values = value
+      call exchange_vector(archive, name, values)
+      value = values(1)
+   end subroutine exchange_real
+
+   !> A list of a length that is known.
+   subroutine exchange_vector(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      real(wp), intent(inout) :: values(:)
+      integer(lp) :: extents(1), n
+
+      extents = size(values)
+      call exchange_head(archive, name, IS_REAL, extents, n)
+      call demand(archive, n == size(values), name)
+      if (is_ok(archive%status)) then
+         call pass_reals(archive, values)
+      else if (archive%is_reading) then
+         values = 0.0_wp
+      end if
+   end subroutine exchange_vector
+
+   subroutine exchange_reals(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer(lp) :: extents(1), n
+
+      extents = NOT_ALLOCATED
+      if (allocated(values)) extents = shape(values, kind=lp)
+      call exchange_head(archive, name, IS_REAL, extents, n)
+      if (archive%is_reading) then
+         if (allocated(values)) deallocate (values)
+         if (n /= NOT_ALLOCATED) allocate (values(n))
+      end if
+      if (allocated(values)) call pass_reals(archive, values)
+   end subroutine exchange_reals
+
+   subroutine exchange_columns(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: values(:, :)
+      integer(lp) :: extents(2), n
+      integer :: i
+
+      extents = NOT_ALLOCATED
+      if (allocated(values)) extents = shape(values, kind=lp)
+      call exchange_head(archive, name, IS_REAL, extents, n)
+      if (archive%is_reading) then
+         if (allocated(values)) deallocate (values)
+         if (n /= NOT_ALLOCATED) allocate (values(extents(1), extents(2)))
+      end if
+      if (.not. allocated(values)) return
+      do i = 1, size(values, 2)
+         call pass_reals(archive, values(:, i))
+      end do
+   end subroutine exchange_columns
+
+   subroutine exchange_long(archive, name, value)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      integer(lp), intent(inout) :: value
+      integer(lp) :: none(0), values(1), n
+
+      values = value
+      call exchange_head(archive, name, IS_LONG, none, n)
+      call pass_longs(archive, name, values)
+      value = values(1)
+   end subroutine exchange_long
+
+   subroutine exchange_integer(archive, name, value)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      integer(ip), intent(inout) :: value
+      integer(lp) :: none(0), values(1), n
+
+      values = value
+      call exchange_head(archive, name, IS_INTEGER, none, n)
+      call pass_longs(archive, name, values)
+      call demand(archive, abs(values(1)) <= huge(value), name)
+      if (is_ok(archive%status)) value = int(values(1), ip)
+      if (archive%is_reading .and. .not. is_ok(archive%status)) value = 0
+   end subroutine exchange_integer
+
+   !> The number of the elements of a list of a derived type, each of which has a value in this part; n is 0 where there is none.
+   subroutine exchange_size(archive, name, is_there, n)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      logical, intent(inout) :: is_there              !< the list is allocated
+      integer(ip), intent(inout) :: n
+
+      call exchange(archive, name//' is there', is_there)
+      call exchange(archive, name, n)
+      call demand(archive, n >= 0, name)
+      if (archive%is_reading) call demand(archive, n <= size(archive%longs, kind=lp) - archive%n_longs, name)
+      if (is_ok(archive%status)) return
+      is_there = .false.
+      n = 0
+   end subroutine exchange_size
+
+   subroutine exchange_integers(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      integer(ip), allocatable, intent(inout) :: values(:)
+      integer(lp), allocatable :: longs(:)
+      integer(lp) :: extents(1), n
+
+      extents = NOT_ALLOCATED
+      if (allocated(values)) extents = shape(values, kind=lp)
+      call exchange_head(archive, name, IS_INTEGER, extents, n)
+      if (archive%is_reading .and. allocated(values)) deallocate (values)
+      if (n == NOT_ALLOCATED) return
+      allocate (longs(n))
+      if (allocated(values)) longs = values
+      call pass_longs(archive, name, longs)
+      call demand(archive, all(abs(longs) <= huge(1_ip)), name)
+      if (archive%is_reading .and. is_ok(archive%status)) values = int(longs, ip)
+   end subroutine exchange_integers
+
+   subroutine exchange_logical(archive, name, value)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      logical, intent(inout) :: value
+      integer(lp) :: none(0), values(1), n
+
+      values = merge(1, 0, value)
+      call exchange_head(archive, name, IS_LOGICAL, none, n)
+      call pass_longs(archive, name, values)
+      call demand(archive, any(values(1) == [0, 1]), name)
+      value = values(1) == 1
+   end subroutine exchange_logical
+
+   subroutine exchange_logicals(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      logical, allocatable, intent(inout) :: values(:)
+      integer(ip), allocatable :: numbers(:)
+
+      if (allocated(values)) numbers = merge(1_ip, 0_ip, values)
+      call exchange(archive, name, numbers)
+      if (.not. archive%is_reading) return
+      if (allocated(values)) deallocate (values)
+      if (.not. allocated(numbers)) return
+      call demand(archive, all(numbers == 0 .or. numbers == 1), name)
+      values = numbers == 1
+   end subroutine exchange_logicals
+
+   subroutine exchange_logical_columns(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      logical, allocatable, intent(inout) :: values(:, :)
+      logical, allocatable :: flat(:)
+      integer(ip) :: rows
+
+      rows = 0
+      if (allocated(values)) then
+         rows = size(values, 1, kind=ip)
+         allocate (flat(size(values)))
+         flat = reshape(values, [size(values)])
+      end if
+      call exchange(archive, name//', rows', rows)
+      call exchange(archive, name, flat)
+      if (.not. archive%is_reading) return
+      if (allocated(values)) deallocate (values)
+      if (.not. allocated(flat)) return
+      call demand(archive, rows > 0, name)
+      if (rows > 0) call demand(archive, mod(size(flat), rows) == 0, name)
+      if (is_ok(archive%status)) values = reshape(flat, [int(rows), size(flat)/int(rows)])
+   end subroutine exchange_logical_columns
+
+   subroutine exchange_text(archive, name, text)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(inout) :: text
+      integer(lp) :: extents(1), n
+
+      extents = NOT_ALLOCATED
+      if (allocated(text)) extents = len(text, kind=lp)
+      call exchange_head(archive, name, IS_TEXT, extents, n)
+      if (archive%is_reading) then
+         if (allocated(text)) deallocate (text)
+         if (n /= NOT_ALLOCATED) allocate (character(len=n) :: text)
+      end if
+      if (allocated(text)) call pass_text(archive, text)
+   end subroutine exchange_text
+
+   !> A string of fixed length.
+   subroutine exchange_word(archive, name, word)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      character(len=*), intent(inout) :: word
+      character(len=:), allocatable :: text
+
+      text = word
+      call exchange(archive, name, text)
+      if (.not. archive%is_reading) return
+      word = ' '
+      if (allocated(text)) word = text
+   end subroutine exchange_word
+
+end module atrito_archive

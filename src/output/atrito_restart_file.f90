@@ -1,0 +1,316 @@
+!> The restart file, docs/user/restart.md: <deck name>.restart.h5 holds all that was found of a history so far, and the state that
+!> the next increment begins from. It is written whole under a temporary name and takes the place of the one before in one step of
+!> the file system, so that a run that is killed at any moment leaves the last one that was whole.
+module atrito_restart_file
+   use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_size, demand, &
+                             is_sound, close_archive
+   use atrito_exchange_results, only: exchange_results, exchange_iteration_list
+   use atrito_files, only: file_set_t, begin_files, file_exists, judge_file, reserve_file, commit_over, discard_files
+   use atrito_fingerprint, only: fingerprint_t, find_difference
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t
+   use atrito_restart_state, only: restart_state_t, warm_start_t
+   use atrito_results, only: results_t, history_t, history_row_t
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_DECK, STATUS_FILE
+   use atrito_strings, only: to_text
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   implicit none (type, external)
+   private
+   public :: restart_name, write_restart, read_restart
+
+   character(len=*), parameter :: FORMAT = 'restart file of '//PROGRAM_NAME//', format 1'
+
+contains
+
+   !> Name of the file, without folder.
+   pure function restart_name(model) result(name)
+      type(model_t), intent(in) :: model
+      character(len=:), allocatable :: name
+
+      name = model%deck_name//'.restart.h5'
+   end function restart_name
+
+   !> Writes what was found so far. status: STATUS_FILE, and then the file that was there is as it was.
+   subroutine write_restart(folder, name, fingerprint, history, state, status)
+      character(len=*), intent(in) :: folder, name
+      type(fingerprint_t), intent(inout) :: fingerprint !< these three are not changed: writing and reading are one procedure
+      type(history_t), intent(inout) :: history
+      type(restart_state_t), intent(inout) :: state
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+      type(archive_t) :: archive
+      character(len=:), allocatable :: path, kind, program
+
+      call begin_files(set, folder, status)
+      if (.not. is_ok(status)) return
+      call reserve_file(set, name, path)
+      call create_archive(path, folder//'/'//name, archive)
+      call exchange_origin(archive, kind, program, fingerprint)
+      call exchange_findings(archive, history, state)
+      call close_archive(archive, status)
+      if (is_ok(status)) then
+         call commit_over(set, status)
+      else
+         call discard_files(set)
+      end if
+   end subroutine write_restart
+
+   !> Reads a file. status: STATUS_FILE when it cannot be read or is damaged; STATUS_DECK when it belongs to another program, to
+   !> another deck or to another version of it.
+   subroutine read_restart(path, model, fingerprint, history, state, status)
+      character(len=*), intent(in) :: path
+      type(model_t), intent(in) :: model
+      type(fingerprint_t), intent(in) :: fingerprint    !< of the deck and the options
+      type(history_t), intent(out) :: history
+      type(restart_state_t), intent(out) :: state
+      type(status_t), intent(out) :: status
+      type(archive_t) :: archive
+      type(fingerprint_t) :: in_file
+      type(status_t) :: closing
+      character(len=:), allocatable :: kind, program, difference
+
+      call judge_file(path, status)
+      if (is_ok(status) .and. .not. file_exists(path)) call set_status(status, STATUS_FILE, path//': there is no such file')
+      if (.not. is_ok(status)) return
+      call open_archive(path, archive)
+      call exchange_origin(archive, kind, program, in_file)
+      if (is_sound(archive)) then
+         difference = foreign_origin(kind, program)
+         if (len(difference) == 0) call exchange_findings(archive, history, state)
+         if (len(difference) == 0 .and. is_sound(archive)) difference = find_difference(in_file, fingerprint, state%step)
+         if (len(difference) > 0) call set_status(status, STATUS_DECK, path//': is no restart file of this deck: '//difference)
+      end if
+      if (is_ok(status)) call check_sizes(archive, model, history, state)
+      call close_archive(archive, closing)
+      if (is_ok(status)) status = closing
+   end subroutine read_restart
+
+   !> What the file is and which deck it belongs to.
+   subroutine exchange_origin(archive, kind, program, fingerprint)
+      type(archive_t), intent(inout) :: archive
+      character(len=:), allocatable, intent(out) :: kind, program
+      type(fingerprint_t), intent(inout) :: fingerprint
+      logical :: is_there
+      integer(ip) :: n, i
+
+      kind = FORMAT
+      program = PROGRAM_NAME//' '//PROGRAM_VERSION
+      call begin_part(archive, 'origin')
+      call exchange(archive, 'kind', kind)
+      call exchange(archive, 'program', program)
+      is_there = allocated(fingerprint%parts)
+      n = 0
+      if (is_there) n = size(fingerprint%parts, kind=ip)
+      call exchange(archive, 'n_steps', fingerprint%n_steps)
+      call exchange_size(archive, 'parts', is_there, n)
+      if (archive%is_reading) allocate (fingerprint%parts(n))
+      do i = 1, n
+         call exchange(archive, 'name', fingerprint%parts(i)%name)
+         call exchange(archive, 'size', fingerprint%parts(i)%size)
+         call exchange(archive, 'digest', fingerprint%parts(i)%digest)
+         call exchange(archive, 'step', fingerprint%parts(i)%step)
+      end do
+      call end_part(archive)
+   end subroutine exchange_origin
+
+   !> Why a file is not one of this program, in words; '' when it is.
+   pure function foreign_origin(kind, program) result(text)
+      character(len=:), allocatable, intent(in) :: kind, program
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (program /= PROGRAM_NAME//' '//PROGRAM_VERSION) then
+         text = 'it was written by '//program//', this is '//PROGRAM_NAME//' '//PROGRAM_VERSION
+      else if (kind /= FORMAT) then
+         text = 'it is a '//kind//', expected is a '//FORMAT
+      end if
+   end function foreign_origin
+
+   !> The state, the rows of every increment, and each increment that is printed as a part of its own.
+   subroutine exchange_findings(archive, history, state)
+      type(archive_t), intent(inout) :: archive
+      type(history_t), intent(inout) :: history
+      type(restart_state_t), intent(inout) :: state
+      integer(ip), allocatable :: frames(:)
+      integer(ip) :: i
+
+      call begin_part(archive, 'state')
+      call exchange_state(archive, state)
+      call end_part(archive)
+      call begin_part(archive, 'increment')
+      call exchange_results(archive, state%last)
+      call end_part(archive)
+      call begin_part(archive, 'history')
+      call exchange_row_list(archive, 'rows', history%rows)
+      call exchange_iteration_list(archive, 'iterations', history%iterations)
+      if (allocated(history%frames)) frames = history%frames%increment
+      call exchange(archive, 'increments of frames', frames)
+      call end_part(archive)
+      if (.not. allocated(frames) .or. .not. is_sound(archive)) return
+      if (archive%is_reading) allocate (history%frames(size(frames)))
+      do i = 1, size(frames, kind=ip)
+         call begin_part(archive, 'frame_'//to_text(i))
+         call exchange_results(archive, history%frames(i))
+         call end_part(archive)
+      end do
+   end subroutine exchange_findings
+
+   subroutine exchange_state(archive, state)
+      type(archive_t), intent(inout) :: archive
+      type(restart_state_t), intent(inout) :: state
+
+      call exchange(archive, 'step', state%step)
+      call exchange(archive, 'increment', state%increment)
+      call exchange(archive, 'step_time', state%step_time)
+      call exchange(archive, 'length', state%length)
+      call exchange(archive, 'ends_step', state%ends_step)
+      call exchange(archive, 'began', state%began)
+      call exchange(archive, 'condition', state%condition)
+      call exchange(archive, 'grain', state%grain)
+      call exchange(archive, 'from', state%from)
+      call exchange(archive, 'released', state%released)
+      call exchange(archive, 'rest', state%rest)
+      call exchange(archive, 'slip', state%slip)
+      call exchange(archive, 'shear', state%shear)
+      call exchange(archive, 'slides', state%slides)
+      call exchange(archive, 'dissipation', state%dissipation)
+      call exchange_start(archive, state%start)
+   end subroutine exchange_state
+
+   !> Its kind among the forms, and plain arrays.
+   subroutine exchange_start(archive, start)
+      type(archive_t), intent(inout) :: archive
+      type(warm_start_t), intent(inout) :: start
+
+      call exchange(archive, 'form', start%form)
+      call exchange(archive, 'p', start%p)
+      call exchange(archive, 'tau', start%tau)
+      call exchange(archive, 't', start%t)
+      call exchange(archive, 'state', start%state)
+      call exchange(archive, 'q', start%q)
+      call exchange(archive, 'a', start%a)
+      call exchange(archive, 'r', start%r)
+      call exchange(archive, 'shift', start%shift)
+      call exchange(archive, 'slack', start%slack)
+      call exchange(archive, 'lower', start%lower)
+      call exchange(archive, 'upper', start%upper)
+      call exchange(archive, 'd', start%d)
+      call exchange(archive, 'is_shared', start%is_shared)
+      call exchange(archive, 'tangential_of', start%tangential_of)
+      call exchange(archive, 'residual', start%residual)
+      call exchange(archive, 'contraction', start%contraction)
+      call exchange(archive, 'has_multipliers', start%has_multipliers)
+      call exchange(archive, 'step_size', start%step_size)
+      call exchange(archive, 'pull_size', start%pull_size)
+      call exchange(archive, 'x', start%x)
+      call exchange(archive, 'e', start%e)
+      call exchange(archive, 'noise', start%noise)
+      call exchange(archive, 'q_old', start%q_old)
+      call exchange(archive, 'a_old', start%a_old)
+      call exchange(archive, 'hold', start%hold)
+      call exchange(archive, 'pair', start%pair)
+      call exchange(archive, 'n_pairs', start%n_pairs)
+      call exchange(archive, 'n_contact_pairs', start%n_contact_pairs)
+      call exchange(archive, 'stiffness', start%stiffness)
+      call exchange(archive, 'pull', start%pull)
+      call exchange(archive, 'settled', start%settled)
+      call exchange(archive, 'changed', start%changed)
+   end subroutine exchange_start
+
+   subroutine exchange_row_list(archive, name, list)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      type(history_row_t), allocatable, intent(inout) :: list(:)
+      logical :: is_there
+      integer(ip) :: n, i
+
+      is_there = allocated(list)
+      n = 0
+      if (is_there) n = size(list, kind=ip)
+      call exchange_size(archive, name, is_there, n)
+      if (archive%is_reading) then
+         if (allocated(list)) deallocate (list)
+         if (is_there) allocate (list(n))
+      end if
+      do i = 1, n
+         call exchange_row(archive, list(i))
+      end do
+   end subroutine exchange_row_list
+
+   subroutine exchange_row(archive, row)
+      type(archive_t), intent(inout) :: archive
+      type(history_row_t), intent(inout) :: row
+
+      call exchange(archive, 'step', row%step)
+      call exchange(archive, 'increment', row%increment)
+      call exchange(archive, 'pair', row%pair)
+      call exchange(archive, 'time', row%time)
+      call exchange(archive, 'normal', row%normal)
+      call exchange(archive, 'shear', row%shear)
+      call exchange(archive, 'moment', row%moment)
+      call exchange(archive, 'length', row%length)
+      call exchange(archive, 'centre', row%centre)
+      call exchange(archive, 'max_pressure', row%max_pressure)
+      call exchange(archive, 'open', row%open)
+      call exchange(archive, 'stick', row%stick)
+      call exchange(archive, 'slip', row%slip)
+      call exchange(archive, 'dissipation', row%dissipation)
+      call exchange(archive, 'elastic_energy', row%elastic_energy)
+   end subroutine exchange_row
+
+   !> The arrays have the sizes that the deck gives them; a file with the right marks and others was changed by hand.
+   subroutine check_sizes(archive, model, history, state)
+      type(archive_t), intent(inout) :: archive
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      type(restart_state_t), intent(in) :: state
+      integer(ip) :: i
+
+      call demand(archive, state%step >= 1 .and. state%increment >= 1, 'step and increment')
+      call check_frame(archive, model, state%last)
+      call demand(archive, allocated(state%last%u), 'u')
+      if (.not. allocated(history%frames)) return
+      do i = 1, size(history%frames, kind=ip)
+         call check_frame(archive, model, history%frames(i))
+      end do
+   end subroutine check_sizes
+
+   subroutine check_frame(archive, model, frame)
+      type(archive_t), intent(inout) :: archive
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: frame
+      integer :: i
+      logical :: ok
+
+      call demand(archive, frame%step >= 1 .and. frame%step <= size(model%steps), 'step')
+      call demand(archive, is_nodal(frame%u, model), 'u')
+      call demand(archive, is_nodal(frame%reaction, model), 'reaction')
+      ok = .not. allocated(frame%contact)
+      if (.not. ok) ok = size(frame%contact) == size(model%pairs)
+      call demand(archive, ok, 'contact')
+      if (.not. ok .or. .not. allocated(frame%contact)) return
+      do i = 1, size(frame%contact)
+         associate (contact => frame%contact(i))
+            call demand(archive, has_length(contact%s, contact%n) .and. has_length(contact%pressure, contact%n) .and. &
+                        has_length(contact%shear, contact%n) .and. has_length(contact%slip, contact%n), 'contact')
+         end associate
+      end do
+   end subroutine check_frame
+
+   pure logical function is_nodal(values, model)
+      real(wp), allocatable, intent(in) :: values(:, :)
+      type(model_t), intent(in) :: model
+
+      is_nodal = .not. allocated(values)
+      if (.not. is_nodal) is_nodal = all(shape(values) == [2, int(model%mesh%n_nodes)])
+   end function is_nodal
+
+   pure logical function has_length(values, n)
+      real(wp), allocatable, intent(in) :: values(:)
+      integer(ip), intent(in) :: n
+
+      has_length = .not. allocated(values)
+      if (.not. has_length) has_length = size(values) == n
+   end function has_length
+
+end module atrito_restart_file

@@ -1,0 +1,30 @@
+!> Who is told of converged increments while a history is solved, and may have it begin behind one of them: what writes and reads
+!> restart files is not known here.
+module atrito_recorder
+   use atrito_kinds, only: ip
+   use atrito_restart_state, only: restart_state_t
+   use atrito_results, only: history_t
+   implicit none (type, external)
+   private
+   public :: recorder_t
+
+   type, abstract :: recorder_t
+      integer(ip) :: every = 0                       !< so many increments, and the ends of steps, are recorded; 0: none
+      logical :: resumes = .false.                   !< the history goes on behind `state`; `found` is what was found before
+      type(restart_state_t) :: state
+      type(history_t) :: found
+   contains
+      procedure(record_increment), deferred :: record
+   end type recorder_t
+
+   abstract interface
+      !> An increment has converged: all that was found so far, and the state behind it. Neither is changed.
+      subroutine record_increment(self, history, state)
+         import :: recorder_t, history_t, restart_state_t
+         class(recorder_t), intent(inout) :: self
+         type(history_t), intent(inout) :: history
+         type(restart_state_t), intent(inout) :: state
+      end subroutine record_increment
+   end interface
+
+end module atrito_recorder
