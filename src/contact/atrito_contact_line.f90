@@ -145,7 +145,7 @@ contains
       end associate
    end function known_shear
 
-   !> u_T less the rest slip [L] of a tangential unknown: that of its law where it sticks, which has more digits than a difference of
+   !> u_T less the rest slip [L] of a tangential unknown: that of its law where it sticks, which has more digits than the
    !> displacements.
    pure real(wp) function slip_of_unknown(bounds, state, i) result(slip)
       type(box_bounds_t), intent(in) :: bounds
