@@ -115,10 +115,13 @@ contains
    subroutine agree_on_outcome(status, results, ends_early)
       type(status_t), intent(inout) :: status
       type(results_t), intent(inout) :: results     !< the last there are
-      logical, intent(in) :: ends_early
+      logical, intent(in), optional :: ends_early   !< left out: it did not
       character(len=:), allocatable :: text
+      logical :: is_early
 
-      if (ends_early) then
+      is_early = .false.
+      if (present(ends_early)) is_early = ends_early
+      if (is_early) then
          if (allocated(status%text)) call set_status(status, status%code, status%text//'; what converged before is written')
          return
       end if

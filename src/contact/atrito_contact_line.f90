@@ -140,12 +140,13 @@ contains
       associate (slip => line%known_slip(j) - rest_of(line, j))
          t = friction_stress(line%law(j), tau, slip)
          if (.not. allocated(line%shear_before)) return
-         if (slip == 0.0_wp .and. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) &
-            t = min(max(line%shear_before(j), -tau), tau)
+         if (slip /= 0.0_wp .or. sticking_slip(line%law(j), 1.0_wp) > 0.0_wp) return
+         t = min(max(line%shear_before(j), -tau), tau)
       end associate
    end function known_shear
 
-   !> u_T less the rest slip [L] of a tangential unknown: that of its law where it sticks, which has more digits than a difference of displacements.
+   !> u_T less the rest slip [L] of a tangential unknown: that of its law where it sticks, which has more digits than the
+   !> displacements.
    pure real(wp) function slip_of_unknown(bounds, state, i) result(slip)
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state

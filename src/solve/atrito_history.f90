@@ -1,8 +1,8 @@
 !> A history of loads, step by step and increment by increment: the table of contents of what a run solves.
 !>
-!> Bodies and contact line are factored as long as the same dofs are held; an increment changes what acts (atrito_step_loads) and the
-!> rest slips of friction (atrito_slip_memory), and starts from the one before. One that fails is cut. A run of one increment is
-!> solve_static and nothing else.
+!> What was factored serves as long as the same dofs are held; an increment changes what acts (atrito_step_loads) and the rest slips
+!> of friction (atrito_slip_memory), and starts from the one before. One that fails is cut. A run of one increment is solve_static
+!> and nothing else.
 module atrito_history
    use atrito_body_cache, only: body_cache_t, release_bodies
    use atrito_contact_solution, only: contact_solution_t

@@ -219,7 +219,9 @@ contains
          if (solution%state%state(i) == FREE) status = POINT_STICK
       else
          if (abs(slip - rest_of(line, j)) <= sticking_slip(line%law(j), solution%tau(j)) &
-             .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) status = POINT_STICK
+             .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) then
+            status = POINT_STICK
+         end if
       end if
    end function status_of
 

@@ -1,9 +1,9 @@
 !> What friction remembers of a history: the rest slip s0 of every point, at which the spring of its law has no force, and what the
 !> points of each pair have dissipated.
 !>
-!> After an increment a sticking point keeps its s0, a slipping one has s0 = u_T - c t (c t is the elastic slip, which it keeps), and
-!> an open one s0 = u_T: it touches again without shear. Friction dissipates w t ds0. Laws of the total slip have no rest slip, but
-!> the same sum tells what they dissipate.
+!> After an increment a sticking point keeps its s0, a slipping one has s0 = u_T - c t (c t is the elastic slip, which it keeps),
+!> and an open one s0 = u_T: it touches again without shear. Friction dissipates w t ds0. Laws of the total slip have no rest slip,
+!> but the same sum tells what they dissipate.
 module atrito_slip_memory
    use atrito_contact_line, only: contact_line_t
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
