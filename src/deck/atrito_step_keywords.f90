@@ -9,7 +9,7 @@ module atrito_step_keywords
 
    !> Output requests and marks of other programs.
    character(len=16), parameter :: HARMLESS(10) = [character(len=16) :: 'OUTPUT', 'NODE OUTPUT', 'ELEMENT OUTPUT', &
-                         'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
+                                    'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
 
    character(len=*), parameter :: FIELD_FILE = '<deck name>.h5, an HDF5 file that ParaView opens by <deck name>.xdmf; there is '// &
                                   'one when a *... FILE asks for it.'

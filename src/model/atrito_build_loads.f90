@@ -11,7 +11,7 @@ module atrito_build_loads
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_load_lists, only: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, trim_nodal_values, &
-                               trim_element_loads, amplitude_of, from_of
+                                trim_element_loads, amplitude_of, from_of
    use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_BODY, LOAD_TRACTION, SURFACE_ELEMENTS
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
@@ -32,7 +32,7 @@ module atrito_build_loads
    !> Of *DSLOAD, and then of *DLOAD: a line of a later step takes the place of a load of the same label.
    integer(ip), parameter :: N_SURFACE_LABELS = 3
    character(len=6), parameter :: LABELS(18) = [character(len=6) :: 'P', 'TRVEC', 'HP', 'BX', 'BY', 'GRAV', 'P1', 'P2', 'P3', &
-                                                'P4', 'HP1', 'HP2', 'HP3', 'HP4', 'TRVEC1', 'TRVEC2', 'TRVEC3', 'TRVEC4']
+                                                           'P4', 'HP1', 'HP2', 'HP3', 'HP4', 'TRVEC1', 'TRVEC2', 'TRVEC3', 'TRVEC4']
 
 contains
 

@@ -132,7 +132,7 @@ contains
             return
          end if
          call get_real(deck, line_item(deck, line, 3_ip), WHAT_LEAST, this%least, ok(3), min(this%initial, &
-                                                                                           LEAST_PART*this%period), 'STATIC')
+                                                                                             LEAST_PART*this%period), 'STATIC')
          if (ok(3)) call check_time(deck, line, 3_ip, this%least > 0.0_wp .and. this%least <= this%initial, this%least, &
                                     WHAT_LEAST, ok(3))
          call get_real(deck, line_item(deck, line, 4_ip), WHAT_GREATEST, this%greatest, ok(4), this%initial, 'STATIC')

@@ -166,7 +166,7 @@ contains
             if (.not. is_listed(s)) call list_loads_on(model%surfaces(s)%faces, loads, first, load, loads_on(s))
             is_listed(s) = .true.
             if (loads_on(s)%n > 0) call mark_loads(model, i, loads, numbers_of(loads_on(s)), &
-                                                        touched, pair_of)
+                                                   touched, pair_of)
          end do
       end do
    end subroutine find_loaded_contact

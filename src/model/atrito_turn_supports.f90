@@ -84,7 +84,7 @@ contains
          value = local%value(i)*along + local%value(other)*across
          from = from_of(local, i)*along + from_of(local, other)*across
          if (amplitude_of(local, i) /= amplitude_of(local, other)) call refuse_inclined(context, local, i, &
-                                                         'two displacements along local axes with different amplitudes')
+                                                                     'two displacements along local axes with different amplitudes')
          do axis = 1, 2
             call add_nodal_value(turned, local%node(i), axis, value(axis), from(axis), amplitude_of(local, i))
          end do
@@ -142,8 +142,8 @@ contains
       place = context%deck%tokens(max(1_ip, context%dof_token(list%dof(i), list%node(i))))
       if (context%dof_token(list%dof(i), list%node(i)) < context%open%first_token) then
          do c = 1, context%deck%n_cards
-            if (context%deck%cards(c)%step == context%open%number .and. keyword_name(context%deck%cards(c)) == 'STEP') &
-               place = context%deck%cards(c)%place
+            if (context%deck%cards(c)%step /= context%open%number) cycle
+            if (keyword_name(context%deck%cards(c)) == 'STEP') place = context%deck%cards(c)%place
          end do
       end if
       call report_error(context%deck, place, 'E-NOT-BUILT', what//', of node '// &

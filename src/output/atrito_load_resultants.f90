@@ -1,0 +1,161 @@
+!> Resultants of what acts upon a model.
+module atrito_load_resultants
+   use atrito_amplitudes, only: factor_at, time_before
+   use atrito_element_table, only: MOST_CORNERS
+   use atrito_face_loads, only: traction_load, hydrostatic_load
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_end, face_nodes, side_count
+   use atrito_model, only: model_t, element_load_t, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC
+   use atrito_plane_state, only: depth_at
+   implicit none (type, external)
+   private
+   public :: force_t, load_resultants, last_factor
+
+   !> A resultant [F] and its moment about the origin [F L].
+   type :: force_t
+      real(wp) :: f(2) = 0.0_wp
+      real(wp) :: moment = 0.0_wp
+   end type force_t
+
+contains
+
+   !> Resultants of the three kinds of load at the end of a step.
+   pure subroutine load_resultants(model, concentrated, pressure, body, step)
+      type(model_t), intent(in) :: model
+      type(force_t), intent(out) :: concentrated    !< on nodes
+      type(force_t), intent(out) :: pressure        !< on element faces
+      type(force_t), intent(out) :: body            !< in elements, on the polygon of the corners
+      integer(ip), intent(in), optional :: step     !< default 1
+      type(element_load_t) :: last
+      real(wp) :: f(2)
+      integer(ip) :: i, k
+      integer :: n
+
+      k = 1
+      if (present(step)) k = step
+      associate (loads => model%steps(k)%node_loads)
+         do i = 1, loads%n
+            f = 0.0_wp
+            f(loads%dof(i)) = loads%value(i)
+            if (allocated(loads%amplitude)) f = f*last_factor(model, k, loads%amplitude(i))
+            call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
+         end do
+      end associate
+      if (.not. allocated(model%steps(k)%element_loads%amplitude)) then
+         call add_element_loads(model, model%steps(k)%element_loads, pressure, body)
+         return
+      end if
+      last = model%steps(k)%element_loads
+      do i = 1, last%n
+         n = merge(1, 3, last%kind(i) == LOAD_HYDROSTATIC)
+         last%value(:n, i) = last%value(:n, i)*last_factor(model, k, last%amplitude(i))
+      end do
+      call add_element_loads(model, last, pressure, body)
+   end subroutine load_resultants
+
+   !> What an amplitude multiplies by at the end of a step.
+   pure real(wp) function last_factor(model, k, amplitude) result(factor)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k, amplitude
+
+      factor = factor_at(model%amplitudes, amplitude, model%steps(k)%increments%period, time_before(model%steps, k + 1))
+   end function last_factor
+
+   pure subroutine add_element_loads(model, loads, pressure, body)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      type(force_t), intent(inout) :: pressure, body
+      integer(ip) :: i
+
+      do i = 1, loads%n
+         select case (loads%kind(i))
+         case (LOAD_PRESSURE)
+            call add_pressure(model, loads, i, pressure)
+         case (LOAD_BODY)
+            call add_body_force(model, loads, i, body)
+         case default
+            call add_face_load(model, loads, i, pressure)
+         end select
+      end do
+   end subroutine add_element_loads
+
+   pure subroutine add_to(force, f, x)
+      type(force_t), intent(inout) :: force
+      real(wp), intent(in) :: f(2), x(2)
+
+      force%f = force%f + f
+      force%moment = force%moment + (x(1)*f(2) - x(2)*f(1))
+   end subroutine add_to
+
+   !> A uniform pressure on a face, curved or not, has the resultant of the same pressure on its chord.
+   pure subroutine add_pressure(model, loads, i, force)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: i                  !< place in the element_loads
+      type(force_t), intent(inout) :: force
+      real(wp) :: a(2), b(2), push
+      integer(ip) :: e, face
+
+      e = loads%element(i)
+      face = loads%face(i)
+      a = model%mesh%x(:, model%mesh%nodes(face, e))
+      b = model%mesh%x(:, model%mesh%nodes(face_end(model%mesh, e, face), e))
+      push = loads%value(1, i)*depth_of(model, e, 0.5_wp*a(1) + 0.5_wp*b(1))
+      call add_to(force, push*[a(2) - b(2), b(1) - a(1)], 0.5_wp*a + 0.5_wp*b)
+   end subroutine add_pressure
+
+   !> A load that is not uniform, or whose length counts: shape functions add up to 1, and times the nodes to the place.
+   pure subroutine add_face_load(model, loads, i, force)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: i                  !< place in the element_loads
+      type(force_t), intent(inout) :: force
+      integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: f(:, :)
+      integer(ip) :: e, k
+
+      e = loads%element(i)
+      nodes = face_nodes(model%mesh, e, loads%face(i))
+      allocate (f(2, size(nodes)))
+      associate (value => loads%value(:, i), x => model%mesh%x(:, nodes), &
+                 thickness => model%sections(model%section_of(e))%thickness)
+         if (loads%kind(i) == LOAD_TRACTION) then
+            call traction_load(x, value(:2), thickness, model%mesh%state(e), f)
+         else
+            call hydrostatic_load(x, value(1), value(2:3), thickness, model%mesh%state(e), f)
+         end if
+         do k = 1, size(nodes, kind=ip)
+            call add_to(force, f(:, k), x(:, k))
+         end do
+      end associate
+   end subroutine add_face_load
+
+   pure subroutine add_body_force(model, loads, i, force)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: i                  !< place in the element_loads
+      type(force_t), intent(inout) :: force
+      real(wp) :: x(2, MOST_CORNERS), middle(2), area
+      integer(ip) :: e, k, n
+
+      e = loads%element(i)
+      n = side_count(model%mesh, e)
+      x(:, :n) = model%mesh%x(:, model%mesh%nodes(:n, e))
+      do k = 3, n
+         associate (d => x(:, k - 1) - x(:, 1), g => x(:, k) - x(:, 1))
+            area = 0.5_wp*(d(1)*g(2) - d(2)*g(1))
+         end associate
+         middle = (x(:, 1) + x(:, k - 1) + x(:, k))/3.0_wp
+         call add_to(force, area*depth_of(model, e, middle(1))*loads%value(:2, i), middle)
+      end do
+   end subroutine add_body_force
+
+   pure real(wp) function depth_of(model, e, x1)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: x1
+
+      depth_of = depth_at(model%mesh%state(e), model%sections(model%section_of(e))%thickness, x1)
+   end function depth_of
+
+end module atrito_load_resultants
