@@ -21,7 +21,7 @@ module atrito_run
    use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: results_t, contact_result_t
+   use atrito_results, only: results_t, history_t, contact_result_t, last_frame
    use atrito_screen, only: compose_summary
    use atrito_solve, only: solve_static, solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
@@ -46,7 +46,7 @@ contains
       integer, intent(out) :: code                  !< one of STATUS_*
       type(run_facts_t), intent(out), optional :: facts
       type(model_t) :: model
-      type(results_t) :: results
+      type(history_t) :: history
       type(reporter_t) :: reporter
       type(status_t) :: status
       integer(ip) :: told
@@ -61,14 +61,15 @@ contains
          code = status%code
          return
       end if
-      call solve_static(model, solve_options(command), reporter, results, status, store)
+      allocate (history%frames(1))
+      call solve_static(model, solve_options(command), reporter, history%frames(1), status, store)
       call print_messages(command%quiet, told + 1)
-      if (is_ok(status) .or. status%code == STATUS_NOT_CONVERGED) call agree_on_outcome(status, results)
+      if (is_ok(status) .or. status%code == STATUS_NOT_CONVERGED) call agree_on_outcome(status, history%frames(1))
       if (.not. is_ok(status)) call print_status(status, model%deck_path)
       code = status%code
       if (code /= STATUS_OK .and. code /= STATUS_NOT_CONVERGED) return
-      call write_run(command, reporter, model, results, code)
-      if (present(facts)) facts = facts_of(model, results)
+      call write_run(command, reporter, model, history, code)
+      if (present(facts)) facts = facts_of(model, history%frames(last_frame(history)))
    end subroutine run_deck
 
    pure type(run_facts_t) function facts_of(model, results) result(facts)
@@ -121,11 +122,11 @@ contains
       call set_status(status, STATUS_NOT_CONVERGED, text//'; the last iterate is written')
    end subroutine agree_on_outcome
 
-   subroutine write_run(command, reporter, model, results, code)
+   subroutine write_run(command, reporter, model, history, code)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       integer, intent(inout) :: code
       type(status_t) :: status
       type(folder_claim_t) :: claim
@@ -137,9 +138,10 @@ contains
       folder = output_folder(command)
       call report_progress(reporter, 'write '//folder)
       told = count_messages()
-      if (command%plot) pictures = plot_names(model, results)       ! not allocated: an optional argument that is not there
+      ! not allocated: an optional argument that is not there
+      if (command%plot) pictures = plot_names(model, history%frames(last_frame(history)))
       call claim_folder(folder, claim, status)
-      if (is_ok(status)) call write_results(model, results, int(command%digits), folder, written, status, pictures)
+      if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
          call release_folder(claim)
          call print_status(status, model%deck_path)
@@ -148,12 +150,12 @@ contains
       end if
       if (command%plot) then
          call report_progress(reporter, 'plot  '//plot_folder(folder))
-         call write_plots(model, results, folder, pictures)
+         call write_plots(model, history%frames(last_frame(history)), folder, pictures)
       end if
       call release_folder(claim)
       call print_messages(command%quiet, told + 1)
       if (command%quiet) return
-      call compose_summary(model, results, folder, written, page, pictures)
+      call compose_summary(model, history, folder, written, page, pictures)
       call print_page(page, output_unit)
    end subroutine write_run
 
