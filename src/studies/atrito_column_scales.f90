@@ -15,6 +15,8 @@ module atrito_column_scales
                                                                                   ' contact_length centre ']
    character(len=20), parameter :: FAMILIES_OF_JOINTS(3) = [character(len=20) :: ' n t ', ' x y ', ' opening sliding ']
 
+   real(wp), parameter :: MOST_GROUPS = 100000.0_wp  !< pairs and steps that even a table of few rows can have
+
 contains
 
    !> Tables that are treated in their own way, known by their columns: a copy may bear any name.
@@ -120,6 +122,8 @@ contains
       if (.not. by_pair) return
       pair = numbers_of_rows(table, 'pair')
       step = numbers_of_rows(table, merge('step', 'none', kind_of(table) /= 'history'))
+      ! no run has steps whose pairs have no rows to speak of
+      if (real(maxval([pair, 0_ip]), wp)*maxval([step, 0_ip]) > MOST_GROUPS + 10.0_wp*table%n_rows) step = 0
       allocate (largest(0:maxval([pair, 0_ip]), 0:maxval([step, 0_ip])), source=0.0_wp)
       do row = 1, table%n_rows
          associate (entry => largest(pair(row), step(row)))
@@ -179,7 +183,7 @@ contains
       column = find_column(table, name)
       if (column == 0) return
       if (.not. all(table%kind(column, :table%n_rows) == ITEM_INTEGER)) return
-      most = 1000.0_wp + 10.0_wp*table%n_rows       ! pairs without points have no rows
+      most = MOST_GROUPS + 10.0_wp*table%n_rows     ! pairs without points have no rows
       if (any(table%value(column, :table%n_rows) < 0.0_wp .or. table%value(column, :table%n_rows) > most)) return
       number = nint(table%value(column, :table%n_rows), ip)
    end function numbers_of_rows

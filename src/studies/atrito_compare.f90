@@ -1,9 +1,9 @@
 !> `atrito compare`: are two tables, or two folders of them, the same?
 !>
 !> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column over all increments; of its quantity and pair in
-!> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in bodies.tab,
-!> joints.tab and history.tab. Integers and words must be equal; nan equals nan. timing and iterations are left out; the
-!> equilibrium residual must be small in both.
+!> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in
+!> bodies.tab, joints.tab and history.tab. Integers and words must be equal; nan equals nan. timing and iterations are left out;
+!> the equilibrium residual must be small in both.
 module atrito_compare
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text, join
