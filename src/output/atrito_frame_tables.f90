@@ -17,10 +17,10 @@ module atrito_frame_tables
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
    character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', &
-                                                                           'weighted_pressure', 'shear', 'slip', 'weight', &
-                                                                           'slip_increment']
+                                                                                   'weighted_pressure', 'shear', 'slip', 'weight', &
+                                                                                                                   'slip_increment']
    character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', &
-                                                                               'L', 'L^2', 'L']
+                                                                                                                    'L', 'L^2', 'L']
 
 contains
 

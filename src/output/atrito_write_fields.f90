@@ -55,6 +55,7 @@ contains
       call open_hdf5(path, set%folder//'/'//names(1)%s, file)
       call put_origin(file, model, history)
       call put_mesh(file, model%mesh, mesh_grids)
+      call put_increments(file, history, due)
       allocate (frames(size(due)))
       do i = 1, size(due)
          frames(i)%grids = mesh_grids
@@ -114,6 +115,23 @@ contains
          if (allocated(last%verdict)) text = text//': '//last%verdict
       end associate
    end function warning_of
+
+   !> Which increments there are, and at what time: a row each.
+   subroutine put_increments(file, history, due)
+      type(hdf5_file_t), intent(inout) :: file
+      type(history_t), intent(in) :: history
+      integer(ip), intent(in) :: due(:)                !< places of the frames
+      integer :: i, n
+
+      n = size(due)
+      call put_integers(file, '/increments/step', 'number of the step', [(history%frames(due(i))%step, i=1, n)])
+      call put_integers(file, '/increments/increment', 'number of the increment in its step', &
+                        [(history%frames(due(i))%increment, i=1, n)])
+      call begin_dataset(file, '/increments/time', 1_ip, int(n, ip), .true., 'time of the history', '-')
+      do i = 1, n
+         call put_row(file, [history%frames(due(i))%time])
+      end do
+   end subroutine put_increments
 
    !> The fields of one increment, into its own group.
    subroutine put_frame(file, model, results, frame)

@@ -21,7 +21,7 @@ module atrito_write_tables
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(13) = [character(len=10) :: 'contact', 'summary', 'history', 'nodes', 'reactions', &
                                                                                 'stress', 'bodies', 'joints', 'ties', 'equations', &
-                                                                                                 'springs', 'iterations', 'timing']
+                                                                                                  'springs', 'iterations', 'timing']
 
    !> The comment lines at the top: of one result, or of a history.
    interface origin_of

@@ -12,7 +12,7 @@ module atrito_column_scales
                                                               ' loads_fx loads_fy supports_fx supports_fy contact_fx contact_fy ', &
                                                                                     ' loads_moment supports_moment contact_moment ']
    character(len=36), parameter :: FAMILIES_OF_HISTORY(2) = [character(len=36) :: ' normal_resultant shear_resultant ', &
-                                                                                  ' contact_length centre ']
+                                                                                                          ' contact_length centre ']
    character(len=20), parameter :: FAMILIES_OF_JOINTS(3) = [character(len=20) :: ' n t ', ' x y ', ' opening sliding ']
 
    real(wp), parameter :: MOST_GROUPS = 100000.0_wp  !< pairs and steps that even a table of few rows can have
