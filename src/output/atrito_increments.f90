@@ -6,7 +6,7 @@ module atrito_increments
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: increment_t, list_increments, is_history, all_iterations, increment_name, ending_text, time_text
+   public :: increment_t, list_increments, has_history, all_iterations, increment_name, ending_text, time_text
 
    integer, parameter :: TIME_DIGITS = 10
 
@@ -92,13 +92,13 @@ contains
    end function all_iterations
 
    !> More than one increment, a deck of several steps, or an end before the end.
-   pure logical function is_history(model, history)
+   pure logical function has_history(model, history)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
 
-      is_history = size(model%steps) > 1 .or. size(history%frames) > 1 .or. history%ending%is_early
-      if (.not. is_history) is_history = size(list_increments(history)) > 1
-   end function is_history
+      has_history = size(model%steps) > 1 .or. size(history%frames) > 1 .or. history%ending%is_early
+      if (.not. has_history) has_history = size(list_increments(history)) > 1
+   end function has_history
 
    !> `step 2, increment 5, time 1.25`
    pure function increment_name(step, increment, time) result(text)

@@ -9,7 +9,7 @@ module atrito_listing
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_frame_tables, only: due_frames
-   use atrito_increments, only: increment_t, list_increments, is_history, increment_name, ending_text, time_text
+   use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
    use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, iteration_t, last_frame
@@ -71,13 +71,13 @@ contains
          call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
          call add_solver(page, last)
          call add_heading(page, '4  ITERATIONS')
-         if (is_history(model, history)) call add_increments(page, history)
+         if (has_history(model, history)) call add_increments(page, history)
          call add_iterations(page, last)
          call add_heading(page, '5  CONTACT')
          call add_contact(page, model, history)
          call describe_rows(page, model, last)
          call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
-         if (is_history(model, history)) call add_line(page, '   at the end: '//frame_name(last))
+         if (has_history(model, history)) call add_line(page, '   at the end: '//frame_name(last))
          call add_equilibrium(page, last)
          call add_end(page, last, pictures)
       end associate
@@ -289,7 +289,7 @@ contains
       own = pair_scales(measure_history(model, history), history)
       do i = 1, size(due)
          if (i > 1) call add_blank(page)
-         if (is_history(model, history)) call add_line(page, frame_name(history%frames(due(i))))
+         if (has_history(model, history)) call add_line(page, frame_name(history%frames(due(i))))
          call add_pairs(page, history%frames(due(i)), own)
       end do
    end subroutine add_contact

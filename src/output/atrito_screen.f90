@@ -7,7 +7,7 @@ module atrito_screen
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t, METHOD_NAME
    use atrito_results, only: results_t, history_t, scene_t, last_frame
-   use atrito_increments, only: list_increments, is_history, increment_name, ending_text
+   use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_model_report, only: describe_counts
    use atrito_row_tables, only: joined_text
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
@@ -53,9 +53,9 @@ contains
       associate (last => history%frames(last_frame(history)))
          call add_verdict(page, last, ending_text(history))
          call add_sizes(page, model, last)
-         if (is_history(model, history)) call add_item(page, 'history', history_text(model, history))
+         if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
          extra = extra_lines(files, present(pictures))
-         if (is_history(model, history)) extra = extra + merge(3, 1, history%ending%is_early)
+         if (has_history(model, history)) extra = extra + merge(3, 1, history%ending%is_early)
          if (has_trail(last)) then                  ! the pairs of the last iterate say less than how it got there
             call add_trail(page, last, SCREEN_LINES - page%n - 6 - extra_lines(files, present(pictures)))
          else

@@ -10,7 +10,7 @@ module atrito_write_tables
    use atrito_results, only: results_t, history_t, last_frame
    use atrito_frame_tables, only: due_frames, build_frame_table
    use atrito_history_tables, only: build_summary, build_history, build_iterations
-   use atrito_increments, only: is_history, ending_text
+   use atrito_increments, only: has_history, ending_text
    use atrito_summary, only: scales_t, measure_history, pair_scales
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word
    use atrito_table_text, only: write_table
@@ -129,7 +129,7 @@ contains
 
       has_rows = .false.
       if (allocated(history%rows)) has_rows = size(history%rows) > 0
-      if (has_rows) has_rows = is_history(model, history)
+      if (has_rows) has_rows = has_history(model, history)
    end function has_rows
 
    !> Writes timing.tab: the phases that have ended, their sum, and the peak memory as a comment.
