@@ -23,7 +23,7 @@ module atrito_run
    use atrito_reader, only: read_deck
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
-   use atrito_results, only: history_t, results_t
+   use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
@@ -67,12 +67,12 @@ contains
       end if
       call solve_history(model, solve_options(command), reporter, history, status, store, recorder)
       call print_messages(command%quiet, told + 1)
-      associate (n => size(history%frames))
+      associate (n => last_frame(history))
          if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
          if (.not. is_ok(status)) call print_status(status, model%deck_path)
          code = status%code
          if (n == 0) return
-         call write_run(command, reporter, model, history%frames(n), code)
+         call write_run(command, reporter, model, history, code)
          if (present(facts)) facts = facts_of(model, history%frames(n))
       end associate
    end subroutine run_deck
@@ -136,11 +136,11 @@ contains
       call set_status(status, STATUS_NOT_CONVERGED, text//'; the last iterate is written')
    end subroutine agree_on_outcome
 
-   subroutine write_run(command, reporter, model, results, code)
+   subroutine write_run(command, reporter, model, history, code)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       integer, intent(inout) :: code
       type(status_t) :: status
       type(folder_claim_t) :: claim
@@ -152,9 +152,10 @@ contains
       folder = output_folder(command)
       call report_progress(reporter, 'write '//folder)
       told = count_messages()
-      if (command%plot) pictures = plot_names(model, results)       ! not allocated: an optional argument that is not there
+      ! not allocated: an optional argument that is not there
+      if (command%plot) pictures = plot_names(model, history%frames(last_frame(history)))
       call claim_folder(folder, claim, status)
-      if (is_ok(status)) call write_results(model, results, int(command%digits), folder, written, status, pictures)
+      if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
          call release_folder(claim)
          call print_status(status, model%deck_path)
@@ -163,12 +164,12 @@ contains
       end if
       if (command%plot) then
          call report_progress(reporter, 'plot  '//plot_folder(folder))
-         call write_plots(model, results, folder, pictures)
+         call write_plots(model, history%frames(last_frame(history)), folder, pictures)
       end if
       call release_folder(claim)
       call print_messages(command%quiet, told + 1)
       if (command%quiet) return
-      call compose_summary(model, results, folder, written, page, pictures)
+      call compose_summary(model, history, folder, written, page, pictures)
       call print_page(page, output_unit)
    end subroutine write_run
 

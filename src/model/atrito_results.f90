@@ -6,7 +6,7 @@ module atrito_results
    implicit none (type, external)
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
-   public :: body_motion_t, joint_t, extreme_t, history_t, history_row_t, ending_t
+   public :: body_motion_t, joint_t, extreme_t, history_t, history_row_t, ending_t, last_frame
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -190,5 +190,14 @@ module atrito_results
       type(iteration_t), allocatable :: iterations(:) !< of all increments
       type(ending_t) :: ending
    end type history_t
+
+contains
+
+   !> Place of the frame that pictures, the screen and studies show: the last increment that is printed.
+   pure integer(ip) function last_frame(history)
+      type(history_t), intent(in) :: history        !< with frames
+
+      last_frame = size(history%frames, kind=ip)
+   end function last_frame
 
 end module atrito_results

@@ -8,16 +8,18 @@ module atrito_listing
    use atrito_messages, only: count_messages, get_message, format_message
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
+   use atrito_frame_tables, only: due_frames
+   use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
    use atrito_model, only: model_t
-   use atrito_results, only: unsettled_t, results_t, scene_t, balance_t, iteration_t
+   use atrito_results, only: unsettled_t, results_t, history_t, scene_t, balance_t, iteration_t, last_frame
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
    use atrito_row_tables, only: describe_rows
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
-   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_fields, &
-                             scales_of_pair, pair_name
+   use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, &
+                             pair_scales, pair_name
    use atrito_table, only: ZERO_SHARE
    implicit none (type, external)
    private
@@ -32,9 +34,9 @@ contains
    !> Writes <deck name>.lst into a set of files.
    !>
    !> status: STATUS_FILE when it could not be written.
-   subroutine write_listing(model, results, set, status, pictures)
+   subroutine write_listing(model, history, set, status, pictures)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
@@ -42,7 +44,7 @@ contains
       type(text_file_t) :: file
       integer :: i
 
-      call compose_listing(model, results, page, pictures)
+      call compose_listing(model, history, page, pictures)
       call open_text(set, model%deck_name//'.lst', file)
       do i = 1, page%n
          call put_line(file, page%lines(i)%s)
@@ -51,21 +53,41 @@ contains
    end subroutine write_listing
 
    !> Composes the listing, without writing it.
-   subroutine compose_listing(model, results, page, pictures)
+   subroutine compose_listing(model, history, page, pictures)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
 
       call begin_page(page, WIDTH)
-      call add_title(page, model, results)
+      call add_title(page, model, history)
       call add_heading(page, '1  WHAT WAS UNDERSTOOD')
       call describe_model(page, model)
       call add_blank(page)
-      call describe_pairs(page, results%scene, some=.false.)
-      call add_heading(page, '2  WHAT THE SCENE NEEDS')
-      call describe_needs(page, results%scene)
-      call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
+      associate (last => history%frames(last_frame(history)))
+         call describe_pairs(page, last%scene, some=.false.)
+         call add_heading(page, '2  WHAT THE SCENE NEEDS')
+         call describe_needs(page, last%scene)
+         call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
+         call add_solver(page, last)
+         call add_heading(page, '4  ITERATIONS')
+         if (has_history(model, history)) call add_increments(page, history)
+         call add_iterations(page, last)
+         call add_heading(page, '5  CONTACT')
+         call add_contact(page, model, history)
+         call describe_rows(page, model, last)
+         call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
+         if (has_history(model, history)) call add_line(page, '   at the end: '//frame_name(last))
+         call add_equilibrium(page, last)
+         call add_end(page, last, pictures)
+      end associate
+   end subroutine compose_listing
+
+   !> How the bodies were factored, and by which libraries.
+   subroutine add_solver(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+
       call describe_bodies(page, results%scene, factored=.true., some=.false.)
       if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
          call add_entry(page, 'order', 'reverse Cuthill-McKee, contact nodes last')
@@ -76,13 +98,14 @@ contains
       call add_entry(page, 'factorisations', to_text(int(results%factorisations, ip)))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
       call add_libraries(page, results%scene)
-      call add_heading(page, '4  ITERATIONS')
-      call add_iterations(page, results)
-      call add_heading(page, '5  CONTACT')
-      call add_contact(page, model, results)
-      call describe_rows(page, model, results)
-      call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
-      call add_equilibrium(page, results)
+   end subroutine add_solver
+
+   !> Messages, pictures, the estimated error and the times.
+   subroutine add_end(page, results, pictures)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      type(string_t), intent(in), optional :: pictures(:)
+
       call add_heading(page, '7  MESSAGES')
       call add_messages(page)
       if (present(pictures)) then
@@ -93,7 +116,34 @@ contains
       call add_heading(page, '8  ERROR AND TIME')
       call add_entry(page, 'estimated error', number(results%error_estimate, DIGITS)//' % of the energy norm')
       call add_times(page)
-   end subroutine compose_listing
+   end subroutine add_end
+
+   pure function frame_name(results) result(text)
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: text
+
+      text = increment_name(results%step, results%increment, results%time)
+   end function frame_name
+
+   !> A row an increment; its iterations are in iterations.tab.
+   subroutine add_increments(page, history)
+      type(page_t), intent(inout) :: page
+      type(history_t), intent(in) :: history
+      type(increment_t), allocatable :: list(:)
+      integer :: i
+
+      list = list_increments(history)
+      call add_line(page, right('step', 8)//right('increment', 11)//right('time', 18)//right('outer iterations', 18)// &
+                    right('residual', 14))
+      do i = 1, size(list)
+         call add_line(page, right(to_text(list(i)%step), 8)//right(to_text(list(i)%increment), 11)// &
+                       right(time_text(list(i)%time), 18)//right(to_text(list(i)%outer), 18)// &
+                       right(number(list(i)%residual, 4), 14))
+      end do
+      call add_blank(page)
+      call add_line(page, '   of the last increment that is printed, '//frame_name(history%frames(last_frame(history)))//':')
+      call add_blank(page)
+   end subroutine add_increments
 
    !> Compiler and libraries; those that this run did not use are told so.
    subroutine add_libraries(page, scene)
@@ -133,10 +183,10 @@ contains
       end do
    end function uses
 
-   subroutine add_title(page, model, results)
+   subroutine add_title(page, model, history)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       integer :: i
 
       call add_rule(page, '=')
@@ -146,10 +196,17 @@ contains
          call add_paragraph(page, model%heading(i)%s, 6)
       end do
       call add_rule(page, '=')
-      if (results%converged .and. results%law_holds) return
-      call add_blank(page)
-      call add_line(page, 'NOT CONVERGED: what follows is the last iterate, not a solution.')
-      if (allocated(results%verdict)) call add_paragraph(page, results%verdict, 0)
+      if (history%ending%is_early) then
+         call add_blank(page)
+         call add_paragraph(page, 'NOT CONVERGED: '//ending_text(history), 0)
+         call add_line(page, 'What follows converged before.')
+      end if
+      associate (last => history%frames(last_frame(history)))
+         if (last%converged .and. last%law_holds) return
+         call add_blank(page)
+         call add_line(page, 'NOT CONVERGED: what follows is the last iterate, not a solution.')
+         if (allocated(last%verdict)) call add_paragraph(page, last%verdict, 0)
+      end associate
    end subroutine add_title
 
    !> yyyy-mm-dd hh:mm
@@ -215,29 +272,45 @@ contains
              right(number(row%residual, 4), 14)
    end function iteration_line
 
-   subroutine add_contact(page, model, results)
+   !> The pairs of each increment whose contact is printed.
+   subroutine add_contact(page, model, history)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      type(quantity_t), allocatable :: list(:)
-      type(scales_t) :: scales
-      integer(ip) :: i
-      integer :: j
+      type(history_t), intent(in) :: history
+      type(scales_t), allocatable :: own(:)
+      integer(ip), allocatable :: due(:)
+      integer :: i
 
-      if (.not. allocated(results%contact)) then
+      due = due_frames(model, history, 'contact')
+      if (size(due) == 0) then
          call add_line(page, '   no contact pair')
          return
       end if
-      scales = measure_fields(model, results)
+      own = pair_scales(measure_history(model, history), history)
+      do i = 1, size(due)
+         if (i > 1) call add_blank(page)
+         if (has_history(model, history)) call add_line(page, frame_name(history%frames(due(i))))
+         call add_pairs(page, history%frames(due(i)), own)
+      end do
+   end subroutine add_contact
+
+   subroutine add_pairs(page, results, own)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: own(:)           !< of each pair
+      type(quantity_t), allocatable :: list(:)
+      integer(ip) :: i
+      integer :: j
+
       do i = 1, size(results%contact, kind=ip)
          if (i > 1) call add_blank(page)
          call add_line(page, '   pair '//to_text(i)//': '//pair_name(results, i))
-         list = pair_quantities(summarise_pair(results%contact(i)), scales_of_pair(scales, results%contact(i)))
+         list = pair_quantities(summarise_pair(results%contact(i)), own(i))
          do j = 1, size(list)
             call add_quantity(page, list(j))
          end do
       end do
-   end subroutine add_contact
+   end subroutine add_pairs
 
    subroutine add_quantity(page, quantity)
       type(page_t), intent(inout) :: page

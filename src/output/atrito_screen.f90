@@ -6,7 +6,8 @@ module atrito_screen
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t, METHOD_NAME
-   use atrito_results, only: results_t, scene_t
+   use atrito_results, only: results_t, history_t, scene_t, last_frame
+   use atrito_increments, only: list_increments, has_history, increment_name, ending_text
    use atrito_model_report, only: describe_counts, describe_steps, is_history
    use atrito_row_tables, only: joined_text
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
@@ -37,24 +38,30 @@ contains
       if (size(model%heading) > 0) call add_line(page, left(model%heading(1)%s, page%width))
    end subroutine begin_deck_report
 
-   !> Composes the summary. folder and files: where the run was written.
-   subroutine compose_summary(model, results, folder, files, page, pictures)
+   !> Composes the summary: of a history its last increment. folder and files: where the run was written.
+   subroutine compose_summary(model, history, folder, files, page, pictures)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: files(:)        !< names without folder
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
+      integer :: extra
 
       call begin_deck_report(page, model, '')
       call add_rule(page, '-')
-      call add_verdict(page, results)
-      call add_sizes(page, model, results)
-      if (has_trail(results)) then                  ! the pairs of the last iterate say less than how it got there
-         call add_trail(page, results, SCREEN_LINES - page%n - 6 - extra_lines(files, present(pictures)))
-      else
-         call add_pairs(page, results, most_pairs(results, files, present(pictures)))
-      end if
+      associate (last => history%frames(last_frame(history)))
+         call add_verdict(page, last, ending_text(history))
+         call add_sizes(page, model, last)
+         if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
+         extra = extra_lines(files, present(pictures))
+         if (has_history(model, history)) extra = extra + merge(3, 1, history%ending%is_early)
+         if (has_trail(last)) then                  ! the pairs of the last iterate say less than how it got there
+            call add_trail(page, last, SCREEN_LINES - page%n - 6 - extra_lines(files, present(pictures)))
+         else
+            call add_pairs(page, last, most_pairs(last, extra))
+         end if
+      end associate
       call add_rule(page, '-')
       call add_closing(page, folder, files)
       if (present(pictures)) then
@@ -63,10 +70,31 @@ contains
       call add_rule(page, '=')
    end subroutine compose_summary
 
-   subroutine add_verdict(page, results)
+   !> `2 steps, 7 increments; the last is step 2, increment 4, time 2`
+   function history_text(model, history) result(text)
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      character(len=:), allocatable :: text
+
+      text = plural(size(model%steps, kind=ip), 'step', 'steps')//', '// &
+             plural(size(list_increments(history), kind=ip), 'increment', 'increments')//'; below: '
+      associate (last => history%frames(last_frame(history)))
+         text = text//increment_name(last%step, last%increment, last%time)
+      end associate
+   end function history_text
+
+   subroutine add_verdict(page, results, ending)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: ending        !< of a history that ended early; '' of others
+      integer :: colon
 
+      if (len(ending) > 0) then
+         colon = index(ending//': ', ': ')
+         call add_line(page, left('NOT CONVERGED: '//ending(:colon - 1), WIDTH))
+         call add_line(page, left(ending(min(len(ending) + 1, colon + 2):), WIDTH))
+         return
+      end if
       if (results%converged .and. results%law_holds) return
       call add_line(page, 'NOT CONVERGED: the tables hold the last iterate, not a solution.')
       if (allocated(results%verdict)) call add_line(page, left(results%verdict, WIDTH))
@@ -174,17 +202,17 @@ contains
    end function large_text
 
    !> How many pairs leave the rest its place: a verdict takes two lines, a field file one.
-   pure integer(ip) function most_pairs(results, files, has_pictures) result(most)
+   pure integer(ip) function most_pairs(results, others) result(most)
       type(results_t), intent(in) :: results
-      type(string_t), intent(in) :: files(:)
-      logical, intent(in) :: has_pictures
+      integer, intent(in) :: others                 !< lines of pictures, field files and the history
       integer :: extra
 
       extra = merge(1, 2, results%converged .and. results%law_holds)  ! the estimated error, or what is wrong
-      extra = extra + extra_lines(files, has_pictures)
+      extra = extra + others
       if (is_large(results)) extra = extra + 1
       most = 2
       if (extra > 2) most = 1
+      if (others > 3) most = 0                       ! an end before the end takes three lines
    end function most_pairs
 
    !> Lines of pictures and field files.
@@ -264,6 +292,10 @@ contains
       if (pair_count(results) == 0) return
       shown = min(size(results%contact, kind=ip), most)
       call add_rule(page, '-')
+      if (shown == 0) then
+         call add_line(page, plural(pair_count(results), 'contact pair', 'contact pairs')//': in the listing')
+         return
+      end if
       call add_line(page, row_text('', 'effective', 'max. p /', 'max. p /', 'resultant'))
       call add_line(page, row_text('contact pair', 'area [%]', 'uniform', 'triangular', 'from end [L]'))
       do i = 1, shown

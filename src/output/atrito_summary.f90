@@ -4,12 +4,13 @@ module atrito_summary
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string
    use atrito_model, only: model_t
-   use atrito_results, only: results_t, scene_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
+   use atrito_results, only: results_t, history_t, scene_t, contact_result_t, POINT_OPEN, POINT_STICK, POINT_SLIP
    use atrito_threads, only: is_shared
    implicit none (type, external)
    private
    public :: pair_summary_t, quantity_t, scales_t
    public :: summarise_pair, pair_quantities, step_quantities, quantity_names, measure_fields, scales_of_pair
+   public :: measure_history, pair_scales
    public :: pair_count, pair_name, body_count
 
    !> What the contact tractions of one pair come to.
@@ -209,6 +210,43 @@ contains
       own%displacement = own%slip
       if (allocated(contact%u)) own%displacement = max(own%displacement, maxval(abs(contact%u)))
    end function scales_of_pair
+
+   !> The scales of a history: what is rounding beside the largest value of any of its frames is rounding in all of them.
+   function measure_history(model, history) result(scales)
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      type(scales_t) :: scales
+      integer :: i
+
+      do i = 1, size(history%frames)
+         scales = larger(scales, measure_fields(model, history%frames(i)))
+      end do
+   end function measure_history
+
+   !> The scales of each pair's fields over all frames.
+   pure function pair_scales(scales, history) result(own)
+      type(scales_t), intent(in) :: scales           !< of the history
+      type(history_t), intent(in) :: history
+      type(scales_t), allocatable :: own(:)
+      type(scales_t) :: one
+      integer(ip) :: i, pair
+
+      allocate (own(pair_count(history%frames(1))))
+      do pair = 1, size(own, kind=ip)
+         own(pair) = scales_of_pair(scales, history%frames(1)%contact(pair))
+         do i = 2, size(history%frames, kind=ip)
+            one = scales_of_pair(scales, history%frames(i)%contact(pair))
+            own(pair) = larger(own(pair), one)
+         end do
+      end do
+   end function pair_scales
+
+   pure type(scales_t) function larger(a, b)
+      type(scales_t), intent(in) :: a, b
+
+      larger = scales_t(max(a%length, b%length), max(a%displacement, b%displacement), max(a%slip, b%slip), &
+                        max(a%pressure, b%pressure), max(a%stress, b%stress), max(a%force, b%force), max(a%area, b%area))
+   end function larger
 
    pure integer(ip) function pair_count(results)
       type(results_t), intent(in) :: results

@@ -9,12 +9,14 @@ module atrito_write_fields
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_set_t, text_file_t, reserve_file, open_text, put_line, close_text
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t
-   use atrito_results, only: results_t, contact_result_t
+   use atrito_model, only: model_t, is_due
+   use atrito_results, only: results_t, history_t, contact_result_t, last_frame
    use atrito_table, only: origin_t
-   use atrito_write_tables, only: origin_of, stress_rows
+   use atrito_frame_tables, only: stress_rows
+   use atrito_increments, only: ending_text, time_text
+   use atrito_write_tables, only: origin_of
    use atrito_hdf5, only: hdf5_file_t, open_hdf5, begin_dataset, put_row, put_attribute, close_hdf5
-   use atrito_xdmf, only: xdmf_grid_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
+   use atrito_xdmf, only: xdmf_grid_t, xdmf_frame_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
    implicit none (type, external)
    private
    public :: write_fields, list_field_files
@@ -33,56 +35,118 @@ contains
    !> Writes both files into a set, when the deck asks for fields; the HDF5 library is not touched otherwise.
    !>
    !> status: STATUS_FILE when one could not be written.
-   subroutine write_fields(model, results, set, status)
+   subroutine write_fields(model, history, set, status)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
-      type(xdmf_grid_t), allocatable :: grids(:)
+      type(xdmf_grid_t), allocatable :: mesh_grids(:)
+      type(xdmf_frame_t), allocatable :: frames(:)
       type(hdf5_file_t) :: file
       type(string_t) :: names(2)
       character(len=:), allocatable :: path
+      integer(ip), allocatable :: due(:)
+      integer :: i
 
-      associate (fields => model%steps(results%step)%requests%fields)
-         if (.not. (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact)) return
-      end associate
+      due = due_frames(model, history)
+      if (size(due) == 0) return
       names = list_field_files(model)
       call reserve_file(set, names(1)%s, path)
       call open_hdf5(path, set%folder//'/'//names(1)%s, file)
-      call put_origin(file, model, results)
-      call put_mesh(file, model%mesh, grids)
-      call put_nodal_fields(file, model, results, grids)
-      if (model%steps(results%step)%requests%fields%stress) call put_stress_points(file, model, results, grids)
-      if (model%steps(results%step)%requests%fields%contact) call put_pairs(file, results, grids)
+      call put_origin(file, model, history)
+      call put_mesh(file, model%mesh, mesh_grids)
+      call put_increments(file, history, due)
+      allocate (frames(size(due)))
+      do i = 1, size(due)
+         frames(i)%grids = mesh_grids
+         call put_frame(file, model, history%frames(due(i)), frames(i))
+      end do
       call close_hdf5(file, status)
-      if (is_ok(status)) call write_xdmf(names, results, grids, set, status)
+      if (is_ok(status)) call write_xdmf(names, warning_of(history), frames, set, status)
    end subroutine write_fields
 
+   !> Places of the frames that are in the file: those whose step asks for fields and that are due, and the last, whatever it is.
+   pure function due_frames(model, history) result(list)
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      integer(ip), allocatable :: list(:)
+      logical :: is_in(size(history%frames))
+      integer(ip) :: i, n
+
+      n = size(history%frames, kind=ip)
+      do i = 1, n
+         associate (frame => history%frames(i), requests => model%steps(history%frames(i)%step)%requests)
+            is_in(i) = requests%fields%nodes .or. requests%fields%reactions .or. requests%fields%stress .or. &
+                       requests%fields%contact
+            is_in(i) = is_in(i) .and. (i == n .or. is_due(requests%every%fields, frame%increment, frame%ends_step))
+         end associate
+      end do
+      list = pack([(i, i=1, n)], is_in)
+   end function due_frames
+
    !> The attributes of the whole file.
-   subroutine put_origin(file, model, results)
+   subroutine put_origin(file, model, history)
       type(hdf5_file_t), intent(inout) :: file
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       type(origin_t) :: origin
 
-      origin = origin_of(model, results)
+      origin = origin_of(model, history)
       call put_attribute(file, '/', 'program', PROGRAM_NAME//' '//PROGRAM_VERSION)
       call put_attribute(file, '/', 'deck', origin%deck)
       call put_attribute(file, '/', 'heading', join(origin%heading, achar(10)))
       call put_attribute(file, '/', 'converged', merge(0_ip, 1_ip, origin%not_converged))
-      if (origin%not_converged) call put_attribute(file, '/', 'NOT CONVERGED', warning_of(results))
+      if (origin%not_converged) call put_attribute(file, '/', 'NOT CONVERGED', warning_of(history))
    end subroutine put_origin
 
-   !> Why a run did not converge; '' when it did.
-   pure function warning_of(results) result(text)
-      type(results_t), intent(in) :: results
+   !> Why a run did not converge, or where its history ended; '' when all went well.
+   function warning_of(history) result(text)
+      type(history_t), intent(in) :: history
       character(len=:), allocatable :: text
 
       text = ''
-      if (results%converged .and. results%law_holds) return
-      text = 'the last iterate, not a solution'
-      if (allocated(results%verdict)) text = text//': '//results%verdict
+      if (history%ending%is_early) then
+         text = ending_text(history)
+         return
+      end if
+      associate (last => history%frames(last_frame(history)))
+         if (last%converged .and. last%law_holds) return
+         text = 'the last iterate, not a solution'
+         if (allocated(last%verdict)) text = text//': '//last%verdict
+      end associate
    end function warning_of
+
+   !> Which increments there are, and at what time: a row each.
+   subroutine put_increments(file, history, due)
+      type(hdf5_file_t), intent(inout) :: file
+      type(history_t), intent(in) :: history
+      integer(ip), intent(in) :: due(:)                !< places of the frames
+      integer :: i, n
+
+      n = size(due)
+      call put_integers(file, '/increments/step', 'number of the step', [(history%frames(due(i))%step, i=1, n)])
+      call put_integers(file, '/increments/increment', 'number of the increment in its step', &
+                        [(history%frames(due(i))%increment, i=1, n)])
+      call begin_dataset(file, '/increments/time', 1_ip, int(n, ip), .true., 'time of the history', '-')
+      do i = 1, n
+         call put_row(file, [history%frames(due(i))%time])
+      end do
+   end subroutine put_increments
+
+   !> The fields of one increment, into its own group.
+   subroutine put_frame(file, model, results, frame)
+      type(hdf5_file_t), intent(inout) :: file
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(xdmf_frame_t), intent(inout) :: frame       !< has the grids of the mesh
+
+      frame%name = 'step '//to_text(results%step)
+      if (.not. results%ends_step) frame%name = frame%name//', increment '//to_text(results%increment)
+      frame%time = time_text(results%time)
+      call put_nodal_fields(file, model, results, frame%grids)
+      if (model%steps(results%step)%requests%fields%stress) call put_stress_points(file, model, results, frame%grids)
+      if (model%steps(results%step)%requests%fields%contact) call put_pairs(file, results, frame%grids)
+   end subroutine put_frame
 
    !> Coordinates and numbers of the nodes; the elements of each shape as a grid.
    subroutine put_mesh(file, mesh, grids)
@@ -146,7 +210,7 @@ contains
       logical, allocatable :: mask(:)
       integer(ip) :: k
 
-      group = step_group(results)//'/nodes/'
+      group = frame_group(results)//'/nodes/'
       associate (fields => model%steps(results%step)%requests%fields)
          if (fields%nodes) then
             call put_vectors(file, group//'U', 'displacement', 'L', results%u, fields%node_u)
@@ -165,12 +229,14 @@ contains
       end associate
    end subroutine put_nodal_fields
 
-   pure function step_group(results) result(path)
+   !> Where the fields of an increment are: /step_2 of that which ends the step, else /step_2/increment_5.
+   pure function frame_group(results) result(path)
       type(results_t), intent(in) :: results
       character(len=:), allocatable :: path
 
       path = '/step_'//to_text(results%step)
-   end function step_group
+      if (.not. results%ends_step) path = path//'/increment_'//to_text(results%increment)
+   end function frame_group
 
    !> A field of the nodes belongs to the grids of all shapes.
    pure subroutine enter_nodal(grids, path, n_components)
@@ -247,7 +313,7 @@ contains
       row = stress_rows(results, model%steps(results%step)%requests%fields%element_s)
       n = size(row, kind=ip)
       if (n == 0) return
-      group = step_group(results)//'/stress_points/'
+      group = frame_group(results)//'/stress_points/'
       call begin_grid(grid, 'stress points', 'Polyvertex', group//'cells', [n, 1_ip, n], group//'coordinates')
       call put_integers(file, group//'cells', 'rows of the points, counted from 0', [(i, i=0, n - 1)])
       call begin_dataset(file, group//'coordinates', 2_ip, n, .true., 'x and y, reference place', 'L')
@@ -281,7 +347,7 @@ contains
       do i = 1, size(results%contact, kind=ip)
          if (results%contact(i)%n == 0) cycle
          n = n + 1
-         group = step_group(results)//'/pair_'//to_text(i)
+         group = frame_group(results)//'/pair_'//to_text(i)
          call put_slave_line(file, group//'/', 'pair '//to_text(i), results%contact(i), lines(n))
          call put_contact(file, group//'/', results%contact(i), lines(n))
          call put_vectors(file, group//'/U', 'displacement of the slave', 'L', results%contact(i)%u(:, :results%contact(i)%n))
@@ -335,6 +401,11 @@ contains
          call put_reals(file, group//'slip', 'u_T', 'L', contact%slip(:n), grid)
          call put_integers(file, group//'status', '0 open, 1 stick, 2 slip', contact%status(:n), grid)
          call put_reals(file, group//'weight', 'quadrature weight times thickness', 'L^2', contact%weight(:n), grid)
+         if (allocated(contact%slip_increment)) then
+            call put_reals(file, group//'slip_increment', 'u_T since the increment before', 'L', contact%slip_increment(:n), grid)
+         else
+            call put_reals(file, group//'slip_increment', 'u_T since the increment before', 'L', contact%slip(:n), grid)
+         end if
       end associate
    end subroutine put_contact
 
@@ -398,17 +469,17 @@ contains
       if (present(grid)) call add_field(grid, path, 1_ip, .false., CENTRE_NODE)
    end subroutine put_integers
 
-   subroutine write_xdmf(names, results, grids, set, status)
+   subroutine write_xdmf(names, warning, frames, set, status)
       type(string_t), intent(in) :: names(:)           !< list_field_files
-      type(results_t), intent(in) :: results
-      type(xdmf_grid_t), intent(in) :: grids(:)
+      character(len=*), intent(in) :: warning
+      type(xdmf_frame_t), intent(in) :: frames(:)
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
       type(string_t), allocatable :: lines(:)
       type(text_file_t) :: file
       integer :: i
 
-      call compose_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning_of(results), results%step, names(1)%s, grids, lines)
+      call compose_xdmf(PROGRAM_NAME//' '//PROGRAM_VERSION, warning, names(1)%s, frames, lines)
       call open_text(set, names(2)%s, file)
       do i = 1, size(lines)
          call put_line(file, lines(i)%s)

@@ -5,7 +5,7 @@ module atrito_write_results
    use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
-   use atrito_results, only: results_t
+   use atrito_results, only: history_t
    use atrito_write_tables, only: write_tables, write_timing, list_table_files
    use atrito_write_fields, only: write_fields, list_field_files
    use atrito_listing, only: write_listing
@@ -20,9 +20,9 @@ contains
    !> does not write, its pictures too.
    !>
    !> status: STATUS_FILE, and then what the folder held before is untouched.
-   subroutine write_results(model, results, digits, folder, written, status, pictures)
+   subroutine write_results(model, history, digits, folder, written, status, pictures)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history            !< with frames
       integer, intent(in) :: digits                     !< significant digits of the tables, 6..17
       character(len=*), intent(in) :: folder
       type(string_t), allocatable, intent(out) :: written(:) !< names of the files, without folder
@@ -34,12 +34,12 @@ contains
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
       call start_phase('write')
-      call write_tables(model, results, digits, set, status)
-      if (is_ok(status)) call write_fields(model, results, set, status)
+      call write_tables(model, history, digits, set, status)
+      if (is_ok(status)) call write_fields(model, history, set, status)
       call stop_phase('write')
       ! these two tell the time, that of writing the tables included
-      if (is_ok(status)) call write_timing(model, results, digits, set, status)
-      if (is_ok(status)) call write_listing(model, results, set, status, pictures)
+      if (is_ok(status)) call write_timing(model, history, digits, set, status)
+      if (is_ok(status)) call write_listing(model, history, set, status, pictures)
       call end_files(set, status, [list_table_files(), list_field_files(model)])
       if (.not. is_ok(status)) return
       written = set%names

@@ -4,7 +4,7 @@ module atrito_xdmf
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
    private
-   public :: xdmf_grid_t, xdmf_field_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
+   public :: xdmf_grid_t, xdmf_field_t, xdmf_frame_t, begin_grid, add_field, compose_xdmf, CENTRE_NODE, CENTRE_CELL
 
    character(len=*), parameter :: CENTRE_NODE = 'Node', CENTRE_CELL = 'Cell'
 
@@ -25,6 +25,13 @@ module atrito_xdmf
       integer(ip) :: n_cells = 0, nodes_per_cell = 0, n_points = 0
       type(xdmf_field_t), allocatable :: fields(:)
    end type xdmf_grid_t
+
+   !> What there is at one time.
+   type :: xdmf_frame_t
+      character(len=:), allocatable :: name
+      character(len=:), allocatable :: time            !< of the history, a number as text
+      type(xdmf_grid_t), allocatable :: grids(:)
+   end type xdmf_frame_t
 
 contains
 
@@ -66,13 +73,12 @@ contains
       call move_alloc(longer, grid%fields)
    end subroutine add_field
 
-   !> Composes the file: the grids of one step.
-   subroutine compose_xdmf(program, warning, step, data_file, grids, lines)
+   !> Composes the file: a collection over time, each time with its grids.
+   subroutine compose_xdmf(program, warning, data_file, frames, lines)
       character(len=*), intent(in) :: program          !< name and version
       character(len=*), intent(in) :: warning          !< why the run did not converge; '' when it did
-      integer(ip), intent(in) :: step
       character(len=*), intent(in) :: data_file        !< the HDF5 file, without folder
-      type(xdmf_grid_t), intent(in) :: grids(:)
+      type(xdmf_frame_t), intent(in) :: frames(:)
       type(string_t), allocatable, intent(out) :: lines(:)
       integer :: i
 
@@ -83,16 +89,27 @@ contains
       call append_string(lines, information('program', program))
       if (len(warning) > 0) call append_string(lines, information('NOT CONVERGED', warning))
       call append_string(lines, '<Grid Name="steps" GridType="Collection" CollectionType="Temporal">')
-      call append_string(lines, '<Grid Name="step '//to_text(step)//'" GridType="Collection" CollectionType="Spatial">')
-      call append_string(lines, '<Time Value="'//to_text(step)//'"/>')
-      do i = 1, size(grids)
-         call add_grid(data_file, grids(i), lines)
+      do i = 1, size(frames)
+         call add_frame(data_file, frames(i), lines)
       end do
-      call append_string(lines, '</Grid>')
       call append_string(lines, '</Grid>')
       call append_string(lines, '</Domain>')
       call append_string(lines, '</Xdmf>')
    end subroutine compose_xdmf
+
+   subroutine add_frame(data_file, frame, lines)
+      character(len=*), intent(in) :: data_file
+      type(xdmf_frame_t), intent(in) :: frame
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      integer :: i
+
+      call append_string(lines, '<Grid Name="'//frame%name//'" GridType="Collection" CollectionType="Spatial">')
+      call append_string(lines, '<Time Value="'//frame%time//'"/>')
+      do i = 1, size(frame%grids)
+         call add_grid(data_file, frame%grids(i), lines)
+      end do
+      call append_string(lines, '</Grid>')
+   end subroutine add_frame
 
    pure function information(name, value) result(line)
       character(len=*), intent(in) :: name, value

@@ -47,7 +47,9 @@ contains
       law = model%interactions(model%pairs(pair)%interaction)
       friction = results%contact(pair)%has_friction .and. law%friction /= FRICTION_NONE
       call begin_script(set, name, 'contact pair '//to_text(pair)//' along s', file)
-      call put_contact_columns(file, pair, ', 12 status (0 open, 1 stick, 2 slip)')
+      call put_line(file, 'step = '//to_text(results%step))
+      call put_line(file, 'increment = '//to_text(results%increment))
+      call put_contact_columns(file, pair, ', 12 status (0 open, 1 stick, 2 slip)', 'step', 'increment')
       call put_line(file, 'marked(c, status) = column(12) == status ? col(c) : NaN')
       call put_line(file, 'table = "../contact.tab"')
       call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
@@ -63,16 +65,18 @@ contains
       call end_script(file, status)
    end subroutine write_contact_plot
 
-   !> What the columns of contact.tab are, and a function that takes those of one pair.
-   subroutine put_contact_columns(file, pair, and_status)
+   !> What the columns of contact.tab are, and a function that takes those of one pair in one increment.
+   subroutine put_contact_columns(file, pair, and_status, step, increment)
       type(text_file_t), intent(inout) :: file
       integer(ip), intent(in) :: pair
       character(len=*), intent(in) :: and_status    !< what is said of the status; empty where it is not drawn
+      character(len=*), intent(in) :: step, increment !< what gnuplot knows them by
 
       call put_line(file, '# Columns of contact.tab: 2 pair, 4 s [L], 7 gap [L], 8 pressure [F/L^2], 9 weighted pressure [F/L^2],')
-      call put_line(file, '# 10 shear [F/L^2], 11 slip [L]'//and_status)
+      call put_line(file, '# 10 shear [F/L^2], 11 slip [L]'//and_status//', 1 step, 15 increment')
       call put_line(file, 'pair = '//to_text(pair))
-      call put_line(file, 'col(c) = column(2) == pair ? column(c)/unit : NaN')
+      call put_line(file, 'is_shown(t, k) = column(2) == pair && column(1) == t && column(15) == k')
+      call put_line(file, 'col(c) = is_shown('//step//', '//increment//') ? column(c)/unit : NaN')
    end subroutine put_contact_columns
 
    pure function pair_title(results, pair) result(text)

@@ -34,6 +34,7 @@ module atrito_overlay_data
       real(wp) :: value = 0.0_wp                   !< of the parameter that varies, when there is one
       logical :: has_tables = .false.              !< contact.tab can be read
       logical :: not_converged = .false.
+      integer(ip) :: step = 1, increment = 1       !< the last of contact.tab, which is drawn
       real(wp), allocatable :: quantity(:, :)      !< (N_QUANTITIES, pairs): of summary.tab; not allocated: there is none
    end type overlay_run_t
 
@@ -84,7 +85,8 @@ contains
             if (.not. is_ok(status)) cycle
             run%not_converged = table%not_converged
             if (len(overlay%title) == 0) overlay%title = heading_of(table%text)
-            call cover_run(table, overlay%pairs)
+            call find_last(table, run)
+            call cover_run(table, run, overlay%pairs)
             call read_table(run%path//'/summary.tab', table, status)
             if (is_ok(status)) call take_quantities(table, run)
          end associate
@@ -106,9 +108,30 @@ contains
       if (length > 0) heading = trim(text(first:first + length - 1))
    end function heading_of
 
-   !> Widens the ranges of the pairs by those of a run.
-   subroutine cover_run(table, pairs)
+   !> The last increment of a table.
+   pure subroutine find_last(table, run)
       type(table_file_t), intent(in) :: table
+      type(overlay_run_t), intent(inout) :: run
+
+      if (table%n_rows == 0 .or. min(find_column(table, 'step'), find_column(table, 'increment')) == 0) return
+      run%step = nint(table%value(find_column(table, 'step'), table%n_rows), ip)
+      run%increment = nint(table%value(find_column(table, 'increment'), table%n_rows), ip)
+   end subroutine find_last
+
+   !> Whether a row is of the increment that is drawn.
+   pure logical function is_shown(table, run, row)
+      type(table_file_t), intent(in) :: table
+      type(overlay_run_t), intent(in) :: run
+      integer(ip), intent(in) :: row
+
+      is_shown = nint(table%value(find_column(table, 'step'), row), ip) == run%step .and. &
+                 nint(table%value(find_column(table, 'increment'), row), ip) == run%increment
+   end function is_shown
+
+   !> Widens the ranges of the pairs by those of a run.
+   subroutine cover_run(table, run, pairs)
+      type(table_file_t), intent(in) :: table
+      type(overlay_run_t), intent(in) :: run
       type(overlay_pair_t), allocatable, intent(inout) :: pairs(:)
       integer(ip) :: pair, c(N_FIELDS), c_pair, c_s, row, i, n
       integer(ip), allocatable :: n_points(:)
@@ -118,13 +141,14 @@ contains
       do i = 1, N_FIELDS
          c(i) = find_column(table, trim(FIELD_NAME(i)))
       end do
-      if (min(c_pair, c_s, minval(c)) == 0 .or. table%n_rows == 0) return
+      if (min(c_pair, c_s, minval(c), find_column(table, 'step'), find_column(table, 'increment')) == 0) return
+      if (table%n_rows == 0) return
       n = maxval(nint(table%value(c_pair, :), ip))
       if (n > size(pairs)) pairs = [pairs, spread(overlay_pair_t(), 1, n - size(pairs))]
       allocate (n_points(size(pairs)), source=0_ip)
       do row = 1, table%n_rows
          pair = nint(table%value(c_pair, row), ip)
-         if (pair < 1) cycle
+         if (pair < 1 .or. .not. is_shown(table, run, row)) cycle
          n_points(pair) = n_points(pair) + 1
          call cover_point(pairs(pair), table%value(c_s, row), table%value(c, row))
       end do

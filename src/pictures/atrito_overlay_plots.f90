@@ -139,7 +139,7 @@ contains
       label_width = maxval([(len(overlay%runs(i)%label), i=1, size(overlay%runs))])
       fields = shown_fields(overlay%pairs(number))
       call begin_script(set, name, 'contact pair '//to_text(number)//' of several runs along s', file)
-      call put_contact_columns(file, number, '')
+      call put_contact_columns(file, number, '', 'last_step[i]', 'last_increment[i]')
       call put_runs(file, overlay%runs)
       call put_line(file, 'heading = '//quoted(overlay%title))
       call put_line(file, 'pair_line = '//quoted('pair '//to_text(number)//doubt_text(overlay%runs)))
@@ -200,10 +200,12 @@ contains
 
       call put_line(file, 'runs = '//to_text(size(list, kind=ip)))
       call put_line(file, 'array folder[runs]; array label[runs]; array value_of[runs]')
+      call put_line(file, 'array last_step[runs]; array last_increment[runs]')
       do i = 1, size(list, kind=ip)
          k = '['//to_text(i)//'] = '
          call put_line(file, 'folder'//k//quoted(list(i)%from_plots)//'; label'//k//quoted(list(i)%label)//'; value_of'//k// &
                        trimmed_real(list(i)%value, 12))
+         call put_line(file, 'last_step'//k//to_text(list(i)%step)//'; last_increment'//k//to_text(list(i)%increment))
       end do
       call put_line(file, 'table(i) = folder[i]."/contact.tab"')
    end subroutine put_runs

@@ -1,13 +1,14 @@
 !> `atrito compare`: are two tables, or two folders of them, the same?
 !>
-!> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column (of its row in summary.tab; of its contact pair
-!> for pressure, shear and slip; of a family of columns in bodies.tab and joints.tab). Integers and words must be equal; nan equals
-!> nan. timing and iterations are left out; the equilibrium residual must be small in both.
+!> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column over all increments; of its quantity and pair in
+!> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in
+!> bodies.tab, joints.tab and history.tab. Integers and words must be equal; nan equals nan. timing and iterations are left out;
+!> the equilibrium residual must be small in both.
 module atrito_compare
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text, join
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE, STATUS_OK, STATUS_USAGE
-   use atrito_column_scales, only: kind_of, columns_of_scale, largest_number, moment_scale, is_number
+   use atrito_column_scales, only: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
    use atrito_files, only: file_exists, is_folder
    use atrito_page, only: page_t, begin_page, add_line, plural
    use atrito_read_table, only: table_file_t, read_table, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_NAN
@@ -198,62 +199,19 @@ contains
       integer(ip), intent(in) :: i, j               !< the column in a and in b
       type(comparison_t), intent(inout) :: comparison
       integer(ip), allocatable :: of_a(:), of_b(:)
-      real(wp) :: scale
+      real(wp) :: scale(a%n_rows)
       logical :: exact, by_pair
-      integer(ip) :: row, first, last
+      integer(ip) :: row
 
       of_a = columns_of_scale(a, i)
       of_b = columns_of_scale(b, j)
       exact = is_integer_column(a, i, 1_ip, a%n_rows) .or. is_integer_column(b, j, 1_ip, b%n_rows)
       by_pair = is_of_pair(a, i) .and. is_of_pair(b, j)
-      first = 1
-      do while (first <= a%n_rows)
-         last = a%n_rows
-         if (by_pair) last = last_row_of_pair(a, first)
-         scale = max(largest_number(a, of_a, first, last), largest_number(b, of_b, first, last), moment_scale(a, i), &
-                     moment_scale(b, j))
-         do row = first, last
-            call compare_items(a, b, [i, row], [j, row], scale, exact, comparison)
-         end do
-         first = last + 1
+      scale = max(row_scales(a, of_a, by_pair), row_scales(b, of_b, by_pair), moment_scale(a, i), moment_scale(b, j))
+      do row = 1, a%n_rows
+         call compare_items(a, b, [i, row], [j, row], scale(row), exact, comparison)
       end do
    end subroutine compare_columns
-
-   !> Whether the scale of a column is that of each contact pair: stresses and slips of a weak pair have digits of their own.
-   pure logical function is_of_pair(table, column)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: column
-
-      select case (table%columns(column)%s)
-      case ('pressure', 'weighted_pressure', 'shear', 'slip')
-         is_of_pair = find_column(table, 'pair') > 0
-      case default
-         is_of_pair = .false.
-      end select
-   end function is_of_pair
-
-   !> The last of the rows with the step and the pair of row `first` that stand together.
-   pure integer(ip) function last_row_of_pair(table, first) result(last)
-      type(table_file_t), intent(in) :: table
-      integer(ip), intent(in) :: first
-
-      last = first
-      do while (last < table%n_rows)
-         if (.not. (same_item(table, 'pair', first, last + 1) .and. same_item(table, 'step', first, last + 1))) exit
-         last = last + 1
-      end do
-   end function last_row_of_pair
-
-   pure logical function same_item(table, name, row, other)
-      type(table_file_t), intent(in) :: table
-      character(len=*), intent(in) :: name
-      integer(ip), intent(in) :: row, other
-      integer(ip) :: column
-
-      column = find_column(table, name)
-      same_item = column == 0
-      if (.not. same_item) same_item = item_text(table, column, row) == item_text(table, column, other)
-   end function same_item
 
    !> All items are integers and not all are 0, which a column of reals may hold as well.
    pure logical function is_integer_column(table, column, first, last)
@@ -329,33 +287,51 @@ contains
       end if
    end function item_name
 
-   !> Rows are matched by their quantity, pair and step, and each is its own scale.
+   !> Rows are matched by their quantity, pair, increment and step.
    subroutine compare_summaries(a, b, comparison)
       type(table_file_t), intent(in) :: a, b
       type(comparison_t), intent(inout) :: comparison
+      type(string_t), allocatable :: keys(:)
+      real(wp) :: scale_a(a%n_rows), scale_b(b%n_rows)
       integer(ip) :: row, other
 
+      keys = common_keys(a, b)
+      scale_a = summary_scales(a)
+      scale_b = summary_scales(b)
       do row = 1, a%n_rows
-         other = find_row(b, row_key(a, row), row)
+         other = find_row(b, keys, row_key(a, keys, row), row)
          if (other == 0) then
-            call report(comparison, a%name//': '//row_key(a, row)//' is missing in the second')
+            call report(comparison, a%name//': '//row_key(a, keys, row)//' is missing in the second')
          else
-            call compare_quantity(a, b, row, other, comparison)
+            call compare_quantity(a, b, row, other, max(scale_a(row), scale_b(other)), comparison)
          end if
       end do
       do row = 1, b%n_rows
-         if (find_row(a, row_key(b, row), row) == 0) then
-            call report(comparison, a%name//': '//row_key(b, row)//' is missing in the first')
+         if (find_row(a, keys, row_key(b, keys, row), row) == 0) then
+            call report(comparison, a%name//': '//row_key(b, keys, row)//' is missing in the first')
          end if
       end do
    end subroutine compare_summaries
 
-   subroutine compare_quantity(a, b, row_a, row_b, comparison)
+   !> The columns by which rows of both summaries are known, beside the quantity.
+   pure function common_keys(a, b) result(keys)
+      type(table_file_t), intent(in) :: a, b
+      type(string_t), allocatable :: keys(:)
+      character(len=9), parameter :: NAMES(3) = ['step     ', 'increment', 'pair     ']
+      integer :: i
+
+      allocate (keys(0))
+      do i = 1, size(NAMES)
+         if (min(find_column(a, trim(NAMES(i))), find_column(b, trim(NAMES(i)))) > 0) call append_string(keys, trim(NAMES(i)))
+      end do
+   end function common_keys
+
+   subroutine compare_quantity(a, b, row_a, row_b, scale, comparison)
       type(table_file_t), intent(in) :: a, b
       integer(ip), intent(in) :: row_a, row_b
+      real(wp), intent(in) :: scale
       type(comparison_t), intent(inout) :: comparison
       integer(ip) :: i, j
-      real(wp) :: scale
       logical :: exact
 
       if (item_text(a, find_column(a, 'quantity'), row_a) == 'equilibrium_residual') then
@@ -368,7 +344,6 @@ contains
       end if
       i = find_column(a, 'value')
       j = find_column(b, 'value')
-      scale = max(largest_number(a, [i], row_a, row_a), largest_number(b, [j], row_b, row_b))
       exact = is_integer_column(a, i, row_a, row_a) .or. is_integer_column(b, j, row_b, row_b)
       call compare_items(a, b, [i, row_a], [j, row_b], scale, exact, comparison)
    end subroutine compare_quantity
@@ -383,35 +358,34 @@ contains
       if (is_small) is_small = abs(table%value(column, row)) < LARGEST_RESIDUAL
    end function is_small
 
-   !> `step 1, pair 0, strain_energy`: what a row of a summary is known by.
-   pure function row_key(table, row) result(key)
+   !> `step 1, increment 1, pair 0, strain_energy`: what a row of a summary is known by.
+   pure function row_key(table, keys, row) result(key)
       type(table_file_t), intent(in) :: table
+      type(string_t), intent(in) :: keys(:)
       integer(ip), intent(in) :: row
       character(len=:), allocatable :: key
-      character(len=4), parameter :: KEYS(2) = ['step', 'pair']
-      integer(ip) :: column
       integer :: i
 
       key = ''
-      do i = 1, size(KEYS)
-         column = find_column(table, KEYS(i))
-         if (column > 0) key = key//KEYS(i)//' '//item_text(table, column, row)//', '
+      do i = 1, size(keys)
+         key = key//keys(i)%s//' '//item_text(table, find_column(table, keys(i)%s), row)//', '
       end do
       key = key//item_text(table, find_column(table, 'quantity'), row)
    end function row_key
 
    !> Row of a key, looked for first where it is expected; 0 when there is none.
-   pure integer(ip) function find_row(table, key, expected) result(row)
+   pure integer(ip) function find_row(table, keys, key, expected) result(row)
       type(table_file_t), intent(in) :: table
+      type(string_t), intent(in) :: keys(:)
       character(len=*), intent(in) :: key
       integer(ip), intent(in) :: expected
 
       row = expected
       if (row <= table%n_rows) then
-         if (row_key(table, row) == key) return
+         if (row_key(table, keys, row) == key) return
       end if
       do row = 1, table%n_rows
-         if (row_key(table, row) == key) return
+         if (row_key(table, keys, row) == key) return
       end do
       row = 0
    end function find_row

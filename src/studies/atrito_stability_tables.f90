@@ -5,7 +5,8 @@ module atrito_stability_tables
    use atrito_stability_result, only: stability_t, CODE_NOT_RUN
    use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, append_string, to_text
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set, one_word
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, one_word
+   use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
    public :: write_stability, compose_stability

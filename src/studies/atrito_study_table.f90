@@ -5,7 +5,8 @@ module atrito_study_table
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, to_text
    use atrito_study_errors, only: study_t, phase_seconds, total_seconds, WALL, PROCESSOR
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words
+   use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
    public :: write_study, compose_study

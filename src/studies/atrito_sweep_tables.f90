@@ -5,7 +5,8 @@ module atrito_sweep_tables
    use atrito_read_table, only: table_file_t, read_table, find_column, item_text
    use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, append_string, join, to_text
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words, write_table_set
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words
+   use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
    public :: sweep_run_t, read_summary, row_of_quantity, write_sweep, compose_sweep
@@ -42,12 +43,12 @@ contains
       call read_table(folder//'/summary.tab', run%summary, status)
    end subroutine read_summary
 
-   !> The row of a quantity of the first pair, or of the step; 0 where the summary has none.
+   !> The row of a quantity of the first pair, or of the step, in the last increment; 0 where the summary has none.
    pure integer(ip) function row_of_quantity(summary, quantity) result(row)
       type(table_file_t), intent(in) :: summary
       character(len=*), intent(in) :: quantity
 
-      do row = 1, summary%n_rows
+      do row = last_increment(summary), summary%n_rows
          if (item_text(summary, find_column(summary, 'quantity'), row) == quantity) return
       end do
       row = 0
@@ -68,17 +69,33 @@ contains
       call write_table_set(folder, tables, origin, digits_of_tables, status)
    end subroutine write_sweep
 
+   !> The first row of the last increment.
+   pure integer(ip) function last_increment(summary) result(row)
+      type(table_file_t), intent(in) :: summary
+      integer(ip) :: step, increment
+
+      step = find_column(summary, 'step')
+      increment = find_column(summary, 'increment')
+      row = 1
+      if (min(step, increment) == 0) return
+      do row = summary%n_rows, 2, -1
+         if (item_text(summary, step, row - 1) /= item_text(summary, step, row)) return
+         if (item_text(summary, increment, row - 1) /= item_text(summary, increment, row)) return
+      end do
+      row = 1
+   end function last_increment
+
    !> The parameters, then the columns of summary.tab.
    subroutine build_sweep(names, runs, table)
       type(string_t), intent(in) :: names(:)
       type(sweep_run_t), intent(in) :: runs(:)
       type(table_t), intent(out) :: table
-      integer(ip), allocatable :: of_row(:), step(:), pair(:)
+      integer(ip), allocatable :: of_row(:), step(:), pair(:), increment(:)
       type(string_t), allocatable :: quantities(:), amounts(:)
       integer(ip) :: i, j, n
 
       n = sum(runs%summary%n_rows)
-      allocate (of_row(n), step(n), pair(n), quantities(n), amounts(n))
+      allocate (of_row(n), step(n), pair(n), increment(n), quantities(n), amounts(n))
       n = 0
       do i = 1, size(runs, kind=ip)
          associate (summary => runs(i)%summary)
@@ -87,6 +104,7 @@ contains
                of_row(n) = i
                step(n) = nint(summary%value(find_column(summary, 'step'), j), ip)
                pair(n) = nint(summary%value(find_column(summary, 'pair'), j), ip)
+               increment(n) = nint(summary%value(find_column(summary, 'increment'), j), ip)
                quantities(n)%s = item_text(summary, find_column(summary, 'quantity'), j)
                amounts(n)%s = item_text(summary, find_column(summary, 'value'), j)
             end do
@@ -100,6 +118,7 @@ contains
       call add_integers(table, 'pair', pair)
       call add_words(table, 'quantity', '-', quantities, on_the_left=.true.)
       call add_words(table, 'value', 'mixed', amounts, on_the_left=.false.)
+      call add_integers(table, 'increment', increment)
       do i = 1, size(runs, kind=ip)
          if (runs(i)%code == STATUS_OK) cycle
          call append_string(table%remarks, runs(i)%label//': exit code '//to_text(int(runs(i)%code, ip)))

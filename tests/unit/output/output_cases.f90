@@ -6,10 +6,10 @@ module output_cases
    use atrito_strings, only: string_t
    use atrito_mesh, only: add_node, add_element, trim_mesh
    use atrito_model, only: model_t, SURFACE_SEGMENTS, LOAD_PRESSURE, FRICTION_NONLOCAL
-   use atrito_results, only: results_t, contact_result_t
+   use atrito_results, only: results_t, history_t, contact_result_t
    implicit none (type, external)
    private
-   public :: make_model, make_results, make_contact, make_joints
+   public :: make_model, make_results, make_contact, make_joints, one_frame
 
 contains
 
@@ -100,6 +100,13 @@ contains
       allocate (results%iterations(2))
       results%iterations%outer = [1_ip, 2_ip]
    end subroutine make_results
+
+   !> A run of one increment.
+   pure type(history_t) function one_frame(results) result(history)
+      type(results_t), intent(in) :: results
+
+      history%frames = [results]
+   end function one_frame
 
    !> Two bodies, the second with what is rounding beside the first and what is not; three joints of the one pair, the last open.
    subroutine make_joints(results)

@@ -75,9 +75,10 @@ for name in ex1 ex3; do
    says "$name xdmf" $name/$name.xdmf "$name.h5:/step_1/pair_1/traction<"
    says "$name screen" $name.out "$name/$name.xdmf, with .h5"
    says "$name listing" $name/$name.lst "$name.xdmf, with .h5: U RF S contact"
-   # every dataset that the .xdmf names is there
+   # every dataset that the .xdmf names is there, and beside those the list of increments
    sed -n 's/.*\.h5:\([^<]*\)<.*/\1/p' $name/$name.xdmf | sort -u >named.txt
-   "$dataset" $name/$name.h5 | sort >there.txt
+   "$dataset" $name/$name.h5 | sort | grep -v '^/increments/' >there.txt
+   near "$name time" "$(rows $name /increments/time | awk '{ print $NF }')" 1 0
    cmp named.txt there.txt || complain "$name: the .xdmf does not name what the .h5 holds"
 done
 [ "$(attribute ex1 /step_1/pair_1 slave)" = OVER-BOTTOM ] || complain 'slave'

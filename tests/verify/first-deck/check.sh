@@ -15,7 +15,7 @@ all_near 's22' block/stress.tab s22 -10 1e-12
 near 'u2 of the top, q h/E' "$(column block/nodes.tab u2 | tail -n 1)" -0.01 1e-14
 near 'u1 of the right side, mu q b/E' "$(column block/nodes.tab u1 | tail -n 1)" 0.006 1e-14
 quoted 'solved 1 body, 32 elements, 45 nodes, 80 free displacements' block.out
-quoted ' 1 45 2.000000000e+00 1.000000000e+00 6.000000000e-03 -1.000000000e-02' block/nodes.tab
+quoted ' 1 45 2.000000000e+00 1.000000000e+00 6.000000000e-03 -1.000000000e-02 1' block/nodes.tab
 # every line of the deck but its comments and numbers is explained
 grep '^\*[A-Z]' "$input/lessons/block.inp" | while read -r line; do
    grep -qF -- "\`$line" "$page" || grep -qF -- "$line\`" "$page" || echo "$line"

@@ -31,7 +31,13 @@ drawn() {
       FNR == 1 { file++ }
       file == 1 && /^# columns:/ { for (i = 3; i <= NF; i++) name[i - 2] = $i }
       file == 1 { next }
-      /^col\(c\)/ || /^marked\(/ { match($0, /column\([0-9]+\)/); print "by " name[substr($0, RSTART + 7, RLENGTH - 8) + 0] }
+      /^is_shown\(/ || /^marked\(/ {
+         line = "by"
+         rest = $0
+         while (match(rest, /column\([0-9]+\)/)) {
+            line = line " " name[substr(rest, RSTART + 7, RLENGTH - 8) + 0]
+            rest = substr(rest, RSTART + RLENGTH) }
+         print line }
       /^set label 1 / { panel = $4; sub(/^"/, "", panel) }
       /^plot .*table/ {
          line = panel
@@ -68,13 +74,13 @@ run 0 "$ex1" told --plot
 [ "$have_gnuplot" = no ] || says 'summary' told.out 'plots in     told/plots: mesh contact-1'
 says 'listing' told/ex1-plate-on-support.lst 'mesh, contact-1'
 
-panels_draw 'contact' told/plots/contact-1.gp told/contact.tab 'by pair
+panels_draw 'contact' told/plots/contact-1.gp told/contact.tab 'by pair step increment
 by status
 pressure s:pressure s:weighted_pressure
 shear s:shear s:weighted_pressure
 slip s:slip
 gap s:gap'
-panels_draw 'contact without friction' ex1-plate-on-support-0/plots/contact-1.gp ex1-plate-on-support-0/contact.tab 'by pair
+panels_draw 'contact without friction' ex1-plate-on-support-0/plots/contact-1.gp ex1-plate-on-support-0/contact.tab 'by pair step increment
 by status
 pressure s:pressure
 gap s:gap'
@@ -174,7 +180,7 @@ says 'no folder' again.err 'warning [W-PLOT] no plots are written: without/plots
 # sweeps: a legend up to ten runs, then a palette; a picture against one parameter
 "$atrito" sweep "$ex1" --vary nu=0,0.1,0.3 --plot --quiet -o sweep 2>sweep.err || complain 'the sweep failed'
 pictures sweep overlay-1 overlay-summary
-panels_draw 'overlay' sweep/plots/overlay-1.gp told/contact.tab 'by pair
+panels_draw 'overlay' sweep/plots/overlay-1.gp told/contact.tab 'by pair step increment
 pressure s:pressure
 shear s:shear
 slip s:slip

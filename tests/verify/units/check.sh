@@ -6,7 +6,7 @@ compare_with() { # NAME L F: the same in other units
    s=$(awk -v l="$2" -v f="$3" 'BEGIN { printf "%.17g", f/l/l }')
    a=$(awk -v l="$2" 'BEGIN { printf "%.17g", l*l }')
    e=$(awk -v l="$2" -v f="$3" 'BEGIN { printf "%.17g", l*f }')
-   same_tables "$1 contact" m/contact.tab "$1/contact.tab" 1e-12 s=$l x=$l y=$l gap=$l slip=$l pressure=$s \
+   same_tables "$1 contact" m/contact.tab "$1/contact.tab" 1e-12 s=$l x=$l y=$l gap=$l slip=$l slip_increment=$l pressure=$s \
       weighted_pressure=$s shear=$s weight=$a
    same_tables "$1 nodes" m/nodes.tab "$1/nodes.tab" 1e-12 x=$l y=$l u1=$l u2=$l
    same_tables "$1 reactions" m/reactions.tab "$1/reactions.tab" 1e-12 r1=$3 r2=$3

@@ -1,0 +1,360 @@
+!> The tables with rows of one increment each, docs/user/tables.md: contact, nodes, reactions, stress, bodies, joints, and by
+!> atrito_row_tables ties, equations, springs.
+module atrito_frame_tables
+   use atrito_kinds, only: ip, wp
+   use atrito_plane_state, only: STRESS_NAMES
+   use atrito_strings, only: string_t
+   use atrito_model, only: model_t, requests_t, is_due
+   use atrito_results, only: results_t, history_t, contact_result_t, body_motion_t
+   use atrito_row_tables, only: has_rows, build_row_table
+   use atrito_summary, only: scales_t, pair_count
+   use atrito_table, only: table_t, begin_table, add_reals, add_real_columns, add_field, add_integers, add_integer_field, &
+                           add_words, clear_small, one_word
+   implicit none (type, external)
+   private
+   public :: due_frames, build_frame_table, stress_rows
+
+   !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
+   integer, parameter :: BEFORE_STATUS = 8
+   character(len=17), parameter :: CONTACT_NAMES(*) = [character(len=17) :: 's', 'x', 'y', 'gap', 'pressure', &
+                                                                                   'weighted_pressure', 'shear', 'slip', 'weight', &
+                                                                                                                   'slip_increment']
+   character(len=5), parameter :: CONTACT_DIMENSIONS(*) = [character(len=5) :: 'L', 'L', 'L', 'L', 'F/L^2', 'F/L^2', 'F/L^2', &
+                                                                                                                    'L', 'L^2', 'L']
+
+contains
+
+   !> Places of the frames that have rows in a table: those whose step asks for it and that are due, and the last, whatever it is.
+   pure function due_frames(model, history, name) result(list)
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      character(len=*), intent(in) :: name
+      integer(ip), allocatable :: list(:)
+      logical :: is_in(size(history%frames))
+      integer(ip) :: i, n
+
+      n = size(history%frames, kind=ip)
+      do i = 1, n
+         associate (frame => history%frames(i))
+            is_in(i) = has_table(model, frame, name)
+            if (is_in(i) .and. i < n) then
+               is_in(i) = is_due(frequency_of(model%steps(frame%step)%requests, name), frame%increment, frame%ends_step)
+            end if
+         end associate
+      end do
+      list = pack([(i, i=1, n)], is_in)
+   end function due_frames
+
+   !> Whether a frame can have rows in a table, and its step asks for them.
+   pure logical function has_table(model, frame, name)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: frame
+      character(len=*), intent(in) :: name
+
+      associate (requests => model%steps(frame%step)%requests)
+         select case (name)
+         case ('contact')
+            has_table = pair_count(frame) > 0
+         case ('nodes')
+            has_table = requests%nodes .and. allocated(frame%u)
+         case ('reactions')
+            has_table = requests%reactions .and. allocated(frame%reaction)
+         case ('stress')
+            has_table = requests%stress .and. allocated(frame%stress)
+         case ('bodies')
+            has_table = requests%bodies .and. allocated(frame%bodies)
+         case ('joints')
+            has_table = requests%joints .and. allocated(frame%joints)
+         case default
+            has_table = has_rows(model, frame, name)
+         end select
+      end associate
+   end function has_table
+
+   !> How often a table is printed. What ties, equations and springs transmit goes with the contact.
+   pure integer(ip) function frequency_of(requests, name) result(every)
+      type(requests_t), intent(in) :: requests
+      character(len=*), intent(in) :: name
+
+      select case (name)
+      case ('nodes')
+         every = requests%every%nodes
+      case ('reactions')
+         every = requests%every%reactions
+      case ('stress')
+         every = requests%every%stress
+      case ('bodies')
+         every = requests%every%bodies
+      case ('joints')
+         every = requests%every%joints
+      case default
+         every = requests%every%contact
+      end select
+   end function frequency_of
+
+   !> The rows of a frame in a table; the table may point at the fields of model and frame.
+   subroutine build_frame_table(model, frame, scales, own, name, table)
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: frame
+      type(scales_t), intent(in) :: scales          !< of the history
+      type(scales_t), intent(in) :: own(:)          !< of each pair
+      character(len=*), intent(in) :: name
+      type(table_t), intent(out) :: table
+
+      select case (name)
+      case ('contact')
+         call build_contact(frame, own, table)
+      case ('nodes')
+         call build_nodes(model, frame, scales, table)
+      case ('reactions')
+         call build_reactions(model, frame, scales, table)
+      case ('stress')
+         call build_stress(model, frame, scales, table)
+      case ('bodies')
+         call build_bodies(frame, scales, table)
+      case ('joints')
+         call build_joints(frame, scales, own, table)
+      case default
+         call build_row_table(model, frame, scales, name, table)
+      end select
+   end subroutine build_frame_table
+
+   !> A row a quadrature point, by pair, then along s.
+   subroutine build_contact(results, own, table)
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: own(:)          !< of each pair
+      type(table_t), intent(out) :: table
+      integer(ip), allocatable :: pair(:), point(:), point_status(:)
+      real(wp), allocatable :: field(:, :)
+      integer(ip) :: first, last, n, i, j
+
+      n = sum(results%contact%n)
+      allocate (pair(n), point(n), point_status(n), field(n, size(CONTACT_NAMES)))
+      last = 0
+      do i = 1, pair_count(results)
+         first = last + 1
+         last = last + results%contact(i)%n
+         pair(first:last) = i
+         point(first:last) = [(j, j=1, results%contact(i)%n)]
+         point_status(first:last) = results%contact(i)%status(:results%contact(i)%n)
+         call copy_fields(results%contact(i), own(i), field(first:last, :))
+      end do
+      call begin_table(table, 'contact', 'a row a quadrature point of the slave surface', n)
+      call add_integers(table, 'step', [results%step])
+      call add_integers(table, 'pair', pair)
+      call add_integers(table, 'point', point)
+      call add_real_columns(table, CONTACT_NAMES(:BEFORE_STATUS), CONTACT_DIMENSIONS(:BEFORE_STATUS), field)
+      call add_integers(table, 'status', point_status)
+      call add_real_columns(table, CONTACT_NAMES(BEFORE_STATUS + 1:), CONTACT_DIMENSIONS(BEFORE_STATUS + 1:), &
+                            field(:, BEFORE_STATUS + 1:))
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_contact
+
+   !> What a pair has in the columns CONTACT_NAMES; what is rounding in it becomes 0.
+   subroutine copy_fields(contact, own, field)
+      type(contact_result_t), intent(in) :: contact
+      type(scales_t), intent(in) :: own              !< scales of the pair
+      real(wp), intent(out) :: field(:, :)
+      integer :: k
+
+      k = 0
+      call copy(contact%s, own%length)
+      call copy(contact%x(1, :), own%length)
+      call copy(contact%x(2, :), own%length)
+      call copy(contact%gap, own%displacement)
+      call copy(contact%pressure, own%pressure)
+      call copy(contact%weighted_pressure, own%pressure)
+      call copy(contact%shear, own%pressure)
+      call copy(contact%slip, own%slip)
+      call copy(contact%weight, 0.0_wp)
+      if (allocated(contact%slip_increment)) then
+         call copy(contact%slip_increment, own%slip)
+      else
+         call copy(contact%slip, own%slip)          ! from rest
+      end if
+
+   contains
+
+      subroutine copy(values, scale)
+         real(wp), intent(in) :: values(:), scale
+
+         k = k + 1
+         field(:, k) = values(:contact%n)
+         call clear_small(scale, field(:, k))
+      end subroutine copy
+
+   end subroutine copy_fields
+
+   !> The table points at the fields of model and results.
+   subroutine build_nodes(model, results, scales, table)
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+
+      call begin_table(table, 'nodes', 'a row a node', model%mesh%n_nodes)
+      if (.not. takes_all(model%steps(results%step)%requests%node_u)) then
+         table%places = places(model%steps(results%step)%requests%node_u, model%mesh%n_nodes)
+         table%n_rows = size(table%places, kind=ip)
+      end if
+      call add_integers(table, 'step', [results%step])
+      call add_integer_field(table, 'node', model%mesh%node_id)
+      call add_field(table, 'x', 'L', model%mesh%x(1, :), scales%length)
+      call add_field(table, 'y', 'L', model%mesh%x(2, :), scales%length)
+      call add_field(table, 'u1', 'L', results%u(1, :), scales%displacement)
+      call add_field(table, 'u2', 'L', results%u(2, :), scales%displacement)
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_nodes
+
+   !> Whether all nodes or elements are asked for; so it is where nothing is said.
+   pure logical function takes_all(mask)
+      logical, allocatable, intent(in) :: mask(:)
+
+      takes_all = .true.
+      if (allocated(mask)) takes_all = all(mask)
+   end function takes_all
+
+   subroutine build_reactions(model, results, scales, table)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      integer(ip), allocatable :: node(:)
+      integer(ip) :: n
+
+      node = places(model%steps(results%step)%requests%node_rf, model%mesh%n_nodes)
+      node = pack(node, any(results%prescribed(:, node), dim=1))
+      n = size(node, kind=ip)
+      call begin_table(table, 'reactions', 'a row a node with a prescribed displacement', n)
+      call add_integers(table, 'step', [results%step])
+      call add_integers(table, 'node', model%mesh%node_id(node))
+      call add_reals(table, 'r1', 'F', results%reaction(1, node), scales%force)
+      call add_reals(table, 'r2', 'F', results%reaction(2, node), scales%force)
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_reactions
+
+   !> Places of the nodes asked for; all where nothing is said.
+   pure function places(mask, n) result(list)
+      logical, allocatable, intent(in) :: mask(:)
+      integer(ip), intent(in) :: n
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i
+
+      list = [(i, i=1, n)]
+      if (allocated(mask)) list = pack(list, mask)
+   end function places
+
+   !> Places in results%stress of the points of these elements; all where nothing is said.
+   pure function stress_rows(results, mask) result(list)
+      type(results_t), intent(in) :: results
+      logical, allocatable, intent(in) :: mask(:)
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i
+
+      list = [(i, i=1, size(results%stress_element, kind=ip))]
+      if (allocated(mask)) list = pack(list, mask(results%stress_element))
+   end function stress_rows
+
+   !> The table points at the fields of results and at the ids of the model's elements.
+   subroutine build_stress(model, results, scales, table)
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      integer :: i
+
+      call begin_table(table, 'stress', 'a row a quadrature point of an element', size(results%stress_element, kind=ip))
+      if (.not. takes_all(model%steps(results%step)%requests%element_s)) then
+         table%places = stress_rows(results, model%steps(results%step)%requests%element_s)
+         table%n_rows = size(table%places, kind=ip)
+      end if
+      call add_integers(table, 'step', [results%step])
+      call add_integer_field(table, 'element', results%stress_element, model%mesh%element_id)
+      call add_integer_field(table, 'point', results%stress_point)
+      call add_field(table, 'x', 'L', results%stress_x(1, :), scales%length)
+      call add_field(table, 'y', 'L', results%stress_x(2, :), scales%length)
+      do i = 1, size(STRESS_NAMES)
+         call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%stress(i, :), scales%stress)
+      end do
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_stress
+
+   !> A row a body.
+   subroutine build_bodies(results, scales, table)
+      type(results_t), intent(in) :: results        !< with bodies
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      character(len=8), parameter :: GROUPS(3) = ['loads   ', 'supports', 'contact ']
+      type(string_t) :: names(size(results%bodies))
+      real(wp) :: field(size(results%bodies), 12), force
+      integer(ip) :: i, n
+      integer :: k
+
+      n = size(results%bodies, kind=ip)
+      force = largest_force(results%bodies)
+      do i = 1, n
+         associate (body => results%bodies(i))
+            names(i)%s = one_word(body%name)
+            field(i, :) = [body%u, body%rotation, body%loads, body%supports, body%contact]
+            call clear_small(scales%displacement, field(i, 1:2))
+            call clear_small(scales%displacement/body%size, field(i, 3:3))
+            do k = 4, 10, 3
+               call clear_small(max(force, body%terms(1)), field(i, k:k + 1))
+               call clear_small(max(force*body%size, body%terms(2)), field(i, k + 2:k + 2))
+            end do
+         end associate
+      end do
+      call begin_table(table, 'bodies', 'a row a body: its best rigid motion, resultants and moments about its centre', n)
+      call add_integers(table, 'step', [results%step])
+      call add_integers(table, 'body', [(i, i=1, n)])
+      call add_words(table, 'name', '-', names, on_the_left=.true.)
+      call add_real_columns(table, ['u1      ', 'u2      ', 'rotation'], ['L', 'L', '-'], field(:, :3))
+      do k = 1, size(GROUPS)
+         call add_real_columns(table, trim(GROUPS(k))//['_fx    ', '_fy    ', '_moment'], ['F  ', 'F  ', 'F*L'], &
+                               field(:, 3*k + 1:3*k + 3))
+      end do
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_bodies
+
+   !> Largest component of the resultants.
+   pure real(wp) function largest_force(bodies) result(largest)
+      type(body_motion_t), intent(in) :: bodies(:)
+      integer(ip) :: i
+
+      largest = 0.0_wp
+      do i = 1, size(bodies, kind=ip)
+         largest = max(largest, maxval(abs([bodies(i)%loads(:2), bodies(i)%supports(:2), bodies(i)%contact(:2)])))
+      end do
+   end function largest_force
+
+   !> A row a joint.
+   subroutine build_joints(results, scales, own, table)
+      type(results_t), intent(in) :: results        !< with joints
+      type(scales_t), intent(in) :: scales
+      type(scales_t), intent(in) :: own(:)          !< of each pair
+      type(table_t), intent(out) :: table
+      real(wp) :: field(size(results%joints), 7)
+      integer(ip) :: i, n
+
+      n = size(results%joints, kind=ip)
+      do i = 1, n
+         associate (joint => results%joints(i))
+            field(i, :) = [joint%n, joint%t, joint%m, joint%place, joint%opening, joint%sliding]
+            call clear_small(joint%force, field(i, 1:2))
+            call clear_small(joint%force*joint%length, field(i, 3:3))
+            call clear_small(scales%length, field(i, 4:5))
+            call clear_small(own(joint%pair)%displacement, field(i, 6:6))
+            call clear_small(own(joint%pair)%slip, field(i, 7:7))
+         end associate
+      end do
+      call begin_table(table, 'joints', 'a row for each two bodies that a pair brings together; body 0 is a rigid surface', n)
+      call add_integers(table, 'step', [results%step])
+      call add_integers(table, 'pair', results%joints%pair)
+      call add_integers(table, 'body_1', results%joints%bodies(1))
+      call add_integers(table, 'body_2', results%joints%bodies(2))
+      call add_real_columns(table, [character(len=7) :: 'n', 't', 'm', 'x', 'y', 'opening', 'sliding'], &
+                            ['F  ', 'F  ', 'F*L', 'L  ', 'L  ', 'L  ', 'L  '], field)
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_joints
+
+end module atrito_frame_tables

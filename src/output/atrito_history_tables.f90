@@ -1,0 +1,200 @@
+!> The tables with rows of all increments, docs/user/tables.md: summary, history, iterations.
+module atrito_history_tables
+   use atrito_kinds, only: ip, wp
+   use atrito_increments, only: all_iterations
+   use atrito_number_text, only: trimmed_real
+   use atrito_results, only: results_t, history_t, history_row_t, iteration_t
+   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, pair_count
+   use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words, abs_is_below, ZERO_SHARE
+   implicit none (type, external)
+   private
+   public :: build_summary, build_history, build_iterations
+
+   !> A row of summary.tab, and what it belongs to.
+   type :: summary_row_t
+      integer(ip) :: step = 1, increment = 1, pair = 0
+      type(quantity_t) :: quantity
+   end type summary_row_t
+
+contains
+
+   !> A row a quantity: by frame the pairs, then the step as pair 0.
+   subroutine build_summary(history, scales, own, digits, table)
+      type(history_t), intent(in) :: history
+      type(scales_t), intent(in) :: scales          !< of the history
+      type(scales_t), intent(in) :: own(:)          !< of each pair
+      integer, intent(in) :: digits
+      type(table_t), intent(out) :: table
+      type(summary_row_t), allocatable :: rows(:)
+      type(string_t), allocatable :: names(:), values(:)
+      integer(ip) :: i, n
+
+      call collect_rows(history, scales, own, rows)
+      n = size(rows, kind=ip)
+      allocate (names(n), values(n))
+      do i = 1, n
+         names(i)%s = trim(rows(i)%quantity%name)
+         values(i)%s = quantity_text(rows(i)%quantity, digits)
+      end do
+      call begin_table(table, 'summary', 'a row a quantity, by pair; pair 0 is the step', n)
+      call add_integers(table, 'step', (rows%step))
+      call add_integers(table, 'pair', (rows%pair))
+      call add_words(table, 'quantity', '-', names, on_the_left=.true.)
+      call add_words(table, 'value', 'mixed', values, on_the_left=.false.)
+      call add_integers(table, 'increment', (rows%increment))
+      call describe_dimensions(table, rows%quantity)
+   end subroutine build_summary
+
+   subroutine collect_rows(history, scales, own, rows)
+      type(history_t), intent(in) :: history
+      type(scales_t), intent(in) :: scales, own(:)
+      type(summary_row_t), allocatable, intent(out) :: rows(:)
+      integer(ip) :: i, n, n_each, room
+
+      n_each = size(pair_quantities(pair_summary_t(), scales), kind=ip)
+      room = 0
+      do i = 1, size(history%frames, kind=ip)
+         room = room + n_each*pair_count(history%frames(i)) + size(step_quantities(history%frames(i)), kind=ip)
+      end do
+      allocate (rows(room))
+      n = 0
+      do i = 1, size(history%frames, kind=ip)
+         call add_frame(history%frames(i), own, rows, n)
+      end do
+   end subroutine collect_rows
+
+   !> The rows of a frame.
+   subroutine add_frame(frame, own, rows, n)
+      type(results_t), intent(in) :: frame
+      type(scales_t), intent(in) :: own(:)
+      type(summary_row_t), intent(inout) :: rows(:)
+      integer(ip), intent(inout) :: n               !< rows there are
+      integer(ip) :: pair
+
+      do pair = 1, pair_count(frame)
+         call add(pair_quantities(summarise_pair(frame%contact(pair)), own(pair)), pair)
+      end do
+      call add(step_quantities(frame), 0_ip)
+
+   contains
+
+      subroutine add(list, of_pair)
+         type(quantity_t), intent(in) :: list(:)
+         integer(ip), intent(in) :: of_pair
+         integer(ip) :: k
+
+         do k = 1, size(list, kind=ip)
+            rows(n + k) = summary_row_t(frame%step, frame%increment, of_pair, list(k))
+         end do
+         n = n + size(list, kind=ip)
+      end subroutine add
+
+   end subroutine add_frame
+
+   pure function quantity_text(quantity, digits) result(text)
+      type(quantity_t), intent(in) :: quantity
+      integer, intent(in) :: digits
+      character(len=:), allocatable :: text
+
+      if (quantity%is_count) then
+         text = to_text(nint(quantity%value, ip))
+      else if (abs_is_below(quantity%value, ZERO_SHARE*quantity%scale)) then
+         text = '0'
+      else
+         text = trimmed_real(quantity%value, digits)
+      end if
+   end function quantity_text
+
+   !> The dimensions of the column `value`, one comment line a dimension.
+   pure subroutine describe_dimensions(table, list)
+      type(table_t), intent(inout) :: table
+      type(quantity_t), intent(in) :: list(:)
+      character(len=8), parameter :: DIMENSIONS(5) = [character(len=8) :: 'L', 'L^2', 'F', 'F/L^2', 'F L']
+      character(len=:), allocatable :: names
+      integer :: i, j
+
+      do i = 1, size(DIMENSIONS)
+         names = ''
+         do j = 1, size(list)
+            if (list(j)%dimension /= DIMENSIONS(i)) cycle
+            if (index(names//' ', ' '//trim(list(j)%name)//' ') == 0) names = names//' '//trim(list(j)%name)
+         end do
+         if (len(names) > 0) call append_string(table%remarks, '['//trim(DIMENSIONS(i))//']:'//names)
+      end do
+   end subroutine describe_dimensions
+
+   !> A row an increment and pair. What is rounding beside the largest of its pair becomes 0.
+   subroutine build_history(rows, length, table)
+      type(history_row_t), intent(in) :: rows(:)
+      real(wp), intent(in) :: length                !< largest coordinate [L]
+      type(table_t), intent(out) :: table
+      type(history_row_t) :: clean(size(rows))
+
+      clean = rows
+      call clear_rounding(length, clean)
+      call begin_table(table, 'history', 'a row an increment and pair', size(rows, kind=ip))
+      call add_integers(table, 'step', (rows%step))
+      call add_integers(table, 'increment', (rows%increment))
+      call add_reals(table, 'time', '-', (rows%time), 0.0_wp)
+      call add_integers(table, 'pair', (rows%pair))
+      call add_reals(table, 'normal_resultant', 'F', (clean%normal), 0.0_wp)
+      call add_reals(table, 'shear_resultant', 'F', (clean%shear), 0.0_wp)
+      call add_reals(table, 'moment', 'F*L', (clean%moment), 0.0_wp)
+      call add_reals(table, 'contact_length', 'L', (clean%length), 0.0_wp)
+      call add_reals(table, 'centre', 'L', (clean%centre), length)
+      call add_reals(table, 'max_pressure', 'F/L^2', (clean%max_pressure), 0.0_wp)
+      call add_integers(table, 'open', (rows%open))
+      call add_integers(table, 'stick', (rows%stick))
+      call add_integers(table, 'slip', (rows%slip))
+      call add_reals(table, 'dissipation', 'F*L', (clean%dissipation), 0.0_wp)
+      call add_reals(table, 'elastic_energy', 'F*L', (clean%elastic_energy), 0.0_wp)
+   end subroutine build_history
+
+   !> By the largest resultant and pressure of each pair in the history, and that resultant times the length for the moment.
+   pure subroutine clear_rounding(length, rows)
+      real(wp), intent(in) :: length
+      type(history_row_t), intent(inout) :: rows(:)
+      real(wp) :: force(maxval([rows%pair, 0_ip])), pressure(maxval([rows%pair, 0_ip]))
+      integer :: i
+
+      force = 0.0_wp
+      pressure = 0.0_wp
+      do i = 1, size(rows)
+         associate (row => rows(i))
+            force(row%pair) = max(force(row%pair), abs(row%normal), abs(row%shear))
+            pressure(row%pair) = max(pressure(row%pair), abs(row%max_pressure))
+         end associate
+      end do
+      do i = 1, size(rows)
+         associate (row => rows(i))
+            if (abs_is_below(row%normal, ZERO_SHARE*force(row%pair))) row%normal = 0.0_wp
+            if (abs_is_below(row%shear, ZERO_SHARE*force(row%pair))) row%shear = 0.0_wp
+            if (abs_is_below(row%moment, ZERO_SHARE*force(row%pair)*length)) row%moment = 0.0_wp
+            if (abs_is_below(row%max_pressure, ZERO_SHARE*pressure(row%pair))) row%max_pressure = 0.0_wp
+         end associate
+      end do
+   end subroutine clear_rounding
+
+   !> A row an inner solve.
+   subroutine build_iterations(history, table)
+      type(history_t), intent(in) :: history
+      type(table_t), intent(out) :: table
+      type(iteration_t), allocatable :: rows(:)
+
+      rows = all_iterations(history)
+      call begin_table(table, 'iterations', 'a row an inner solve', size(rows, kind=ip))
+      call add_integers(table, 'step', (rows%step))
+      call add_integers(table, 'outer', (rows%outer))
+      call add_integers(table, 'inner', (rows%inner))
+      call add_reals(table, 'change_displacement', '-', (rows%change_displacement), 0.0_wp)
+      call add_reals(table, 'change_pressure', '-', (rows%change_pressure), 0.0_wp)
+      call add_reals(table, 'change_friction', '-', (rows%change_friction), 0.0_wp)
+      call add_integers(table, 'open', (rows%open))
+      call add_integers(table, 'stick', (rows%stick))
+      call add_integers(table, 'slip', (rows%slip))
+      call add_reals(table, 'residual', '-', (rows%residual), 0.0_wp)
+      call add_integers(table, 'increment', (rows%increment))
+   end subroutine build_iterations
+
+end module atrito_history_tables

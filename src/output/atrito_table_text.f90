@@ -1,0 +1,356 @@
+!> How tables become a text file that people, numpy and gnuplot read.
+module atrito_table_text
+   use atrito_kinds, only: ip, wp
+   use atrito_strings, only: string_t, append_string
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   use atrito_files, only: file_set_t, text_file_t, begin_files, end_files, open_text, put_line, put_lines, close_text, &
+                           NEW_LINE_CHARACTER
+   use atrito_status, only: status_t, is_ok
+   use atrito_threads, only: n_threads, is_shared
+   use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
+   use atrito_table, only: table_t, column_t, origin_t, MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, KIND_REAL, &
+                           KIND_INTEGER, KIND_WORD
+   implicit none (type, external)
+   private
+   public :: write_table, write_table_set
+
+   !> Rows that are made into text at a time: that of a wide table stays in the nearer part of the cache.
+   integer(ip), parameter :: PIECE_ROWS = 256
+   !> Pieces of a round for each thread: where there are many, a thread that is late matters little.
+   integer(ip), parameter :: PIECES_OF_THREAD = 64
+
+   !> One table, or tables with the same columns whose rows follow each other in one file.
+   interface write_table
+      module procedure write_one_table, write_tables_as_one
+   end interface write_table
+
+contains
+
+   !> Writes <name>.tab into a set of files.
+   !>
+   !> status: STATUS_FILE when it could not be written.
+   subroutine write_one_table(set, table, origin, digits, status)
+      type(file_set_t), intent(inout) :: set
+      type(table_t), intent(inout) :: table         !< its columns get their places
+      type(origin_t), intent(in) :: origin
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(status_t), intent(out) :: status
+      type(text_file_t) :: file
+
+      call open_text(set, table%name//'.tab', file)
+      call widen_columns(table, digits)
+      call place_columns(table)
+      call write_top(file, table, origin)
+      call write_rows(file, table, digits)
+      call close_text(file, status)
+   end subroutine write_one_table
+
+   !> Writes tables of the same columns, >= 1 of them, as one: under the head of the first the rows of all.
+   !>
+   !> status: STATUS_FILE when it could not be written.
+   subroutine write_tables_as_one(set, tables, origin, digits, status)
+      type(file_set_t), intent(inout) :: set
+      type(table_t), intent(inout) :: tables(:)     !< their columns get their places
+      type(origin_t), intent(in) :: origin
+      integer, intent(in) :: digits                 !< significant digits, 6..17
+      type(status_t), intent(out) :: status
+      type(text_file_t) :: file
+      integer :: i
+
+      call open_text(set, tables(1)%name//'.tab', file)
+      do i = 1, size(tables)
+         call widen_columns(tables(i), digits)
+      end do
+      call even_widths(tables)
+      do i = 1, size(tables)
+         call place_columns(tables(i))
+      end do
+      call write_top(file, tables(1), origin)
+      do i = 1, size(tables)
+         call write_rows(file, tables(i), digits)
+      end do
+      call close_text(file, status)
+   end subroutine write_tables_as_one
+
+   !> Each column becomes as wide in all tables as in the one where it needs most room.
+   pure subroutine even_widths(tables)
+      type(table_t), intent(inout) :: tables(:)
+      integer :: i, k, width
+
+      do k = 1, size(tables(1)%columns)
+         width = maxval([(tables(i)%columns(k)%width, i=1, size(tables))])
+         do i = 1, size(tables)
+            tables(i)%columns(k)%width = width
+         end do
+      end do
+   end subroutine even_widths
+
+   !> Writes tables into a folder, all or none. status: STATUS_FILE.
+   subroutine write_table_set(folder, tables, origin, digits, status)
+      character(len=*), intent(in) :: folder
+      type(table_t), intent(inout) :: tables(:)
+      type(origin_t), intent(in) :: origin
+      integer, intent(in) :: digits
+      type(status_t), intent(out) :: status
+      type(file_set_t) :: set
+      integer :: i
+
+      call begin_files(set, folder, status)
+      do i = 1, size(tables)
+         if (is_ok(status)) call write_table(set, tables(i), origin, digits, status)
+      end do
+      call end_files(set, status)
+   end subroutine write_table_set
+
+   !> Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
+   subroutine widen_columns(table, digits)
+      type(table_t), intent(inout) :: table
+      integer, intent(in) :: digits
+      integer :: i
+
+      do i = 1, size(table%columns)
+         associate (column => table%columns(i))
+            column%width = max(len(column%name), len(column%dimension), value_width(table, column, digits))
+         end associate
+      end do
+   end subroutine widen_columns
+
+   pure subroutine place_columns(table)
+      type(table_t), intent(inout) :: table
+      integer :: i, last
+
+      last = len(MARK_DIMENSIONS)
+      do i = 1, size(table%columns)
+         table%columns(i)%first = last + 2
+         table%columns(i)%last = last + 1 + table%columns(i)%width
+         last = table%columns(i)%last
+      end do
+   end subroutine place_columns
+
+   integer function value_width(table, column, digits) result(width)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer, intent(in) :: digits
+      integer :: i
+
+      width = 1
+      select case (column%kind)
+      case (KIND_REAL)
+         width = real_width(digits)
+      case (KIND_INTEGER)
+         width = width_of_integers(table, column)
+      case (KIND_WORD)
+         do i = 1, size(column%words)
+            width = max(width, len(column%words(i)%s))
+         end do
+      end select
+   end function value_width
+
+   integer function width_of_integers(table, column) result(width)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer(ip) :: x(PIECE_ROWS), before, n
+
+      width = 1
+      if (table%n_rows > 0 .and. allocated(column%integers)) then
+         if (size(column%integers) == 1) then
+            width = integer_width(column%integers(1))
+            return
+         end if
+      end if
+      !$omp parallel do default(none) private(n, x) shared(table, column) reduction(max:width) if(is_shared(table%n_rows))
+      do before = 0, table%n_rows - 1, PIECE_ROWS
+         n = min(PIECE_ROWS, table%n_rows - before)
+         call fetch_integers(table, column, before, x(:n))
+         width = max(width, integer_width(maxval(x(:n))), integer_width(minval(x(:n))))
+      end do
+      !$omp end parallel do
+   end function width_of_integers
+
+   subroutine write_top(file, table, origin)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      type(origin_t), intent(in) :: origin
+      type(string_t), allocatable :: names(:), dimensions(:)
+      integer :: i
+
+      if (allocated(origin%ending)) then
+         call put_line(file, MARK_NOT_CONVERGED//': '//origin%ending)
+      else if (origin%not_converged) then
+         call put_line(file, MARK_NOT_CONVERGED)
+      end if
+      call put_line(file, '# program: '//PROGRAM_NAME//' '//PROGRAM_VERSION)
+      call put_line(file, '# deck: '//origin%deck)
+      do i = 1, size(origin%heading)
+         call put_line(file, '# heading: '//origin%heading(i)%s)
+      end do
+      call put_line(file, '# table: '//table%name//', '//table%title)
+      do i = 1, size(table%remarks)
+         call put_line(file, '# '//table%remarks(i)%s)
+      end do
+      do i = 1, size(table%columns)
+         call append_string(names, table%columns(i)%name)
+         call append_string(dimensions, table%columns(i)%dimension)
+      end do
+      call put_line(file, title_line(table, MARK_COLUMNS, names))
+      call put_line(file, title_line(table, MARK_DIMENSIONS, dimensions))
+   end subroutine write_top
+
+   pure function title_line(table, mark, titles) result(line)
+      type(table_t), intent(in) :: table
+      character(len=*), intent(in) :: mark
+      type(string_t), intent(in) :: titles(:)
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = repeat(' ', table%columns(size(table%columns))%last)
+      line(:len(mark)) = mark
+      do i = 1, size(titles)
+         call put_word(titles(i)%s, table%columns(i)%on_the_left, line(table%columns(i)%first:table%columns(i)%last))
+      end do
+   end function title_line
+
+   !> Writes the rows by rounds: while the text of one is made, in pieces that threads share out, that of the one before is written.
+   !> What stands in the file depends neither on the rounds nor on the pieces.
+   subroutine write_rows(file, table, digits)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: digits
+      character(len=:), allocatable :: text(:, :)
+      integer(ip) :: pieces, round, i
+
+      pieces = 1
+      if (n_threads() > 1) pieces = PIECES_OF_THREAD*n_threads()
+      round = min(pieces*PIECE_ROWS, table%n_rows)
+      if (round == 0) return
+      allocate (character(len=table%columns(size(table%columns))%last + 1) :: text(round, 2))
+      do i = 1, (table%n_rows - 1)/round + 2
+         call write_round(file, table, digits, i, text)
+      end do
+   end subroutine write_rows
+
+   !> Makes the text of a round and writes that of the one before; there is none before the first, nor in the last.
+   subroutine write_round(file, table, digits, i_round, text)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: digits
+      integer(ip), intent(in) :: i_round
+      character(len=*), contiguous, intent(inout) :: text(:, :)   !< (rows of a round, 2): rounds take turns
+      integer(ip) :: round, before, first, n, own, other
+
+      round = size(text, 1, kind=ip)
+      before = (i_round - 1)*round
+      n = rows_of_round(table, round, i_round)
+      own = 1 + mod(i_round, 2_ip)
+      other = 3 - own
+      !$omp parallel do schedule(dynamic, 1) default(shared) private(first) if (round > PIECE_ROWS)
+      do first = 1 - PIECE_ROWS, n, PIECE_ROWS
+         if (first < 1) then
+            call put_lines(file, text(:rows_of_round(table, round, i_round - 1), other))
+         else
+            call format_rows(table, digits, before + first - 1, text(first:min(n, first + PIECE_ROWS - 1), own))
+         end if
+      end do
+      !$omp end parallel do
+   end subroutine write_round
+
+   pure integer(ip) function rows_of_round(table, round, i_round) result(n)
+      type(table_t), intent(in) :: table
+      integer(ip), intent(in) :: round             !< rows of a full one
+      integer(ip), intent(in) :: i_round           !< 0: before the first
+
+      n = 0
+      if (i_round > 0) n = max(0_ip, min(round, table%n_rows - (i_round - 1)*round))
+   end function rows_of_round
+
+   !> The text of some rows, each with the character that ends a line.
+   subroutine format_rows(table, digits, before, lines)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: digits
+      integer(ip), intent(in) :: before            !< rows before the first of them
+      character(len=*), intent(out) :: lines(:)    !< (rows)
+      integer(ip) :: row
+      integer :: i
+
+      lines = ''
+      do row = 1, size(lines, kind=ip)
+         lines(row) (len(lines):) = NEW_LINE_CHARACTER
+      end do
+      do i = 1, size(table%columns)
+         call format_column(table, table%columns(i), digits, before, lines)
+      end do
+   end subroutine format_rows
+
+   subroutine format_column(table, column, digits, before, lines)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer, intent(in) :: digits
+      integer(ip), intent(in) :: before
+      character(len=*), intent(inout) :: lines(:)  !< (rows), PIECE_ROWS of them at most
+      real(wp) :: x(PIECE_ROWS)
+      integer(ip) :: k(PIECE_ROWS), row, n
+
+      n = size(lines, kind=ip)
+      select case (column%kind)
+      case (KIND_REAL)
+         call fetch_reals(table, column, before, x(:n))
+         call put_reals(x(:n), column%zero, digits, column%first, column%last, lines)
+      case (KIND_INTEGER)
+         call fetch_integers(table, column, before, k(:n))
+         call put_integers(k(:n), column%first, column%last, lines)
+      case (KIND_WORD)
+         do row = 1, n
+            call put_word(column%words(before + row)%s, column%on_the_left, lines(row) (column%first:column%last))
+         end do
+      end select
+   end subroutine format_column
+
+   pure subroutine fetch_reals(table, column, before, x)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer(ip), intent(in) :: before
+      real(wp), intent(out) :: x(:)
+      integer(ip) :: n
+
+      n = size(x, kind=ip)
+      if (.not. associated(column%field)) then
+         x = column%reals(before + 1:before + n)
+      else if (allocated(table%places)) then
+         x = column%field(table%places(before + 1:before + n))
+      else
+         x = column%field(before + 1:before + n)
+      end if
+   end subroutine fetch_reals
+
+   pure subroutine fetch_integers(table, column, before, k)
+      type(table_t), intent(in) :: table
+      type(column_t), intent(in) :: column
+      integer(ip), intent(in) :: before
+      integer(ip), intent(out) :: k(:)
+      integer(ip) :: n
+
+      n = size(k, kind=ip)
+      if (associated(column%integer_field)) then
+         if (allocated(table%places)) then
+            k = column%integer_field(table%places(before + 1:before + n))
+         else
+            k = column%integer_field(before + 1:before + n)
+         end if
+         if (associated(column%ids)) k = column%ids(k)
+      else if (size(column%integers) == 1) then
+         k = column%integers(1)
+      else
+         k = column%integers(before + 1:before + n)
+      end if
+   end subroutine fetch_integers
+
+   pure subroutine put_word(word, on_the_left, field)
+      character(len=*), intent(in) :: word
+      logical, intent(in) :: on_the_left
+      character(len=*), intent(out) :: field
+
+      field = word
+      if (.not. on_the_left) field = adjustr(field)
+   end subroutine put_word
+
+end module atrito_table_text
