@@ -436,7 +436,7 @@ contains
       end if
       if (run%last%step /= k) return                 ! the end of a step is a frame
       call set_time(run%data, moment_t(run%last%step_time, run%last%time))
-      call complete_results(run%data, run%data%last, run%last)
+      call complete_results(run%data, run%last)
       run%last%ends_step = .true.
       call add_frame(run%last, run%n_frames, history%frames)
    end subroutine end_early

@@ -134,7 +134,7 @@ contains
       call start_phase('recover')
       call recover(data, solution, u, results)
       call stop_phase('recover')
-      if (data%is_printed) call complete_results(data, solution, results)
+      if (data%is_printed) call complete_results(data, results)
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
                      growth_of_bodies(data, results%scene))
@@ -259,16 +259,13 @@ contains
       call judge_balance(data%fem, data%held, data%rows, data%line, data%f, results%scene%pairs, results%verdict, status)
    end subroutine judge_failed_check
 
-   !> What is worth its time where it is printed: sums by body and joint, stresses and their error, the limits of a linear theory.
-   subroutine complete_results(data, solution, results)
+   !> What is worth its time where it is printed: sums by joint, stresses and their error, the limits of a linear theory.
+   subroutine complete_results(data, results)
       type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(inout) :: results
       real(wp) :: strain_bound
 
       call start_phase('recover')
-      if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, &
-                                                     contact_forces(data%fem, data%rows, data%line, solution), results%bodies)
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
       call recover_stress(data%step%requests, data%fem, results)
       call stop_phase('recover')
@@ -311,6 +308,8 @@ contains
       results%balance%rows = others
       results%balance%rigid = results%balance%rigid - others
       if (data%rows%n_bilateral > 0) call clear_balance(results%balance)
+      ! with the contact forces less those of bilateral rows that are supports
+      if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call copy_history(solution, results)
    end subroutine recover
