@@ -153,8 +153,8 @@ contains
       call take_start(run%recorder%state%start, run%data%last)
    end subroutine resume
 
-   !> Hands on what was found so far, where that is asked for. The next increment starts from what is recorded and from nothing else,
-   !> so that it does not matter which run solves it.
+   !> Hands on what was found so far, where that is asked for. The next increment starts from what is recorded and from nothing
+   !> else, so that it does not matter which run solves it.
    subroutine record(now, run, history)
       type(progress_t), intent(in) :: now
       type(run_t), intent(inout), target :: run
