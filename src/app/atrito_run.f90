@@ -153,7 +153,7 @@ contains
       call report_progress(reporter, 'write '//folder)
       told = count_messages()
       ! not allocated: an optional argument that is not there
-      if (command%plot) pictures = plot_names(model, history%frames(last_frame(history)))
+      if (command%plot) pictures = plot_names(model, history)
       call claim_folder(folder, claim, status)
       if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures)
       if (.not. is_ok(status)) then
@@ -164,7 +164,7 @@ contains
       end if
       if (command%plot) then
          call report_progress(reporter, 'plot  '//plot_folder(folder))
-         call write_plots(model, history%frames(last_frame(history)), folder, pictures)
+         call write_plots(model, history, folder, pictures)
       end if
       call release_folder(claim)
       call print_messages(command%quiet, told + 1)

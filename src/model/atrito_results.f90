@@ -173,6 +173,7 @@ module atrito_results
       integer(ip) :: open = 0, stick = 0, slip = 0
       real(wp) :: dissipation = 0.0_wp              !< by friction, from the beginning of the history [F L]
       real(wp) :: elastic_energy = 0.0_wp           !< of all bodies [F L]
+      real(wp) :: mean_slip = 0.0_wp                !< of u_T over the area of all points, open ones too [L]; drawn alone
    end type history_row_t
 
    !> How a history ended before its end.

@@ -9,16 +9,17 @@ module atrito_plot_files
    use atrito_messages, only: add_warning
    implicit none (type, external)
    private
-   public :: plot_folder, remove_plots, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, STUDY_PLOT, &
-             LIMIT_PLOT, MECHANISM_PLOT, JOINT_PLOT
+   public :: plot_folder, remove_plots, picture_endings, LOG_NAME, MESH_PLOT, OVERLAY_PLOT, OVERLAY_SUMMARY, CONTACT_PLOT, &
+             STUDY_PLOT, LIMIT_PLOT, MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT
 
    character(len=*), parameter :: MESH_PLOT = 'mesh', OVERLAY_SUMMARY = 'overlay-summary', STUDY_PLOT = 'study', &
-                                  LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints'
-   character(len=15), parameter :: PICTURES(6) = [character(len=15) :: MESH_PLOT, OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, &
-                                                                                                         MECHANISM_PLOT, JOINT_PLOT]
+                                  LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints', &
+                                  HISTORY_PLOT = 'history', LOOP_PLOT = 'loop', MOTION_PLOT = 'motion'
+   character(len=15), parameter :: PICTURES(9) = [character(len=15) :: MESH_PLOT, OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, &
+                                                                MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
-   character(len=3), parameter :: ENDINGS(4) = ['gp ', 'dat', 'png', 'svg']
+   character(len=3), parameter :: ENDINGS(5) = ['gp ', 'dat', 'png', 'svg', 'gif']
 
 contains
 
@@ -28,6 +29,15 @@ contains
 
       path = folder//'/plots'
    end function plot_folder
+
+   !> Endings of the files in which a picture is drawn, with their dots: the one that moves is a gif.
+   pure function picture_endings(name) result(list)
+      character(len=*), intent(in) :: name          !< without ending
+      character(len=4), allocatable :: list(:)
+
+      list = ['.png', '.svg']
+      if (name == MOTION_PLOT) list = ['.gif']
+   end function picture_endings
 
    !> Removes atrito's own files from the folder of plots, and the folder when nothing else is in it. A
    !> picture that stays is a warning.

@@ -256,6 +256,7 @@ contains
       call exchange(archive, 'slip', row%slip)
       call exchange(archive, 'dissipation', row%dissipation)
       call exchange(archive, 'elastic_energy', row%elastic_energy)
+      call exchange(archive, 'mean_slip', row%mean_slip)
    end subroutine exchange_row
 
    !> The arrays have the sizes that the deck gives them; a file with the right marks and others was changed by hand.

@@ -1,5 +1,7 @@
 !> The picture of a contact pair: pressure, shear, slip and gap along s, in panels one below the other.
 !>
+!> Of a history of several steps the end of the last one is drawn over those of the steps before it.
+!>
 !> The script reads contact.tab in the folder above, so it draws what the table says. A pair without friction has no panels of
 !> shear and slip, and one without a nonlocal law no weighted pressure.
 module atrito_contact_plot
@@ -8,20 +10,26 @@ module atrito_contact_plot
    use atrito_status, only: status_t
    use atrito_files, only: file_set_t, text_file_t, put_line
    use atrito_model, only: model_t, interaction_t, FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL
-   use atrito_results, only: results_t, contact_result_t, POINT_OPEN, POINT_SLIP
+   use atrito_results, only: results_t, contact_result_t, history_t, last_frame, POINT_OPEN, POINT_SLIP
    use atrito_write_tables, only: origin_of
    use atrito_plot_files, only: CONTACT_PLOT
    use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, picture_title, begin_script, end_script, put_terminal, &
                                put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
    implicit none (type, external)
    private
-   public :: write_contact_plot, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
+   public :: write_contact_plot, shown_frames, pair_title, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
              N_STATES, STATE_WORD
 
    !> The bound of the shear is shown whole up to so many times the largest shear; a greater one would hide the shear itself.
    real(wp), parameter :: MOST_BOUND = 4.0_wp
    !> The lines +-eps are shown where eps over the largest slip lies between these: else they are one line, or hide the slip.
    real(wp), parameter :: LEAST_EPS = 0.02_wp, MOST_EPS = 4.0_wp
+   integer(ip), parameter :: MOST_STEPS = 8         !< ends of steps in a picture, the last one among them
+   !> Those before the last one, from early to late.
+   character(len=7), parameter :: EARLY(MOST_STEPS - 1) = &
+                                  ['#909090', '#E69F00', '#56B4E9', '#CC79A7', '#8C564B', '#009E73', '#606060']
+   integer(ip), parameter :: FIRST_EARLY = 10       !< line style of the first of them
+   integer(ip), parameter :: OF_PRESSURE = 1, OF_SHEAR = 2, OF_SLIP = 3, OF_GAP = 4
    integer, parameter :: LONGEST_NAME = 30          !< characters of a surface's name
 
    integer(ip), parameter :: N_STATES = 4, STATE_CLOSED = 3 !< closed: without friction
@@ -32,11 +40,24 @@ contains
    !> Writes the script of a pair into the set of the plots' folder.
    !>
    !> status: STATUS_FILE when it could not be written.
-   subroutine write_contact_plot(set, model, results, pair, status)
+   subroutine write_contact_plot(set, model, history, pair, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       integer(ip), intent(in) :: pair               !< with at least one point
+      type(status_t), intent(out) :: status
+
+      associate (last => history%frames(last_frame(history)))
+         call write_script(set, model, history, last, pair, status)
+      end associate
+   end subroutine write_contact_plot
+
+   subroutine write_script(set, model, history, results, pair, status)
+      type(file_set_t), intent(inout) :: set
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      type(results_t), intent(in) :: results        !< its last frame
+      integer(ip), intent(in) :: pair
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
       type(interaction_t) :: law
@@ -51,8 +72,9 @@ contains
       call put_line(file, 'increment = '//to_text(results%increment))
       call put_contact_columns(file, pair, ', 12 status (0 open, 1 stick, 2 slip)', 'step', 'increment')
       call put_line(file, 'marked(c, status) = column(12) == status ? col(c) : NaN')
+      call put_early(file, history)
       call put_line(file, 'table = "../contact.tab"')
-      call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
+      call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, history))))
       call put_line(file, 'pair_line = '//quoted(pair_title(results, pair)//law_text(law)))
       call put_frame(file, merge(4, 2, friction), slave_range(results%contact(pair)), '"s [L]"')
       if (friction) call put_line(file, 'nu = '//to_text(law%nu, 12))
@@ -60,10 +82,44 @@ contains
       call put_terminal(file, name, '1000,height')
       call put_styles(file, results%contact(pair)%n)
       call put_line(file, 'set multiplot title heading."\n".pair_line noenhanced')
-      call put_panels(file, results%contact(pair), law, friction)
+      call put_panels(file, history, pair, law, friction)
       call put_line(file, 'unset multiplot')
       call end_script(file, status)
-   end subroutine write_contact_plot
+   end subroutine write_script
+
+   !> Places of the frames that are drawn: the ends of the steps, evenly some of them where they are many, and the last frame.
+   pure function shown_frames(history) result(list)
+      type(history_t), intent(in) :: history
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i, n
+
+      list = pack([(i, i=1, last_frame(history))], history%frames%ends_step .or. &
+                  [(i == last_frame(history), i=1, last_frame(history))])
+      n = size(list, kind=ip)
+      if (n <= MOST_STEPS) return
+      list = list([(1_ip + nint(real(i - 1, wp)*real(n - 1, wp)/real(MOST_STEPS - 1, wp), ip), i=1, MOST_STEPS)])
+   end function shown_frames
+
+   !> Which increments the ends of steps before the last one are, and their columns.
+   subroutine put_early(file, history)
+      type(text_file_t), intent(inout) :: file
+      type(history_t), intent(in) :: history
+      integer(ip), allocatable :: shown(:)
+      integer(ip) :: i
+
+      shown = shown_frames(history)
+      if (size(shown) == 1) return
+      call put_line(file, 'early_steps = '//to_text(size(shown, kind=ip) - 1_ip))
+      call put_line(file, 'array early_step[early_steps]; array early_increment[early_steps]')
+      do i = 1, size(shown, kind=ip) - 1
+         associate (frame => history%frames(shown(i)))
+            call put_line(file, 'early_step['//to_text(i)//'] = '//to_text(frame%step)//'; early_increment['//to_text(i)//'] = '// &
+                          to_text(frame%increment))
+         end associate
+         call put_line(file, 'set style line '//to_text(FIRST_EARLY + i)//' lt 1 lw 1.5 lc rgb "'//EARLY(i)//'"')
+      end do
+      call put_line(file, 'early(i, c) = is_shown(early_step[i], early_increment[i]) ? column(c)/unit : NaN')
+   end subroutine put_early
 
    !> What the columns of contact.tab are, and a function that takes those of one pair in one increment.
    subroutine put_contact_columns(file, pair, and_status, step, increment)
@@ -133,28 +189,88 @@ contains
       call put_line(file, 'set style line 6 pt 9 lw 1.5 lc rgb "'//COLOUR(2)//'" ps 1.2*'//dot)
    end subroutine put_styles
 
-   subroutine put_panels(file, contact, law, friction)
+   subroutine put_panels(file, history, pair, law, friction)
+      type(text_file_t), intent(inout) :: file
+      type(history_t), intent(in) :: history
+      integer(ip), intent(in) :: pair
+      type(interaction_t), intent(in) :: law
+      logical, intent(in) :: friction
+      character(len=:), allocatable :: early
+      integer(ip) :: n
+
+      early = ''
+      if (size(shown_frames(history)) > 1) early = step_name(history)
+      n = history%frames(last_frame(history))%contact(pair)%n
+      associate (contact => history%frames(last_frame(history))%contact(pair))
+         call put_panel(file, 1, 'pressure', 'F/L^2', &
+                        with_early(field_range(contact%pressure(:n), contact%weighted_pressure(:n)), history, pair, OF_PRESSURE))
+         call put_pressure(file, contact, law, friction, early)
+         if (friction) then
+            call put_panel(file, 2, 'shear', 'F/L^2', with_early(shear_range(contact, law%nu), history, pair, OF_SHEAR))
+            call put_curve(file, 10, 'shear', bound_curves(law), contact, friction, early)
+            call put_panel(file, 3, 'slip', 'L', with_early(slip_range(contact, law%eps), history, pair, OF_SLIP))
+            call put_curve(file, 11, 'slip u_T', slip_curves(contact, law%eps), contact, friction, early)
+         end if
+         call put_panel(file, merge(4, 2, friction), 'gap', 'L', &
+                        with_early(field_range(contact%gap(:n), contact%gap(:n)), history, pair, OF_GAP))
+         call put_curve(file, 7, 'gap', '', contact, friction, early)
+      end associate
+   end subroutine put_panels
+
+   !> What the last frame of a history is called.
+   pure function step_name(history) result(text)
+      type(history_t), intent(in) :: history
+      character(len=:), allocatable :: text
+
+      associate (last => history%frames(last_frame(history)))
+         text = 'step '//to_text(last%step)
+         if (.not. last%ends_step) text = text//', increment '//to_text(last%increment)
+      end associate
+   end function step_name
+
+   subroutine put_pressure(file, contact, law, friction, early)
       type(text_file_t), intent(inout) :: file
       type(contact_result_t), intent(in) :: contact
       type(interaction_t), intent(in) :: law
       logical, intent(in) :: friction
+      character(len=*), intent(in) :: early         !< what the last frame is called beside those before it; empty: there are none
+      character(len=:), allocatable :: title
 
-      call put_panel(file, 1, 'pressure', 'F/L^2', field_range(contact%pressure(:contact%n), contact%weighted_pressure(:contact%n)))
+      title = 'pressure p'
+      if (len(early) > 0) title = early
       if (law%friction == FRICTION_NONLOCAL .and. friction) then
-         call put_curve(file, 8, 'pressure p', ', table using 4:(col(9)) with lines ls 2 title "weighted, S_{'// &
-                        GREEK_RHO//'}(p)"', contact, friction, with_legend=.true.)
+         call put_curve(file, 8, title, ', table using 4:(col(9)) with lines ls 2 title "weighted, S_{'// &
+                        GREEK_RHO//'}(p)"', contact, friction, early)
       else
-         call put_curve(file, 8, 'pressure p', '', contact, friction, with_legend=.true.)
+         call put_curve(file, 8, title, '', contact, friction, early)
       end if
-      if (friction) then
-         call put_panel(file, 2, 'shear', 'F/L^2', shear_range(contact, law%nu))
-         call put_curve(file, 10, 'shear', bound_curves(law), contact, friction, with_legend=.false.)
-         call put_panel(file, 3, 'slip', 'L', slip_range(contact, law%eps))
-         call put_curve(file, 11, 'slip u_T', slip_curves(contact, law%eps), contact, friction, with_legend=.false.)
-      end if
-      call put_panel(file, merge(4, 2, friction), 'gap', 'L', field_range(contact%gap(:contact%n), contact%gap(:contact%n)))
-      call put_curve(file, 7, 'gap', '', contact, friction, with_legend=.false.)
-   end subroutine put_panels
+   end subroutine put_pressure
+
+   !> A range widened by a field of the ends of steps before the last one.
+   pure type(range_t) function with_early(range, history, pair, field) result(wide)
+      type(range_t), intent(in) :: range
+      type(history_t), intent(in) :: history
+      integer(ip), intent(in) :: pair, field        !< OF_*
+      integer(ip), allocatable :: shown(:)
+      integer(ip) :: i
+
+      wide = range
+      shown = shown_frames(history)
+      do i = 1, size(shown, kind=ip) - 1
+         associate (contact => history%frames(shown(i))%contact(pair))
+            select case (field)
+            case (OF_PRESSURE)
+               call cover(wide, contact%pressure(:contact%n))
+            case (OF_SHEAR)
+               call cover(wide, contact%shear(:contact%n))
+            case (OF_SLIP)
+               call cover(wide, contact%slip(:contact%n))
+            case (OF_GAP)
+               call cover(wide, contact%gap(:contact%n))
+            end select
+         end associate
+      end do
+   end function with_early
 
    !> Zero and both fields.
    pure type(range_t) function field_range(a, b) result(range)
@@ -224,24 +340,30 @@ contains
    end function slip_curves
 
    !> A column as a line, further curves, and its points by their status.
-   subroutine put_curve(file, column, title, more, contact, friction, with_legend)
+   subroutine put_curve(file, column, title, more, contact, friction, early)
       type(text_file_t), intent(inout) :: file
       integer, intent(in) :: column                 !< of contact.tab
       character(len=*), intent(in) :: title
       character(len=*), intent(in) :: more          !< further curves, each behind a comma
       type(contact_result_t), intent(in) :: contact
       logical, intent(in) :: friction
-      logical, intent(in) :: with_legend            !< of the points
+      character(len=*), intent(in) :: early         !< not empty: over those of the steps before it
       character(len=:), allocatable :: line, c
       integer(ip) :: k
       integer(ip), parameter :: STYLE(0:N_STATES - 1) = [4_ip, 5_ip, 6_ip, 5_ip]
 
       c = to_text(int(column, ip))
-      line = 'plot table using 4:(col('//c//')) with lines ls 1 title "'//title//'"'//more
+      line = 'plot '
+      if (len(early) > 0) then
+         line = line//'for [i=1:early_steps] table using 4:(early(i, '//c//')) with lines ls '//to_text(FIRST_EARLY)//'+i'
+         if (column == 8) line = line//' title "step ".early_step[i]'
+         line = line//', '
+      end if
+      line = line//'table using 4:(col('//c//')) with lines ls 1 title "'//title//'"'//more
       do k = POINT_OPEN, POINT_SLIP
          if (all(contact%status(:contact%n) /= k)) cycle
          line = line//', table using 4:(marked('//c//','//to_text(k)//')) with points ls '//to_text(STYLE(state_of(k, friction)))
-         if (with_legend) line = line//' title "'//trim(STATE_WORD(state_of(k, friction)))//'"'
+         if (column == 8) line = line//' title "'//trim(STATE_WORD(state_of(k, friction)))//'"'
       end do
       call put_line(file, line)
    end subroutine put_curve

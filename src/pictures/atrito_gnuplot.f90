@@ -6,16 +6,15 @@ module atrito_gnuplot
    use atrito_status, only: status_t, is_ok
    use atrito_files, only: file_exists, read_file, remove_file
    use atrito_messages, only: add_warning
-   use atrito_plot_files, only: plot_folder, LOG_NAME
+   use atrito_plot_files, only: plot_folder, picture_endings, LOG_NAME
    use atrito_plot_text, only: quoted
    use atrito_processes, only: run_command
    use atrito_system, only: note_path, forget_path
    implicit none (type, external)
    private
-   public :: draw_written, draw_pictures, shell_quoted, plot_command, first_complaint
+   public :: draw_written, draw_pictures, shell_quoted, plot_command, first_complaint, without_counts
 
    integer, parameter :: NOT_FOUND = 127            !< the shell's code for a program that is not there
-   character(len=4), parameter :: ENDINGS(2) = ['.png', '.svg']
    integer, parameter :: LONGEST_COMPLAINT = 200
 
 contains
@@ -35,39 +34,53 @@ contains
       end if
    end subroutine draw_written
 
-   !> Draws <name>.png and <name>.svg from each <name>.gp of a folder. What gnuplot says stays in gnuplot.log beside them; a
+   !> Draws the pictures of each <name>.gp of a folder. What gnuplot says stays in gnuplot.log beside them; a
    !> failure is one warning. Interrupted, none of these pictures is left.
    subroutine draw_pictures(folder, names, drawn)
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: names(:)                    !< of the scripts, without .gp
       type(string_t), allocatable, intent(out) :: drawn(:)      !< names of those that have their pictures now
-      integer :: i, k, exit_code
+      integer :: i, exit_code
 
       allocate (drawn(0))
       if (size(names) == 0) return
       call note_path(folder//'/'//LOG_NAME)
       do i = 1, size(names)
-         do k = 1, size(ENDINGS)
-            call remove_file(folder//'/'//names(i)%s//ENDINGS(k))
-            call note_path(folder//'/'//names(i)%s//ENDINGS(k))
-         end do
+         call expect_pictures(folder, names(i)%s)
       end do
       call run_command(plot_command(folder, names), exit_code)
       do i = 1, size(names)
-         if (has_pictures(folder//'/'//names(i)%s)) call append_string(drawn, names(i)%s)
-         do k = 1, size(ENDINGS)
-            call forget_path(folder//'/'//names(i)%s//ENDINGS(k))
-         end do
+         if (has_pictures(folder, names(i)%s)) call append_string(drawn, names(i)%s)
       end do
       call forget_path(folder//'/'//LOG_NAME)
       call judge_outcome(folder, exit_code, size(drawn) == size(names))
    end subroutine draw_pictures
 
-   logical function has_pictures(path)
-      character(len=*), intent(in) :: path          !< without ending
+   !> Removes old pictures of this name; new ones go when the run is interrupted.
+   subroutine expect_pictures(folder, name)
+      character(len=*), intent(in) :: folder, name
+      character(len=4), allocatable :: endings(:)
+      integer :: k
 
-      has_pictures = file_exists(path//'.png')
-      if (has_pictures) has_pictures = file_exists(path//'.svg')
+      endings = picture_endings(name)
+      do k = 1, size(endings)
+         call remove_file(folder//'/'//name//endings(k))
+         call note_path(folder//'/'//name//endings(k))
+      end do
+   end subroutine expect_pictures
+
+   !> Whether all pictures of a name are there. They stay, even if the run is interrupted later.
+   logical function has_pictures(folder, name)
+      character(len=*), intent(in) :: folder, name
+      character(len=4), allocatable :: endings(:)
+      integer :: k
+
+      has_pictures = .true.
+      endings = picture_endings(name)
+      do k = 1, size(endings)
+         has_pictures = has_pictures .and. file_exists(folder//'/'//name//endings(k))
+         call forget_path(folder//'/'//name//endings(k))
+      end do
    end function has_pictures
 
    !> The command for the shell. Each script has a gnuplot of its own, so that one that fails does not stop the others; -d: without
@@ -113,6 +126,7 @@ contains
 
       call read_file(folder//'/'//LOG_NAME, text, status)
       if (.not. is_ok(status)) text = ''
+      text = without_counts(text)
       if (len(text) == 0 .or. exit_code == NOT_FOUND) call remove_file(folder//'/'//LOG_NAME)
       if (exit_code == NOT_FOUND) then
          call add_warning('W-PLOT', 'gnuplot was not found (Debian: gnuplot-nox), no pictures'//SCRIPTS//folder)
@@ -120,6 +134,22 @@ contains
          call add_warning('W-PLOT', 'gnuplot failed: '//first_complaint(text)//SCRIPTS//folder)
       end if
    end subroutine judge_outcome
+
+   !> What gnuplot says without its counts of images, which are no complaints.
+   pure function without_counts(text) result(rest)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: rest
+      character(len=*), parameter :: LF = achar(10), COUNTED = ' frames in animation sequence'//LF
+      integer :: last, first
+
+      rest = text
+      do
+         last = index(rest, COUNTED)
+         if (last == 0) return
+         first = index(rest(:last), LF, back=.true.)
+         rest = rest(:first)//rest(last + len(COUNTED):)
+      end do
+   end function without_counts
 
    !> The line of gnuplot's output that tells the error; the lines before it repeat the script.
    pure function first_complaint(text) result(line)

@@ -18,7 +18,8 @@ module atrito_mesh_lines
    implicit none (type, external)
    private
    public :: mesh_lines_t, drawing_t, begin_drawing, displace, displacement_scale, collect_lines
-   public :: write_lines, put_place, put_frame, put_scene, is_drawn_rigid, body_style
+   public :: write_lines, put_lines, put_rigid_lines, put_place, put_window, put_axes, put_frame, put_scene
+   public :: is_drawn_rigid, body_style
    public :: LINE_INNER, LINE_OUTER, MOST_NAMES, LONGEST_NAME
 
    integer, parameter :: DIGITS = 7                 !< of the data: a picture has a thousand pixels
@@ -182,10 +183,23 @@ contains
       type(drawing_t), intent(in) :: drawing
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
-      integer(ip) :: run, i
 
       call open_text(set, name//'.dat', file)
       call put_line(file, heading)
+      call put_lines(file, of_kind, model, u, drawing)
+      call put_rigid_lines(file, model)
+      call close_text(file, status)
+   end subroutine write_lines
+
+   !> A block a run of edges.
+   subroutine put_lines(file, of_kind, model, u, drawing)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: of_kind(:)    !< what is said of inner edges and of outlines
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      type(drawing_t), intent(in) :: drawing
+      integer(ip) :: run, i
+
       associate (lines => drawing%lines)
          do run = 1, lines%n_runs
             call put_line(file, '# block '//to_text(run - 1)//': body '//to_text(lines%body(run))//trim(of_kind(lines%kind(run))))
@@ -195,11 +209,18 @@ contains
             call put_line(file, '')
          end do
       end associate
+   end subroutine put_lines
+
+   !> A block a rigid surface of the pairs.
+   subroutine put_rigid_lines(file, model)
+      type(text_file_t), intent(inout) :: file
+      type(model_t), intent(in) :: model
+      integer(ip) :: i
+
       do i = 1, size(model%surfaces, kind=ip)
          if (is_drawn_rigid(model, i)) call put_rigid(file, model%surfaces(i))
       end do
-      call close_text(file, status)
-   end subroutine write_lines
+   end subroutine put_rigid_lines
 
    !> An edge from corner to corner; a curved one in pieces.
    subroutine put_edge(file, mesh, u, element, face, sizes)
@@ -314,6 +335,16 @@ contains
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: name          !< of the picture
       type(range_t), intent(in) :: window(2)        !< [L]
+
+      call put_window(file, window)
+      call put_terminal(file, name, '1000,height')
+      call put_axes(file, name)
+   end subroutine put_frame
+
+   !> Ranges, and the height of the picture for a width of 1000.
+   subroutine put_window(file, window)
+      type(text_file_t), intent(inout) :: file
+      type(range_t), intent(in) :: window(2)        !< [L]
       real(wp) :: ratio
 
       ratio = 1.0_wp
@@ -321,7 +352,12 @@ contains
       call put_line(file, 'set xrange '//range_text(padded(window(1))))
       call put_line(file, 'set yrange '//range_text(padded(window(2))))
       call put_line(file, 'height = '//to_text(nint(160.0_wp + 860.0_wp*min(1.1_wp, max(0.15_wp, ratio)), ip)))
-      call put_terminal(file, name, '1000,height')
+   end subroutine put_window
+
+   subroutine put_axes(file, name)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: name          !< of the picture
+
       call put_line(file, 'set size ratio -1')
       if (name /= JOINT_PLOT) call put_line(file, 'set clip two')
       call put_line(file, 'set border lt 1 lw 1 lc rgb "#A0A0A0"')
@@ -332,7 +368,7 @@ contains
       if (name == JOINT_PLOT) return
       call put_line(file, 'set style line 8 lt 1 lw 1 lc rgb "#B0B0B0"')
       call put_line(file, 'set style line 9 lt 1 lw 4 lc rgb "#404040"')
-   end subroutine put_frame
+   end subroutine put_axes
 
    !> The plot: where the bodies were (lines of style 8), where they go, each run of edges in its style, and rigid surfaces (9).
    subroutine put_scene(file, name, first, undisplaced, styles, model)

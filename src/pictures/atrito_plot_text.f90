@@ -9,6 +9,7 @@ module atrito_plot_text
    use atrito_strings, only: string_t, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_plot_files, only: picture_endings
    use atrito_status, only: status_t
    use atrito_table, only: origin_t
    implicit none (type, external)
@@ -182,7 +183,11 @@ contains
       if (size(origin%heading) > 0) then
          if (len_trim(origin%heading(1)%s) > 0) title = trim(origin%heading(1)%s)
       end if
-      if (origin%not_converged) title = 'NOT CONVERGED, last iterate: '//title
+      if (allocated(origin%ending)) then
+         title = 'NOT CONVERGED, ended early: '//title
+      else if (origin%not_converged) then
+         title = 'NOT CONVERGED, last iterate: '//title
+      end if
       title = cleaned(title, LONGEST_TITLE)
    end function picture_title
 
@@ -192,10 +197,18 @@ contains
       character(len=*), intent(in) :: name          !< of the script, without .gp
       character(len=*), intent(in) :: what
       type(text_file_t), intent(out) :: file
+      character(len=4), allocatable :: endings(:)
+      character(len=:), allocatable :: pictures
+      integer :: i
 
+      endings = picture_endings(name)
+      pictures = name//endings(1)
+      do i = 2, size(endings)
+         pictures = pictures//' and '//name//endings(i)
+      end do
       call open_text(set, name//'.gp', file)
       call put_line(file, '# '//PROGRAM_NAME//' '//PROGRAM_VERSION//': '//what)
-      call put_line(file, '# In this folder: gnuplot '//name//'.gp draws '//name//'.png and '//name//'.svg again.')
+      call put_line(file, '# In this folder: gnuplot '//name//'.gp draws '//pictures//' again.')
       call put_line(file, '# The next run removes this file: to keep changes, copy it under another name.')
       call put_line(file, 'reset')
       call put_line(file, 'set encoding utf8')

@@ -8,11 +8,13 @@ module atrito_write_plots
    use atrito_files, only: file_set_t, begin_files, end_files
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
-   use atrito_results, only: results_t
+   use atrito_results, only: results_t, history_t, last_frame
    use atrito_summary, only: pair_count
-   use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT
+   use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT
    use atrito_mesh_plot, only: write_mesh_plot
    use atrito_contact_plot, only: write_contact_plot
+   use atrito_history_plot, only: has_history_plot, has_loop_plot, write_history_plot, write_loop_plot
+   use atrito_motion_plot, only: has_motion_plot, write_motion_plot
    use atrito_joint_plot, only: write_joint_plot, has_joint_plot
    use atrito_gnuplot, only: draw_written
    implicit none (type, external)
@@ -25,31 +27,36 @@ module atrito_write_plots
 contains
 
    !> Writes the scripts of all pictures into <folder>/plots and draws them.
-   subroutine write_plots(model, results, folder, drawn)
+   subroutine write_plots(model, history, folder, drawn)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       character(len=*), intent(in) :: folder                !< of the tables
       type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
       type(status_t) :: status
 
       call start_phase('plot')
-      call write_plot_scripts(model, results, plot_folder(folder), status)
-      call draw_written(folder, plot_names(model, results), status, drawn)
+      call write_plot_scripts(model, history, plot_folder(folder), status)
+      call draw_written(folder, plot_names(model, history), status, drawn)
       call stop_phase('plot')
    end subroutine write_plots
 
-   !> Pictures of a run: the mesh, the joints where they are asked for, and each pair that has points.
-   pure function plot_names(model, results) result(names)
+   !> Pictures of a run: the mesh, what is drawn of a history, the joints where they are asked for, and each pair that has points.
+   pure function plot_names(model, history) result(names)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       type(string_t), allocatable :: names(:)
       integer(ip) :: i
 
       call append_string(names, MESH_PLOT)
-      if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
-      do i = 1, plotted_pairs(model, results)
-         if (results%contact(i)%n > 0) call append_string(names, CONTACT_PLOT//to_text(i))
-      end do
+      if (has_history_plot(model, history)) call append_string(names, HISTORY_PLOT)
+      if (has_loop_plot(model, history)) call append_string(names, LOOP_PLOT)
+      if (has_motion_plot(history)) call append_string(names, MOTION_PLOT)
+      associate (results => history%frames(last_frame(history)))
+         if (has_joint_plot(model, results)) call append_string(names, JOINT_PLOT)
+         do i = 1, plotted_pairs(model, results)
+            if (results%contact(i)%n > 0) call append_string(names, CONTACT_PLOT//to_text(i))
+         end do
+      end associate
    end function plot_names
 
    !> How many pairs have pictures of their own, those without points among them: all or none.
@@ -64,22 +71,37 @@ contains
    !> Writes scripts and data, which appear together or not at all.
    !>
    !> status: STATUS_FILE
-   subroutine write_plot_scripts(model, results, folder, status)
+   subroutine write_plot_scripts(model, history, folder, status)
       type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
       character(len=*), intent(in) :: folder                !< of the plots
       type(status_t), intent(out) :: status
       type(file_set_t) :: set
-      integer(ip) :: i
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
-      call write_mesh_plot(set, model, results, status)
-      if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, status)
-      do i = 1, plotted_pairs(model, results)
-         if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, results, i, status)
-      end do
+      call write_frame_scripts(set, model, history, status)
+      if (is_ok(status) .and. has_history_plot(model, history)) call write_history_plot(set, model, history, status)
+      if (is_ok(status) .and. has_loop_plot(model, history)) call write_loop_plot(set, model, history, status)
+      if (is_ok(status) .and. has_motion_plot(history)) call write_motion_plot(set, model, history, status)
       call end_files(set, status)
    end subroutine write_plot_scripts
+
+   !> Those of the last frame, over the ends of steps before it.
+   subroutine write_frame_scripts(set, model, history, status)
+      type(file_set_t), intent(inout) :: set
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      type(status_t), intent(out) :: status
+      integer(ip) :: i
+
+      associate (results => history%frames(last_frame(history)))
+         call write_mesh_plot(set, model, results, status)
+         if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, status)
+         do i = 1, plotted_pairs(model, results)
+            if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, history, i, status)
+         end do
+      end associate
+   end subroutine write_frame_scripts
 
 end module atrito_write_plots

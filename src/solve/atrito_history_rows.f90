@@ -28,6 +28,7 @@ contains
          row%stick = count(c%status == POINT_STICK, kind=ip)
          row%slip = count(c%status == POINT_SLIP, kind=ip)
          if (c%n > 0) row%max_pressure = maxval(c%pressure(:c%n))
+         if (c%n > 0) row%mean_slip = dot_product(c%weight(:c%n), c%slip(:c%n))/sum(c%weight(:c%n))
          call add_resultants(points, c, row)
       end associate
    end function row_of_pair
