@@ -10,7 +10,7 @@ module atrito_history_plot
    use atrito_plot_files, only: HISTORY_PLOT, LOOP_PLOT
    use atrito_plot_text, only: range_t, cover, padded, span, quoted, picture_title, begin_script, end_script, put_terminal, &
                                put_frame, put_panel, engineering_exponent, COLOUR, N_COLOURS, GREEK_NU, PLUS_MINUS
-   use atrito_results, only: history_t, history_row_t
+   use atrito_results, only: history_t, history_row_t, last_frame
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
    use atrito_write_tables, only: origin_of
@@ -28,6 +28,7 @@ module atrito_history_plot
    real(wp), parameter :: MOST_BOUND = 4.0_wp
    !> Ends of steps nearer than this, as a share of the picture, have one label.
    real(wp), parameter :: SAME_PLACE = 0.03_wp
+   real(wp), parameter :: ROUNDING = 1.0e-10_wp     !< a share of the displacements that is no slip
    integer, parameter :: DIGITS = 9                 !< of loop.dat
    integer, parameter :: LABEL_LENGTH = 40
    integer(ip), parameter :: COLUMN_NORMAL = 5, COLUMN_SHEAR = 6, COLUMN_LENGTH = 8, COLUMN_PRESSURE = 10, &
@@ -46,17 +47,20 @@ contains
       has = size(history%rows, kind=ip) > pairs_in(history%rows)
    end function has_history_plot
 
-   !> A loop needs shear and slip.
+   !> A loop needs shear, and slip that is more than rounding beside the displacements.
    pure logical function has_loop_plot(model, history) result(has)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
-      type(range_t) :: slip, shear
+      real(wp) :: largest
 
       has = has_history_plot(model, history)
       if (.not. has) return
-      call cover(slip, history%rows%mean_slip)
-      call cover(shear, history%rows%shear)
-      has = has_friction(model, history%rows) .and. span(slip) > 0.0_wp .and. span(shear) > 0.0_wp
+      largest = 0.0_wp
+      associate (last => history%frames(last_frame(history)))
+         if (allocated(last%u)) largest = maxval(abs(last%u))
+      end associate
+      has = has_friction(model, history%rows) .and. span(range_of(history%rows%mean_slip)) > ROUNDING*largest .and. &
+            span(range_of(history%rows%shear)) > 0.0_wp
    end function has_loop_plot
 
    pure integer(ip) function pairs_in(rows)
@@ -76,24 +80,39 @@ contains
       end do
    end function has_friction
 
-   !> The pairs that are drawn, by number: those with the largest forces where they are too many.
-   pure function shown_pairs(rows) result(list)
+   !> The pairs that are drawn, by number: where they are too many those with the largest forces, or those that slip most.
+   pure function shown_pairs(rows, by_slip) result(list)
       type(history_row_t), intent(in) :: rows(:)
+      logical, intent(in) :: by_slip
       integer(ip), allocatable :: list(:)
-      real(wp) :: force(pairs_in(rows))
-      logical :: is_in(size(force))
+      real(wp) :: largest(pairs_in(rows)), here
+      logical :: is_in(size(largest))
       integer(ip) :: i
 
-      force = 0.0_wp
+      largest = 0.0_wp
       do i = 1, size(rows, kind=ip)
-         force(rows(i)%pair) = max(force(rows(i)%pair), abs(rows(i)%normal), abs(rows(i)%shear))
+         here = max(abs(rows(i)%normal), abs(rows(i)%shear))
+         if (by_slip) here = merge(abs(rows(i)%mean_slip), 0.0_wp, abs(rows(i)%shear) > 0.0_wp)   ! open joints slip, too
+         largest(rows(i)%pair) = max(largest(rows(i)%pair), here)
       end do
       is_in = .false.
-      do i = 1, min(MOST_PAIRS, size(force))
-         is_in(maxloc(force, dim=1, mask=.not. is_in)) = .true.
+      do i = 1, min(MOST_PAIRS, size(largest))
+         is_in(maxloc(largest, dim=1, mask=.not. is_in)) = .true.
       end do
-      list = pack([(i, i=1, size(force, kind=ip))], is_in)
+      list = pack([(i, i=1, size(largest, kind=ip))], is_in)
    end function shown_pairs
+
+   !> The rows of the pairs that are drawn.
+   pure function shown_rows(rows, by_slip) result(list)
+      type(history_row_t), intent(in) :: rows(:)
+      logical, intent(in) :: by_slip
+      type(history_row_t), allocatable :: list(:)
+      integer(ip), allocatable :: pairs(:)
+      integer :: i
+
+      pairs = shown_pairs(rows, by_slip)
+      list = pack(rows, [(any(pairs == rows(i)%pair), i=1, size(rows))])
+   end function shown_rows
 
    !> Places of the rows that end a step, of the last pair.
    pure function step_ends(rows) result(places)
@@ -126,7 +145,7 @@ contains
                     'length [L],')
       call put_line(file, '# 10 largest pressure [F/L^2], 14 dissipation [F L]; a row an increment and pair')
       call put_line(file, 'table = "../history.tab"')
-      call put_titles(file, model, history)
+      call put_titles(file, model, history, 'with the largest forces')
       call put_frame(file, merge(4, 3, friction), time, '"time"')
       has_legend = pairs_in(history%rows) > 1 .or. shows_bound(model, history%rows)
       call put_line(file, 'height = 145 + 230*panels; top(i) = 1 - (85.0 + (i - 1)*230)/height   # room for the steps')
@@ -140,17 +159,18 @@ contains
       call end_script(file, status)
    end subroutine write_history_plot
 
-   subroutine put_titles(file, model, history)
+   subroutine put_titles(file, model, history, which)
       type(text_file_t), intent(inout) :: file
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
+      character(len=*), intent(in) :: which         !< pairs are drawn of many
       character(len=:), allocatable :: text
       integer(ip) :: n
 
       n = pairs_in(history%rows)
       text = pair_title(history%frames(1), 1_ip)
       if (n > 1) text = to_text(n)//' pairs'
-      if (n > MOST_PAIRS) text = 'the '//to_text(int(MOST_PAIRS, ip))//' of '//text//' with the largest forces'
+      if (n > MOST_PAIRS) text = 'the '//to_text(int(MOST_PAIRS, ip))//' of '//text//' '//which
       call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, history))))
       call put_line(file, 'pair_line = '//quoted(text))
    end subroutine put_titles
@@ -200,24 +220,26 @@ contains
       type(model_t), intent(in) :: model
       type(history_row_t), intent(in) :: rows(:)
       logical, intent(in) :: friction
+      type(history_row_t), allocatable :: shown(:)
       integer(ip) :: i
 
-      call put_panel(file, 1, 'normal resultant', 'F', range_of([0.0_wp, rows%normal]))
+      shown = shown_rows(rows, by_slip=.false.)
+      call put_panel(file, 1, 'normal resultant', 'F', range_of([0.0_wp, shown%normal]))
       call put_curves(file, COLUMN_NORMAL, rows, '', with_legend=pairs_in(rows) > 1)
       do i = 1, min(MOST_STEPS, size(step_ends(rows), kind=ip))
          call put_line(file, 'unset label '//to_text(i + 10_ip))
       end do
       if (friction) then
-         call put_panel(file, 2, 'shear resultant', 'F', shear_range(model, rows))
+         call put_panel(file, 2, 'shear resultant', 'F', shear_range(model, shown))
          call put_curves(file, COLUMN_SHEAR, rows, bound_curves(model, rows), with_legend=.false.)
-         call put_panel(file, 3, 'contact length', 'L', range_of([0.0_wp, rows%length]))
+         call put_panel(file, 3, 'contact length', 'L', range_of([0.0_wp, shown%length]))
          call put_curves(file, COLUMN_LENGTH, rows, '', with_legend=.false.)
-         call put_panel(file, 4, 'dissipation', 'F L', range_of([0.0_wp, rows%dissipation]))
+         call put_panel(file, 4, 'dissipation', 'F L', range_of([0.0_wp, shown%dissipation]))
          call put_curves(file, COLUMN_DISSIPATION, rows, '', with_legend=.false.)
       else
-         call put_panel(file, 2, 'largest pressure', 'F/L^2', range_of([0.0_wp, rows%max_pressure]))
+         call put_panel(file, 2, 'largest pressure', 'F/L^2', range_of([0.0_wp, shown%max_pressure]))
          call put_curves(file, COLUMN_PRESSURE, rows, '', with_legend=.false.)
-         call put_panel(file, 3, 'contact length', 'L', range_of([0.0_wp, rows%length]))
+         call put_panel(file, 3, 'contact length', 'L', range_of([0.0_wp, shown%length]))
          call put_curves(file, COLUMN_LENGTH, rows, '', with_legend=.false.)
       end if
    end subroutine put_panels
@@ -274,7 +296,7 @@ contains
       character(len=:), allocatable :: line
       integer(ip) :: i
 
-      pairs = shown_pairs(rows)
+      pairs = shown_pairs(rows, by_slip=.false.)
       line = 'plot '
       do i = 1, size(pairs, kind=ip)
          if (i > 1) line = line//', '
@@ -305,7 +327,7 @@ contains
       integer(ip), allocatable :: pairs(:)
       integer(ip) :: i, j
 
-      pairs = shown_pairs(rows)
+      pairs = shown_pairs(rows, by_slip=.true.)
       call open_text(set, LOOP_PLOT//'.dat', file)
       call put_line(file, '# a block a pair; columns: mean slip of all points [L]  shear resultant [F]  step  increment  time')
       do i = 1, size(pairs, kind=ip)
@@ -327,16 +349,18 @@ contains
       type(history_t), intent(in) :: history
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
+      type(history_row_t), allocatable :: rows(:)
       type(range_t) :: slip, shear
       integer :: power
 
-      slip = range_of(history%rows%mean_slip)
-      shear = range_of([0.0_wp, -history%rows%shear])
+      rows = shown_rows(history%rows, by_slip=.true.)
+      slip = range_of(rows%mean_slip)
+      shear = range_of([0.0_wp, -rows%shear])
       power = engineering_exponent(slip)
       call begin_script(set, LOOP_PLOT, 'the shear resultant, which is against the slip, over the mean slip', file)
       call put_line(file, '# Columns of loop.dat: 1 mean slip of all points [L], 2 shear resultant [F], 3 step, 4 increment, '// &
                     '5 time; a block a pair')
-      call put_titles(file, model, history)
+      call put_titles(file, model, history, 'that slip most')
       slip = padded(slip)
       call put_frame(file, 1, range_t(slip%low/10.0_wp**power, slip%high/10.0_wp**power), '""')
       call put_line(file, 'height = 620; bottom(i) = 70.0/height')
@@ -369,7 +393,7 @@ contains
       character(len=:), allocatable :: line
       integer(ip) :: i
 
-      pairs = shown_pairs(rows)
+      pairs = shown_pairs(rows, by_slip=.true.)
       line = 'plot '
       do i = 1, size(pairs, kind=ip)
          if (i > 1) line = line//', '

@@ -42,11 +42,11 @@ drawn() {
       /^plot .*table/ {
          line = panel
          rest = $0
-         while (match(rest, /using [0-9]+:\([-a-z*]*(col|marked)\([0-9]+/)) {
+         while (match(rest, /using [0-9]+:\([-a-z*]*(col|column|marked|early)\((i, )?[0-9]+/)) {
             item = substr(rest, RSTART + 6, RLENGTH - 6)
             rest = substr(rest, RSTART + RLENGTH)
             along = name[item + 0]
-            sub(/.*\(/, "", item)
+            sub(/.*[( ]/, "", item)
             line = line " " along ":" name[item + 0] }
          print line }' "$2" "$1"
 }
@@ -190,4 +190,57 @@ pictures grid overlay-1
 absent grid/plots/overlay-summary.gp
 "$atrito" sweep "$ex1" --vary nu=0,0.1 --quiet -o sweep 2>sweep.err || complain 'the second sweep failed'
 absent sweep/plots
+
+# histories: curves over time, the loop, steps over one another, and a picture that moves
+moving() { # FOLDER IMAGES
+   [ -s "$1/plots/motion.gp" ] && [ -s "$1/plots/motion.dat" ] || complain "$1: motion.gp or motion.dat is missing"
+   [ "$(grep -c '^name\[' "$1/plots/motion.gp")" -eq "$2" ] || complain "$1: not $2 images"
+   [ "$have_gnuplot" = yes ] || return 0
+   [ "$(head -c 6 "$1/plots/motion.gif")" = GIF89a ] || complain "$1: motion.gif is no gif"
+   # each image begins with the graphic control extension 21 f9 04
+   [ "$(od -An -v -tx1 "$1/plots/motion.gif" | tr -d ' \n' | grep -o 21f904 | wc -l)" -ge "$2" ] || complain "$1: motion.gif has not $2 images"
+   [ "$(wc -c <"$1/plots/motion.gif")" -gt $((1000*$2)) ] || complain "$1: motion.gif is too small to show anything"
+}
+lessons=$input/lessons
+run 0 "$lessons/press-and-push.inp" push --plot
+pictures push mesh history loop contact-1
+moving push 4
+[ "$have_gnuplot" = no ] || says 'summary' push.out 'plots in     push/plots: mesh history loop motion contact-1'
+says 'listing' push/press-and-push.lst 'mesh, history, loop, motion, contact-1'
+panels_draw 'history' push/plots/history.gp push/history.tab 'normal time:normal_resultant
+shear time:shear_resultant
+contact time:contact_length
+dissipation time:dissipation'
+panels_draw 'steps over one another' push/plots/contact-1.gp push/contact.tab 'by pair step increment
+by status
+pressure s:pressure
+shear s:shear s:weighted_pressure
+slip s:slip
+gap s:gap'
+says 'the ends of steps' push/plots/contact-1.gp 'early_step[3] = 3; early_increment[3] = 16'
+run 0 "$lessons/press-and-push.inp" push_0 --plot --quiet --set nu=0
+pictures push_0 mesh history contact-1
+absent push_0/plots/loop.gp
+panels_draw 'history without friction' push_0/plots/history.gp push_0/history.tab 'normal time:normal_resultant
+largest time:max_pressure
+contact time:contact_length'
+run 0 "$lessons/block-there-and-back.inp" drag --plot --quiet
+pictures drag mesh history loop contact-1
+moving drag 101
+# the loop has the resultants of history.tab, and the slip of contact.tab over the area
+grep -v '^#' drag/plots/loop.dat | awk 'NF { print $2 + 0 }' >loop.out
+awk '!/^#/ { print $6 + 0 }' drag/history.tab >resultant.out
+paste loop.out resultant.out | awk '($1 - $2)^2 > 1e-16 { wrong++ } END { exit !(NR == 101 && !wrong) }' || complain 'the loop has other resultants'
+near 'the mean slip' "$(grep -v '^#' drag/plots/loop.dat | awk 'NF { slip = $1 } END { print slip }')" \
+   "$(awk '!/^#/ && $1 == 2 && $15 == 100 { a += $13; b += $13*$11 } END { printf "%.12g", b/a }' drag/contact.tab)" 1e-9
+# many pairs and joints
+sed 's/^\*STATIC/*STATIC\n0.25, 1/; s/^\*END STEP/*CONTACT PRINT, FREQUENCY=1\n*END STEP/' "$lessons/wall-with-window.inp" >wall.inp
+run 0 wall.inp wall --plot --quiet
+pictures wall mesh history loop joints
+moving wall 4
+says 'of many pairs' wall/plots/history.gp 'the 7 of 105 pairs with the largest forces'
+"$atrito" sweep "$lessons/press-and-push.inp" --vary nu=0.2,0.3 --plot --quiet -o sweep 2>sweep.err || complain 'the sweep of a history failed'
+pictures sweep overlay-1 overlay-summary
+run_again "$lessons/press-and-push.inp" -o push --quiet || complain 'the run without pictures failed'
+absent push/plots
 finish
