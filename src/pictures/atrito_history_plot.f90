@@ -28,7 +28,7 @@ module atrito_history_plot
    real(wp), parameter :: MOST_BOUND = 4.0_wp
    !> Ends of steps nearer than this, as a share of the picture, have one label.
    real(wp), parameter :: SAME_PLACE = 0.03_wp
-   real(wp), parameter :: ROUNDING = 1.0e-10_wp     !< a share of the displacements that is no slip
+   real(wp), parameter :: ROUNDING = 1.0e-10_wp     !< share of the displacements that is no slip, of the largest shear that is none
    integer, parameter :: DIGITS = 9                 !< of loop.dat
    integer, parameter :: LABEL_LENGTH = 40
    integer(ip), parameter :: COLUMN_NORMAL = 5, COLUMN_SHEAR = 6, COLUMN_LENGTH = 8, COLUMN_PRESSURE = 10, &
@@ -85,14 +85,15 @@ contains
       type(history_row_t), intent(in) :: rows(:)
       logical, intent(in) :: by_slip
       integer(ip), allocatable :: list(:)
-      real(wp) :: largest(pairs_in(rows)), here
+      real(wp) :: largest(pairs_in(rows)), here, least
       logical :: is_in(size(largest))
       integer(ip) :: i
 
       largest = 0.0_wp
+      least = ROUNDING*maxval(abs(rows%shear))
       do i = 1, size(rows, kind=ip)
          here = max(abs(rows(i)%normal), abs(rows(i)%shear))
-         if (by_slip) here = merge(abs(rows(i)%mean_slip), 0.0_wp, abs(rows(i)%shear) > 0.0_wp)   ! open joints slip, too
+         if (by_slip) here = merge(abs(rows(i)%mean_slip), 0.0_wp, abs(rows(i)%shear) > least)   ! open joints slip, too
          largest(rows(i)%pair) = max(largest(rows(i)%pair), here)
       end do
       is_in = .false.

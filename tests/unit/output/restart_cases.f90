@@ -39,6 +39,7 @@ contains
       end do
       call make_joints(history%frames(2))
       history%rows%increment = [1_ip, 2_ip]
+      history%rows%mean_slip = [0.125_wp, 0.3_wp]
       history%rows%centre = [ieee_value(1.0_wp, ieee_quiet_nan), 0.1_wp]
       history%iterations%inner = [1_ip, 2_ip, 1_ip]
       history%iterations%residual = [0.1_wp, tiny(1.0_wp)/4, huge(1.0_wp)]
