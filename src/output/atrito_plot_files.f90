@@ -16,7 +16,7 @@ module atrito_plot_files
                                   LIMIT_PLOT = 'limit', MECHANISM_PLOT = 'mechanism', JOINT_PLOT = 'joints', &
                                   HISTORY_PLOT = 'history', LOOP_PLOT = 'loop', MOTION_PLOT = 'motion'
    character(len=15), parameter :: PICTURES(9) = [character(len=15) :: MESH_PLOT, OVERLAY_SUMMARY, STUDY_PLOT, LIMIT_PLOT, &
-                                                                MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT]
+                                                                   MECHANISM_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT]
    character(len=*), parameter :: CONTACT_PLOT = 'contact-', OVERLAY_PLOT = 'overlay-'   !< and the number of the pair
    character(len=*), parameter :: LOG_NAME = 'gnuplot.log'
    character(len=3), parameter :: ENDINGS(5) = ['gp ', 'dat', 'png', 'svg', 'gif']

@@ -450,7 +450,7 @@ contains
          end do
          labels(i) = 'step '//numbers
          if (index(numbers, ',') > 0) labels(i) = 'steps '//numbers
-         if (len(numbers) > LABEL_LENGTH - 6) labels(i)(LABEL_LENGTH - 1:) = '..'
+         if (len(numbers) > LABEL_LENGTH - 6) labels(i) (LABEL_LENGTH - 1:) = '..'
       end do
    end function end_labels
 

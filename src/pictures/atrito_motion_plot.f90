@@ -85,7 +85,7 @@ contains
       real(wp) :: largest
       integer(ip) :: i
 
-      call begin_drawing(model, .not. most_lines(model%mesh%n_nodes, size(images, kind=ip)), drawing)
+      call begin_drawing(model,.not. most_lines(model%mesh%n_nodes, size(images, kind=ip)), drawing)
       largest = 0.0_wp
       do i = 1, size(images, kind=ip)
          largest = max(largest, largest_displacement(history%frames(images(i))))
@@ -197,7 +197,7 @@ contains
       integer(ip) :: i
 
       if (size(images) < size(history%frames)) call put_line(file, '# '//to_text(size(images, kind=ip))//' of the '// &
-                                                    to_text(size(history%frames, kind=ip))//' printed increments, evenly taken')
+                                                        to_text(size(history%frames, kind=ip))//' printed increments, evenly taken')
       call put_line(file, 'images = '//to_text(size(images, kind=ip)))
       call put_line(file, 'array name[images]')
       do i = 1, size(images, kind=ip)
@@ -288,7 +288,7 @@ contains
 
       colours = '0'
       do i = 0, N_STATES - 1
-         colours = '$7 == '//to_text(i)//' ? 0x'//COLOUR(STATE_COLOUR(i))(2:)//' : '//colours
+         colours = '$7 == '//to_text(i)//' ? 0x'//COLOUR(STATE_COLOUR(i)) (2:)//' : '//colours
       end do
       if (pressure > 0.0_wp) call append_string(curves, '   '//points//':(needle*$5):(needle*$6):('//colours// &
                                                 ') with vectors nohead lw 2 lc rgb variable')
