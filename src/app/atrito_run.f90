@@ -73,7 +73,10 @@ contains
          code = status%code
          if (n == 0) return
          call write_run(command, reporter, model, history, code)
-         if (present(facts)) facts = facts_of(model, history%frames(n))
+         if (.not. present(facts)) return
+         facts = facts_of(model, history%frames(n))
+         facts%is_written = code == status%code         ! else they could not be
+         facts%is_whole = facts%is_written .and. .not. history%ending%is_early
       end associate
    end subroutine run_deck
 

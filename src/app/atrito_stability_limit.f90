@@ -157,7 +157,9 @@ contains
       if (answer == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine ask_balance
 
-   !> A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved before.
+   !> A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved before. Of a history 4 is one, too,
+   !> once something has been solved: it ends at a time that the balance was not asked about (supports that go, smooth amplitudes),
+   !> and neither bound is narrowed.
    subroutine ask_solution(command, limit, store, search, one, code)
       type(command_t), intent(in) :: command
       type(stability_t), intent(in) :: limit
@@ -180,6 +182,7 @@ contains
       call solve_history(model, solve_options(command), reporter, history, status, store)
       n = size(history%frames)
       if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
+      if (status%code == STATUS_SINGULAR .and. n > 0) call set_status(status, STATUS_NOT_CONVERGED, status%text)
       if (status%code /= STATUS_OK .and. status%code /= STATUS_NOT_CONVERGED) then
          code = status%code
          call print_failure(command, limit, one%value, status)
@@ -193,13 +196,26 @@ contains
             call print_status(error, model%deck_path)
             return
          end if
-         one%iterations = history%frames(n)%outer_iterations
-         one%solves = history%frames(n)%linear_solves
-         one%factorisations = history%frames(n)%factorisations
+         call count_work(history, one)
       end if
       one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, is_ok(status))
       call record_solution(search, one%value, merge(STANDS, UNDECIDED, is_ok(status)))
    end subroutine ask_solution
+
+   !> Of all increments; of a single one its own.
+   pure subroutine count_work(history, one)
+      type(history_t), intent(in) :: history
+      type(stability_value_t), intent(inout) :: one
+      integer :: n
+
+      n = size(history%frames)
+      one%factorisations = history%factorisations
+      one%iterations = history%frames(n)%outer_iterations
+      one%solves = history%frames(n)%linear_solves
+      if (.not. allocated(history%iterations) .or. size(history%rows) == 0) return
+      one%iterations = count(history%iterations%outer > 0 .and. history%iterations%inner == 1, kind=ip)
+      one%solves = size(history%iterations, kind=ip)
+   end subroutine count_work
 
    !> The displacement of the curve. status: STATUS_USAGE where there is no such node.
    subroutine watch(model, results, watched, displacement, status)

@@ -251,6 +251,7 @@ contains
       row%run_facts_t = facts
       row%phases = get_phases()
       run%code = code
+      run%is_written = facts%is_whole                ! values of another time are no values of the study
       call read_summary(one%folder, run, status)
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
       row%values = [(amount(run%summary, study%quantities(i)%name, nan), i=1, size(study%quantities))]

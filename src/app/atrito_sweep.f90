@@ -17,8 +17,9 @@ module atrito_sweep
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
    use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series, seconds_since
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
+   use atrito_study_errors, only: run_facts_t
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
    use atrito_table, only: origin_t
@@ -30,11 +31,11 @@ module atrito_sweep
 
    integer(c_int), parameter :: NOT_DONE = -1_c_int
 
-   !> What is asked, and the exit codes of the runs, then their factorisations.
+   !> What is asked, and the exit codes of the runs, then their factorisations, then what they wrote.
    type :: sweep_t
       type(command_t) :: command
       type(sweep_plan_t) :: plan
-      integer(c_int), pointer :: shared(:) => null()   !< (2 n_runs)
+      integer(c_int), pointer :: shared(:) => null()   !< (3 n_runs)
       type(body_cache_t) :: store
    end type sweep_t
 
@@ -51,7 +52,7 @@ contains
       sweep%command = command
       call plan_sweep(command%vary, command%settings, sweep%plan, status)
       if (is_ok(status)) then
-         call share_integers(2*sweep%plan%n_runs, sweep%shared)
+         call share_integers(3*sweep%plan%n_runs, sweep%shared)
          if (.not. associated(sweep%shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
       end if
       call claim_output(command, claim, status)
@@ -70,6 +71,7 @@ contains
       integer(lp) :: began
 
       call system_clock(began)
+      sweep%shared = 0
       sweep%shared(:sweep%plan%n_runs) = NOT_DONE
       call make_runs(sweep)
       code = STATUS_USAGE
@@ -107,6 +109,7 @@ contains
       integer(ip), intent(in) :: run
       type(command_t) :: one
       type(reporter_t) :: reporter
+      type(run_facts_t) :: facts
       integer :: i, code
 
       one = sweep%command
@@ -122,7 +125,8 @@ contains
       call clear_messages()
       call reset_timers()
       sweep%store%factorisations = 0
-      call run_deck(one, sweep%store, code)
+      call run_deck(one, sweep%store, code, facts)
+      sweep%shared(2*sweep%plan%n_runs + run) = count([facts%is_written, facts%is_whole], kind=c_int)
       sweep%shared(sweep%plan%n_runs + run) = int(sweep%store%factorisations, c_int)
       sweep%shared(run) = int(code, c_int)
    end subroutine make_run
@@ -151,6 +155,8 @@ contains
          runs(i)%code = int(sweep%shared(i))
          if (sweep%shared(i) == NOT_DONE) runs(i)%code = STATUS_INTERNAL
          runs(i)%factorisations = int(sweep%shared(sweep%plan%n_runs + i), ip)
+         runs(i)%is_written = sweep%shared(2*sweep%plan%n_runs + i) > 0
+         runs(i)%is_whole = sweep%shared(2*sweep%plan%n_runs + i) > 1
          if (is_ok(status)) call read_summary(run_folder(sweep, i), runs(i), status)
       end do
    end subroutine collect
@@ -165,9 +171,10 @@ contains
       type(page_t) :: page
       type(string_t), allocatable :: pictures(:)
 
-      if (all(runs%code /= STATUS_OK .and. runs%code /= STATUS_NOT_CONVERGED)) return
-      call write_sweep(output_folder(command), series_origin(command, any(runs%code == STATUS_NOT_CONVERGED)), plan%names, runs, &
-                       int(command%digits), status)
+      if (.not. any(runs%is_written)) return
+      call write_sweep(output_folder(command), series_origin(command, any(runs%code == STATUS_NOT_CONVERGED .or. &
+                                                                          (runs%is_written .and. .not. runs%is_whole))), &
+                       plan%names, runs, int(command%digits), status)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
       allocate (pictures(0))
@@ -176,7 +183,7 @@ contains
       call tell_series(command, page)
    end subroutine finish
 
-   !> Lays the runs that wrote tables over one another.
+   !> Lays the runs that came to their end over one another.
    subroutine plot_sweep(command, plan, runs, drawn)
       type(command_t), intent(in) :: command
       type(sweep_plan_t), intent(in) :: plan
@@ -191,7 +198,9 @@ contains
 
       reporter%quiet = command%quiet
       call report_progress(reporter, 'plot  '//plot_folder(output_folder(command)))
-      order = pack([(i, i=1, size(runs))], runs%code == STATUS_OK .or. runs%code == STATUS_NOT_CONVERGED)
+      order = pack([(i, i=1, size(runs))], runs%is_whole)
+      allocate (drawn(0))
+      if (size(order) == 0) return
       name = ''
       allocate (values(0))
       if (size(plan%names) == 1) then

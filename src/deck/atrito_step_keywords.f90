@@ -30,6 +30,7 @@ contains
       call define_forces(k)
       call define_element_loads(k)
       call define_temperature(k)
+      call define_interference(k)
       call define_controls(k)
       call define_print_keywords(k)
       call define_file_keywords(k)
@@ -266,6 +267,24 @@ contains
       call define_keyword(k, 'END STEP', LEVEL_STEP, 'ends the step', doc='Nothing may follow the last one.')
       call add_example(k, '*END STEP')
    end subroutine define_end_step
+
+   subroutine define_interference(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'CONTACT INTERFERENCE', LEVEL_STEP, 'resolves the initial overlap of contact pairs over the step', &
+                          doc='Contact does not feel the overlap in the steps before. Over the step the overlap that is '// &
+                          'allowed goes linearly to 0, whatever AMPLITUDE= of *STEP says; so it should have increments. '// &
+                          'Pairs that no line names have their whole overlap from the first increment on.')
+      call add_option(k, 'SHRINK', KIND_FLAG, 'must be given: the initial overlap of each point, of coordinates or *CLEARANCE')
+      call add_option(k, 'TYPE', KIND_WORD, 'of what', default='CONTACT PAIR', choices='CONTACT_PAIR -ELEMENT')
+      call add_option(k, 'AMPLITUDE', KIND_NAME, 'is an error: the overlap goes linearly')
+      call add_option(k, 'OP', KIND_WORD, 'the same: an overlap is resolved at the end of its step', default='MOD', &
+                      choices='MOD NEW')
+      call add_form(k, 'one pair a line', 1, ANY_NUMBER)
+      call add_item(k, 'slave', KIND_NAME, 'the slave of a *CONTACT PAIR')
+      call add_item(k, 'master', KIND_NAME, 'its master')
+      call add_example(k, '*CONTACT INTERFERENCE, SHRINK|hub-INSIDE, shaft-OUTSIDE')
+   end subroutine define_interference
 
    !> How loads change from step to step.
    subroutine add_changes(k)

@@ -29,6 +29,7 @@ module atrito_build_model
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
    use atrito_faces, only: chain_report_t, list_node_elements
    use atrito_found_contact, only: find_contact
+   use atrito_interference, only: interference_t, read_interferences, set_interferences
    use atrito_kinds, only: ip, lp
    use atrito_local_axes, only: read_local_axes
    use atrito_memory, only: available_memory
@@ -99,6 +100,7 @@ contains
       type(chain_report_t), allocatable :: chains(:)
       type(contact_points_t), allocatable :: points(:)
       type(clearance_t), allocatable :: clearances(:)
+      type(interference_t), allocatable :: interferences(:)
       type(adjusted_t), allocatable :: adjusted(:)
       integer(ip) :: i
 
@@ -121,6 +123,7 @@ contains
       call check_temperatures(context)
       call build_contact(context)
       call read_clearances(context, clearances)
+      call read_interferences(context, interferences)
       call read_contact_rules(context, rules)
       call read_ties(context)
       call read_local_axes(context)
@@ -146,6 +149,7 @@ contains
       call move_alloc(points, model%points)
       call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)
+      call set_interferences(interferences, context)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
    end subroutine build_once

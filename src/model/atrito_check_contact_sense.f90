@@ -40,7 +40,7 @@ contains
       worst = 0
       n = 0
       do i = 1, size(model%pairs, kind=ip)
-         if (model%points(i)%n == 0 .or. model%pairs(i)%gap_is_given) cycle
+         if (model%points(i)%n == 0 .or. model%pairs(i)%gap_is_given .or. model%pairs(i)%is_resolved) cycle
          overlap = -minval(model%points(i)%gap)
          if (overlap <= slack) cycle
          if (overlap <= slack + FITTING*largest_rise(model, i)) cycle
@@ -58,8 +58,9 @@ contains
                              //model%surfaces(pair%master)%name//' overlap before any load, by '//to_text(largest, 4) &
                              //' [L] at node '//to_text(model%mesh%node_id(points%node(j)))//' (' &
                              //to_text(points%x(1, j), 5)//', '//to_text(points%x(2, j), 5)//'), and contact pushes them apart' &
-         //others, expected='sides that touch or have a gap; ADJUST closes an overlap, *CLEARANCE with a negative value means it', &
-                             keyword='CONTACT PAIR')
+         //others, expected= &
+                             'sides that touch or have a gap; ADJUST closes an overlap, *CLEARANCE with a negative value '// &
+                             'means it, *CONTACT INTERFERENCE resolves it over a step', keyword='CONTACT PAIR')
       end associate
    end subroutine warn_of_overlap
 

@@ -7,10 +7,10 @@ module atrito_clearance
    use atrito_items, only: get_real, has_option, option_real, option_text
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_name_list, only: find_name
+   use atrito_pair_names, only: find_pair
    use atrito_points, only: contact_points_t
-   use atrito_references, only: find_nodes, report_unknown
-   use atrito_strings, only: to_text
+   use atrito_references, only: find_nodes
+   use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: clearance_t, read_clearances, set_clearances
@@ -62,7 +62,7 @@ contains
       integer(ip) :: i
       logical :: has_table
 
-      call find_pair(card, context, one)
+      call find_pair_of_card(card, context, one)
       has_table = has_option(context%deck, card, 'TABULAR')
       call option_real(context%deck, card, 'VALUE', WHAT, one%value, one%is_uniform)
       ok = card%ok
@@ -84,50 +84,20 @@ contains
    end subroutine read_card
 
    !> The pair of the surfaces MASTER and SLAVE.
-   subroutine find_pair(card, context, one)
+   subroutine find_pair_of_card(card, context, one)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
       type(clearance_t), intent(inout) :: one
-      character(len=:), allocatable :: slave, master
+      type(string_t) :: names(2)
       type(token_t) :: places(2)
-      integer(ip) :: surface(2), i
       logical :: found(2)
 
-      call option_text(context%deck, card, 'SLAVE', slave, found(1), places(1))
-      call option_text(context%deck, card, 'MASTER', master, found(2), places(2))
+      call option_text(context%deck, card, 'SLAVE', names(1)%s, found(1), places(1))
+      call option_text(context%deck, card, 'MASTER', names(2)%s, found(2), places(2))
       if (.not. all(found)) return
       one%place = places(1)
-      surface = [find_name(context%surface_names, slave), find_name(context%surface_names, master)]
-      do i = 1, 2
-         if (surface(i) == 0) call report_unknown(context, places(i), 'surface', 'E-SURFACE', context%surface_names, 'CLEARANCE')
-      end do
-      if (any(surface == 0)) return
-      associate (pairs => context%model%pairs)
-         do i = 1, size(pairs, kind=ip)
-            if (pairs(i)%slave == surface(1) .and. pairs(i)%master == surface(2)) one%pair = i
-         end do
-         if (one%pair > 0 .or. .not. has_all_pairs(context)) return
-         if (any(pairs%slave == surface(2) .and. pairs%master == surface(1))) then
-            call report_error(context%deck, places(1), 'E-PAIR', slave//' is the master of this pair, '//master//' the slave', &
-                              expected='SLAVE='//master//', MASTER='//slave, keyword='CLEARANCE')
-         else
-            call report_error(context%deck, places(1), 'E-PAIR', 'no *CONTACT PAIR has the slave '//slave//' and the master '// &
-                              master, expected='the surfaces of one *CONTACT PAIR', keyword='CLEARANCE')
-         end if
-      end associate
-   end subroutine find_pair
-
-   !> Each line of *CONTACT PAIR has made a pair; where one has not, an error has been told.
-   pure logical function has_all_pairs(context)
-      type(build_context_t), intent(in) :: context
-      integer(ip) :: i, n
-
-      n = 0
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'CONTACT PAIR') n = n + context%deck%cards(i)%n_lines
-      end do
-      has_all_pairs = size(context%model%pairs) == n
-   end function has_all_pairs
+      call find_pair(context, names, places, 'SLAVE='//names(2)%s//', MASTER='//names(1)%s, 'CLEARANCE', one%pair)
+   end subroutine find_pair_of_card
 
    !> node or set, gap.
    subroutine read_line(line, context, one, ok)

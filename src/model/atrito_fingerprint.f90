@@ -201,7 +201,7 @@ contains
       type(fingerprint_t), intent(inout) :: fingerprint
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: i
-      type(digest_t) :: supports, loads, way, requests
+      type(digest_t) :: supports, loads, overlaps, way, requests
 
       associate (step => model%steps(i))
          call add_nodal_values(supports, model, step%prescribed)
@@ -211,6 +211,8 @@ contains
          call add_allocated(loads, step%heating)
          call add_allocated(loads, step%heating_from)
          call add_to(loads, step%at_once)
+         call add_allocated(overlaps, step%overlap)
+         call add_allocated(overlaps, step%overlap_from)
          call add_way(way, step)
          call add_requests(requests, step)
       end associate
@@ -218,6 +220,7 @@ contains
                     supports, i)
       call add_part(fingerprint, 'loads of step '//to_text(i), to_text(model%steps(i)%node_loads%n)//' on nodes, '// &
                     to_text(model%steps(i)%element_loads%n)//' on elements', loads, i)
+      call add_part(fingerprint, '*CONTACT INTERFERENCE of step '//to_text(i), '', overlaps, i)
       call add_part(fingerprint, '*STATIC or *CONTROLS of step '//to_text(i), '', way, i)
       call add_part(fingerprint, 'what is printed in step '//to_text(i), '', requests, i)
    end subroutine add_step

@@ -75,6 +75,7 @@ module atrito_model
       real(wp) :: adjust = 0.0_wp                             !< up to this gap [L] ...
       integer(ip) :: adjust_set = 0                           !< ... or those of this node set; 0: none
       logical :: gap_is_given = .false.                       !< *CLEARANCE gives its initial gaps
+      logical :: is_resolved = .false.                        !< *CONTACT INTERFERENCE, SHRINK: its overlap goes over a step
       integer(ip) :: outline = 0    !< of *CONTACT: the same for slaves that continue each other, which S_rho does not cut; 0: none
    end type pair_t
 
@@ -177,6 +178,8 @@ module atrito_model
       type(element_load_t) :: element_loads
       real(wp), allocatable :: heating(:)           !< (n_nodes) rise of the temperature; not allocated where none expands anything
       real(wp), allocatable :: heating_from(:)      !< (n_nodes) the same at the beginning; not allocated: 0
+      real(wp), allocatable :: overlap(:)           !< (pairs) share of the initial overlap that is allowed at the end ...
+      real(wp), allocatable :: overlap_from(:)      !< ... and at the beginning; not allocated: 0
       type(controls_t) :: controls
       type(requests_t) :: requests
    end type step_t

@@ -190,6 +190,7 @@ module atrito_results
       type(history_row_t), allocatable :: rows(:)
       type(iteration_t), allocatable :: iterations(:) !< of all increments
       type(ending_t) :: ending
+      integer(ip) :: factorisations = 0             !< of all increments that were tried
    end type history_t
 
 contains

@@ -174,6 +174,7 @@ contains
             call add_line(page, '   step '//to_text(k)//step_title(model%steps(k)))
          end if
          call describe_increments(page, model%steps(k), n)
+         call describe_overlaps(page, model, model%steps(k))
          call describe_supports(page, model, k)
          call describe_loads(page, model, k)
       end do
@@ -216,6 +217,22 @@ contains
       call add_entry(page, 'increments', text)
       if (step%at_once) call add_entry(page, 'loads', 'at once, not over the step')
    end subroutine describe_increments
+
+   !> Overlaps that *CONTACT INTERFERENCE resolves, until they are.
+   subroutine describe_overlaps(page, model, step)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
+      integer(ip) :: i
+
+      if (.not. allocated(step%overlap)) return
+      do i = 1, size(model%pairs, kind=ip)
+         if (step%overlap_from(i) <= 0.0_wp) cycle
+         call add_entry(page, 'overlap of pair '//to_text(i), 'up to '// &
+                        number(max(0.0_wp, -minval(model%points(i)%gap)), DIGITS)//' [L], '// &
+                        trim(merge('allowed                 ', 'resolved over the step  ', step%overlap(i) > 0.0_wp)))
+      end do
+   end subroutine describe_overlaps
 
    subroutine describe_supports(page, model, k)
       type(page_t), intent(inout) :: page

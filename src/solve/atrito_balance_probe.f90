@@ -1,4 +1,5 @@
-!> Whether a scene can stand at all, without solving it: the certificate of its loads, and the motion that it proves.
+!> Whether a scene can stand at all, without solving it: the certificate of its loads at all times of the history that matter, and
+!> the motion that it proves.
 module atrito_balance_probe
    use atrito_bodies, only: mode_at
    use atrito_body_cache, only: body_cache_t
@@ -11,43 +12,115 @@ module atrito_balance_probe
    use atrito_motion_rows, only: motion_rows_t
    use atrito_motion_system, only: build_motion_rows
    use atrito_results, only: pair_scene_t
-   use atrito_scene_data, only: scene_data_t, asked_t, prepare
+   use atrito_scene_builder, only: list_prescribed
+   use atrito_scene_data, only: scene_data_t, asked_t, prepare, set_time
    use atrito_stability_result, only: collapse_t
    use atrito_stability_search, only: STANDS, FALLS, UNDECIDED
    use atrito_status, only: status_t, is_ok
+   use atrito_step_loads, only: moment_t
+   use atrito_strings, only: to_text
+   use atrito_turning_times, only: turning_times
    implicit none (type, external)
    private
    public :: probe_balance
 
 contains
 
-   !> Asks the certificate. status: STATUS_DECK, which is told by a message, where the averages take more memory than there is.
+   !> Asks the certificate at all times of the history that matter. status: STATUS_DECK, which is told by a message, where the
+   !> averages take more memory than there is.
    subroutine probe_balance(model, answer, excess, status, collapse)
       type(model_t), intent(in), target :: model
-      integer, intent(out) :: answer                !< STANDS: there are forces that balance the loads; FALLS or UNDECIDED
-      real(wp), intent(out) :: excess               !< FALLS: work that the contact cannot take, over the sum of the loads
+      integer, intent(out) :: answer                !< STANDS: forces balance the loads at all times; FALLS at some; or UNDECIDED
+      real(wp), intent(out) :: excess               !< FALLS: the largest work that contact cannot take, over the sum of the loads
       type(status_t), intent(out) :: status
-      type(collapse_t), intent(out), optional :: collapse !< FALLS: the motion
+      type(collapse_t), intent(out), optional :: collapse !< FALLS: the motion, at the first such time
       type(scene_data_t) :: data
+      real(wp), allocatable :: times(:)
+      real(wp) :: began
+      integer(ip) :: k
+      integer :: i
+
+      answer = STANDS
+      excess = 0.0_wp
+      began = 0.0_wp
+      do k = 1, size(model%steps, kind=ip)
+         times = turning_times(model, k)
+         call begin_step(model, k, data, times, status)
+         if (.not. is_ok(status)) return
+         do i = 1, size(times)
+            if (size(model%steps) > 1 .or. size(times) > 1) call set_time(data, moment_t(times(i), began + times(i)))
+            if (present(collapse)) then
+               call ask_moment(data, moment_text(model, k, times(i), began), answer, excess, collapse)
+            else
+               call ask_moment(data, '', answer, excess)
+            end if
+         end do
+         began = began + model%steps(k)%increments%period
+      end do
+   end subroutine probe_balance
+
+   !> The scene of a step; with the same dofs held it is the one that is there. Where supports go, their forces are not known here:
+   !> then only the end is asked about, where they are gone.
+   subroutine begin_step(model, k, data, times, status)
+      type(model_t), intent(in), target :: model
+      integer(ip), intent(in) :: k
+      type(scene_data_t), intent(inout) :: data
+      real(wp), allocatable, intent(inout) :: times(:)
+      type(status_t), intent(out) :: status
+      logical, allocatable :: held(:, :)
+      real(wp), allocatable :: value(:, :)
       type(body_cache_t) :: store
       type(asked_t) :: asked
+
+      if (k > 1) then
+         call list_prescribed(model%steps(k)%prescribed, model%mesh%n_nodes, held, value)
+         if (any(data%held .and. .not. held)) times = times(size(times):)
+         if (all(held .eqv. data%held)) then
+            data%step => model%steps(k)
+            return
+         end if
+      end if
+      asked%contact_form = CONTACT_SPARSE           ! no body is numbered for a profile
+      call prepare(model, store, asked, data, status, model%steps(k))
+   end subroutine begin_step
+
+   !> Asks the certificate of what acts now, and keeps the worst answer.
+   subroutine ask_moment(data, when, answer, excess, collapse)
+      type(scene_data_t), intent(in) :: data
+      character(len=*), intent(in) :: when          !< in words, before those of the motion
+      integer, intent(inout) :: answer
+      real(wp), intent(inout) :: excess
+      type(collapse_t), intent(inout), optional :: collapse
       type(motion_rows_t) :: motions
       type(certificate_t) :: certificate
 
-      answer = UNDECIDED
-      excess = 0.0_wp
-      asked%contact_form = CONTACT_SPARSE           ! no body is numbered for a profile
-      call prepare(model, store, asked, data, status)
-      if (.not. is_ok(status)) return
       call build_motion_rows(data%fem, data%rows, data%line, data%f, motions)
       call prove_balance(motions, data%line, certificate)
-      if (certificate%verdict == BALANCE_POSSIBLE) answer = STANDS
-      if (certificate%verdict /= BALANCE_IMPOSSIBLE) return
-      answer = FALLS
+      if (certificate%verdict == BALANCE_POSSIBLE) return
+      if (certificate%verdict /= BALANCE_IMPOSSIBLE) then
+         if (answer == STANDS) answer = UNDECIDED
+         return
+      end if
       ! not over the work of the loads, all of which is too much where they fall off a slope
-      excess = certificate%excess/sum(motions%work_size, mask=abs(certificate%motion) > 0.0_wp)
-      if (present(collapse)) call describe_collapse(data, motions, certificate, collapse)
-   end subroutine probe_balance
+      excess = max(excess, certificate%excess/sum(motions%work_size, mask=abs(certificate%motion) > 0.0_wp))
+      if (present(collapse) .and. answer /= FALLS) then
+         call describe_collapse(data, motions, certificate, collapse)
+         collapse%text = when//collapse%text
+      end if
+      answer = FALLS
+   end subroutine ask_moment
+
+   !> The time, where there is more than one to be asked about.
+   pure function moment_text(model, k, time, began) result(text)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k
+      real(wp), intent(in) :: time, began           !< of the step, and when it began
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (size(model%steps) == 1 .and. model%steps(1)%increments%initial >= model%steps(1)%increments%period) return
+      text = 'in step '//to_text(k)//', at time '//to_text(began + time, 6)//': '
+   end function moment_text
 
    subroutine describe_collapse(data, motions, certificate, collapse)
       type(scene_data_t), intent(in) :: data

@@ -23,7 +23,7 @@ module atrito_body_cache
    type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
       logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
-      integer(ip) :: factorisations = 0                !< of the last call of provide_bodies
+      integer(ip) :: factorisations = 0                !< of the last call of provide_bodies; behind a history of all
       type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
       logical, private :: holds = .false.              !< the rest is there: what they were made of
       type(mesh_t), private :: mesh
@@ -97,7 +97,6 @@ contains
       real(wp), intent(in) :: load(:, :)               !< (2, n_nodes) [F], less the forces of prescribed displacements
       integer(ip) :: b
 
-      store%factorisations = 0
       call start_phase('factor')
       do b = 1, fem%bodies%n
          call set_load(fem, b, load, store%bodies(b))

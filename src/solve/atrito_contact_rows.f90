@@ -5,7 +5,7 @@ module atrito_contact_rows
    use atrito_points, only: contact_points_t
    implicit none (type, external)
    private
-   public :: contact_rows_t, build_rows, row_value, bodies_of_row, direction_of_entry
+   public :: contact_rows_t, build_rows, allow_overlap, true_gap, row_value, bodies_of_row, direction_of_entry
 
    !> Row of point j along a direction d_j: the sum of coefficient(k) d_j . u(node(k)) over k from first(j) to first(j+1) - 1. The
    !> last n_bilateral rows have vectors of their own in place of coefficient(k) d_j, and no direction.
@@ -17,7 +17,8 @@ module atrito_contact_rows
       real(wp), allocatable :: coefficient(:)        !< the slave's positive, the master's negative; none is 0
       real(wp), allocatable :: normal(:, :)          !< (2, n) n
       real(wp), allocatable :: tangent(:, :)         !< (2, n) T, n turned by +90 degrees
-      real(wp), allocatable :: gap(:)                !< (n) initial distance s_j [L]
+      real(wp), allocatable :: gap(:)                !< (n) initial distance s_j, and overlap that is allowed [L]
+      real(wp), allocatable :: allowed(:)            !< (n) that overlap [L]; not allocated: none
       integer(ip) :: n_bilateral = 0
       integer(ip) :: before_vectors = 0              !< entries of the rows before
       real(wp), allocatable :: vector(:, :)          !< (2, entries of bilateral rows)
@@ -70,6 +71,38 @@ contains
          rows%longest = max(rows%longest, bilateral%first(j + 1) - bilateral%first(j))
       end do
    end subroutine append_bilateral
+
+   !> Gaps of all points at a time of a step that resolves overlaps: what is allowed of an overlap is no overlap to contact.
+   pure subroutine allow_overlap(points, share, rows)
+      type(contact_points_t), intent(in) :: points(:)
+      real(wp), intent(in) :: share(:)               !< (pairs) of the initial overlap, that is allowed
+      type(contact_rows_t), intent(inout) :: rows
+      integer(ip) :: i, first
+
+      if (allocated(rows%allowed)) deallocate (rows%allowed)
+      if (any(share > 0.0_wp)) allocate (rows%allowed(rows%n), source=0.0_wp)
+      first = 0
+      do i = 1, size(points, kind=ip)
+         associate (n => points(i)%n)
+            rows%gap(first + 1:first + n) = points(i)%gap(:n)
+            if (share(i) > 0.0_wp) then
+               rows%allowed(first + 1:first + n) = share(i)*max(0.0_wp, -points(i)%gap(:n))
+               rows%gap(first + 1:first + n) = points(i)%gap(:n) + rows%allowed(first + 1:first + n)
+            end if
+            first = first + n
+         end associate
+      end do
+   end subroutine allow_overlap
+
+   !> The distance of two sides from what contact takes for it.
+   pure real(wp) function true_gap(rows, j, gap)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j
+      real(wp), intent(in) :: gap                    !< [L]
+
+      true_gap = gap
+      if (allocated(rows%allowed)) true_gap = gap - rows%allowed(j)
+   end function true_gap
 
    !> The direction of entry k of row j: what the displacement of its node is multiplied by, besides the coefficient.
    pure function direction_of_entry(rows, j, k, direction) result(vector)

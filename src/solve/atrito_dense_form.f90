@@ -103,8 +103,8 @@ contains
          if (allocated(problem)) deallocate (problem)
          call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
                              status, data%model%bilateral)
+         results%factorisations = store%factorisations
       end if
-      results%factorisations = store%factorisations
       if (is_ok(status)) results%scene%near_elements = any(store%bodies%is_near)
    end subroutine provide_loaded_bodies
 

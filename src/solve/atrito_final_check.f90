@@ -247,6 +247,7 @@ contains
       slip = 0.0_wp
       t = 0.0_wp
       call gather_fields(results, p, gap, slip, t)
+      if (allocated(rows%allowed)) gap = gap + rows%allowed
       if (.not. all(ieee_is_finite([p, gap, slip, t]))) then
          results%law_holds = .false.
          results%verdict = 'the solution holds what is not a number'

@@ -99,6 +99,7 @@ contains
          now = progress_t()
       end do
       call finish(run, history)
+      if (store%factorisations > 0) store%factorisations = history%factorisations
       call release_bodies(store)
    end subroutine solve_history
 
@@ -213,6 +214,7 @@ contains
             frame%contact(i)%slip_increment = frame%contact(i)%slip
          end do
          history%iterations = frame%iterations
+         history%factorisations = frame%factorisations
       end associate
    end subroutine solve_only_increment
 
@@ -290,6 +292,7 @@ contains
                return
             end if
             call try_increment(k, now%increment, to, store, run, results, solution, status)
+            history%factorisations = history%factorisations + results%factorisations
             if (is_solved(results, status)) then
                call tell(run%reporter, results, now%cuts)
                call keep_increment(model, results, solution, run, history)

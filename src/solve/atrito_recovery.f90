@@ -5,7 +5,7 @@ module atrito_recovery
    use atrito_bound_qp, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
    use atrito_contact_line, only: contact_line_t, rest_of, slip_of_unknown
-   use atrito_contact_rows, only: contact_rows_t, row_value
+   use atrito_contact_rows, only: contact_rows_t, row_value, true_gap
    use atrito_contact_solution, only: contact_solution_t
    use atrito_average, only: apply_average
    use atrito_element_table, only: BEST_OF, POINTS_OF, MOST_NODES, POINT_COUNT
@@ -163,6 +163,7 @@ contains
                c%weighted_pressure(j) = weighted(k)
                c%shear(j) = -solution%t(k)
                call place_of_point(line, rows, solution, u, k, c%gap(j), c%slip(j))
+               c%gap(j) = true_gap(rows, k, c%gap(j))
                c%status(j) = status_of(line, solution, k, c%pressure(j), c%slip(j))
             end do
             c%s_end = 0.0_wp

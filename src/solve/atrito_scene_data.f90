@@ -8,7 +8,7 @@ module atrito_scene_data
    use atrito_contact_form, only: choose_contact_form, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: average_entries, build_line, set_known_points
-   use atrito_contact_rows, only: contact_rows_t, build_rows
+   use atrito_contact_rows, only: contact_rows_t, allow_overlap, build_rows
    use atrito_contact_solution, only: contact_solution_t
    use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, lp, wp
@@ -89,8 +89,9 @@ contains
                                    average_entries(model, data%points, most_average_entries(asked%memory)), asked%memory, status)
          if (.not. is_ok(status)) return
       end if
-      call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
       associate (period => data%step%increments%period)
+         call resolve_overlaps(data, moment_t(period, period))
+         call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
          if (is_end(data%step, moment_t(period, period))) then
             call take_forces(data, data%step)
          else
@@ -125,11 +126,23 @@ contains
       call take_forces(data, now)
       if (allocated(data%released) .and. share < 1.0_wp) data%f = data%f + (1.0_wp - share)*data%released
       call move_skew_supports(data, moment, share)
+      call resolve_overlaps(data, moment)
       call set_known_points(data%rows, data%value, data%line)
       if (.not. data%is_assembled) return
       call set_scene_gaps(data%rows, data%line, data%value, data%assembled)
       call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
    end subroutine set_time
+
+   !> What is left of the overlaps that *CONTACT INTERFERENCE resolves; it goes linearly, whatever loads do.
+   pure subroutine resolve_overlaps(data, moment)
+      type(scene_data_t), intent(inout) :: data
+      type(moment_t), intent(in) :: moment
+      real(wp) :: share
+
+      if (.not. allocated(data%step%overlap)) return
+      share = min(moment%step_time/data%step%increments%period, 1.0_wp)
+      call allow_overlap(data%points, (1.0_wp - share)*data%step%overlap_from + share*data%step%overlap, data%rows)
+   end subroutine resolve_overlaps
 
    !> Supports along directions of their own come to their displacements in the first step, and keep them.
    pure subroutine move_skew_supports(data, moment, share)

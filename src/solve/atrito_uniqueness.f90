@@ -3,8 +3,9 @@
 !> Where all points of a set are closed and slip, the normal forces follow the tangential ones linearly, q_n = A q_t with
 !> A = -C_nn^-1 C_nt (and what the rigid motions add), and the map of tau is L = nu w^-1 A w S, S the directions of slip. Two
 !> solutions on this set, or a Picard loop that cycles, need a spectral radius of L of 1 or more; for one point it is
-!> nu |C_nt|/C_nn = nu |K_nt|/K_tt. Sets: all points, and those that are closed in the solution. Directions: all the same,
-!> and those of the solution. Other sets and directions may be worse, hence an estimate. The average S_rho is left out.
+!> nu |C_nt|/C_nn = nu |K_nt|/K_tt. Sets: all points, and those that are closed in the solution, all slipping the same way; and the
+!> solution itself, where those that slip go on the way they do and those that stick hold: their forces follow, too. Other sets
+!> and directions may be worse, hence an estimate. The average S_rho is left out.
 module atrito_uniqueness
    use atrito_bound_qp, only: bound_qp_t, FREE, AT_LOWER
    use atrito_contact_line, only: contact_line_t
@@ -15,12 +16,12 @@ module atrito_uniqueness
    private
    public :: estimate_contraction
 
-   !> The linear map of a set of closed, slipping points, ready to be applied.
+   !> The linear map of a set of closed points, of which some slip, ready to be applied.
    type :: slip_map_t
       real(wp), allocatable :: factor(:, :)       !< Cholesky factor of C_nn + D, scaled
       real(wp), allocatable :: scale(:)           !< of its rows
       real(wp), allocatable :: coupling(:, :)     !< C_nt
-      real(wp), allocatable :: y(:, :)            !< (C_nn + D)^-1 G_n
+      real(wp), allocatable :: y(:, :)            !< (C_nn + D)^-1 G_n; n: the set
       real(wp), allocatable :: gt(:, :)           !< G_t
       real(wp), allocatable :: inverse(:, :)      !< of G_n' Y, on the motions that the set holds
       real(wp), allocatable :: left(:), right(:)  !< nu/w and w of the slipping points
@@ -48,43 +49,77 @@ contains
       if (.not. any(can_slip)) return
       all_points = [(i, i=1, problem%n_normal)]
       closed = pack(all_points, state(:problem%n_normal) == FREE)
-      sigma = contraction_of(problem, line, compliance, state, all_points, can_slip)
-      if (size(closed) == size(all_points)) return
-      sigma = max(sigma, contraction_of(problem, line, compliance, state, closed, can_slip))
+      sigma = contraction_of_sliding(problem, line, compliance, all_points, pack(all_points, can_slip))
+      if (size(closed) < size(all_points)) sigma = max(sigma, contraction_of_sliding(problem, line, compliance, closed, &
+                                                                                     pack(closed, can_slip(closed))))
+      sigma = max(sigma, contraction_of_solution(problem, line, compliance, state, closed, can_slip))
    end function estimate_contraction
 
-   !> The estimate of one set of points.
-   function contraction_of(problem, line, compliance, state, set, can_slip) result(sigma)
+   !> The estimate of a set of points that all slip the same way.
+   function contraction_of_sliding(problem, line, compliance, set, points) result(sigma)
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: compliance(:)
+      integer(ip), intent(in) :: set(:)           !< normal unknowns
+      integer(ip), intent(in) :: points(:)        !< of those the ones that can slip
+      real(wp) :: sigma
+      real(wp) :: direction(size(points))
+
+      direction = 1.0_wp
+      sigma = contraction_of(problem, line, compliance, set, points, direction)
+   end function contraction_of_sliding
+
+   !> The estimate of the solution: what sticks holds. Where all closed points slip the same way it has been made.
+   function contraction_of_solution(problem, line, compliance, state, closed, can_slip) result(sigma)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: compliance(:)
       integer(ip), intent(in) :: state(:)
-      integer(ip), intent(in) :: set(:)           !< normal unknowns
-      logical, intent(in) :: can_slip(:)
+      integer(ip), intent(in) :: closed(:)        !< normal unknowns
+      logical, intent(in) :: can_slip(:)          !< normal unknowns
+      real(wp) :: sigma
+      integer(ip), allocatable :: points(:), sticking(:), slipping(:)
+      real(wp), allocatable :: direction(:)
+
+      sigma = 0.0_wp
+      points = pack(closed, can_slip(closed))
+      slipping = line%tangential(line%point(points))
+      sticking = pack(slipping, state(slipping) == FREE)
+      points = pack(points, state(slipping) /= FREE)
+      slipping = pack(slipping, state(slipping) /= FREE)
+      direction = merge(-1.0_wp, 1.0_wp, state(slipping) == AT_LOWER)
+      if (size(sticking) == 0 .and. abs(sum(direction)) >= size(direction)) return
+      sigma = contraction_of(problem, line, compliance, [closed, sticking], points, direction)
+   end function contraction_of_solution
+
+   !> The estimate of a set of unknowns that follow where some points slip.
+   function contraction_of(problem, line, compliance, set, points, direction) result(sigma)
+      type(bound_qp_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: compliance(:)
+      integer(ip), intent(in) :: set(:)           !< normal unknowns, and tangential ones of points that stick
+      integer(ip), intent(in) :: points(:)        !< that slip: their normal unknowns, in the set
+      real(wp), intent(in) :: direction(:)        !< of their slip
       real(wp) :: sigma
       type(slip_map_t) :: map
-      integer(ip), allocatable :: place(:), slipping(:)
-      real(wp), allocatable :: direction(:)
+      integer(ip) :: place(size(points)), places(problem%m)
       logical :: possible
       integer(ip) :: i
 
       sigma = 0.0_wp
-      place = pack([(i, i=1, size(set, kind=ip))], can_slip(set))
-      if (size(place) == 0) return
-      slipping = line%tangential(line%point(set(place)))
-      call build_map(problem, line, compliance, set, place, slipping, map, possible)
-      if (.not. possible) return
-      allocate (direction(size(slipping)), source=1.0_wp)
-      sigma = radius_of(map, direction)
-      direction = merge(-1.0_wp, 1.0_wp, state(slipping) == AT_LOWER)
-      if (any(direction /= direction(1))) sigma = max(sigma, radius_of(map, direction))
+      if (size(points) == 0) return
+      places = 0
+      places(set) = [(i, i=1, size(set, kind=ip))]
+      place = places(points)
+      call build_map(problem, line, compliance, set, place, line%tangential(line%point(points)), map, possible)
+      if (possible) sigma = radius_of(map, direction)
    end function contraction_of
 
    subroutine build_map(problem, line, compliance, set, place, slipping, map, possible)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: compliance(:)
-      integer(ip), intent(in) :: set(:)           !< normal unknowns
+      integer(ip), intent(in) :: set(:)           !< unknowns that follow
       integer(ip), intent(in) :: place(:)         !< of those that slip, in the set
       integer(ip), intent(in) :: slipping(:)      !< their tangential unknowns
       type(slip_map_t), intent(out) :: map

@@ -17,6 +17,8 @@ module atrito_study_errors
 
    !> What a study wants to know of a run besides its tables.
    type :: run_facts_t
+      logical :: is_written = .false.                !< tables of this run were written
+      logical :: is_whole = .false.                  !< to the end of the history
       integer(ip) :: n_dofs = 0, n_points = 0
       real(wp) :: h = 0.0_wp                         !< [L] side of a square of the mean area of the elements
       integer(ip) :: degree = 0                      !< of the elements' shape functions, 1 or 2; 0: both, or unknown

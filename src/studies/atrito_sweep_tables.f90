@@ -3,7 +3,7 @@ module atrito_sweep_tables
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, begin_report, add_item, add_files, add_line, add_rule, left, right, number, plural
    use atrito_read_table, only: table_file_t, read_table, find_column, item_text
-   use atrito_status, only: status_t, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_status, only: status_t, STATUS_OK
    use atrito_strings, only: string_t, append_string, join, to_text
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words
    use atrito_table_text, only: write_table_set
@@ -18,6 +18,7 @@ module atrito_sweep_tables
       type(string_t), allocatable :: texts(:)          !< values of the parameters as the user wrote them
       real(wp), allocatable :: values(:)
       integer :: code = STATUS_OK                      !< exit code of the run
+      logical :: is_written = .false., is_whole = .false. !< it wrote tables; they go to the end of its history
       integer(ip) :: factorisations = 0
       type(table_file_t) :: summary                    !< summary.tab; without rows where there is none
    end type sweep_run_t
@@ -39,7 +40,7 @@ contains
       type(sweep_run_t), intent(inout) :: run
       type(status_t), intent(out) :: status
 
-      if (run%code /= STATUS_OK .and. run%code /= STATUS_NOT_CONVERGED) return
+      if (.not. run%is_written) return
       call read_table(folder//'/summary.tab', run%summary, status)
    end subroutine read_summary
 
@@ -121,7 +122,9 @@ contains
       call add_integers(table, 'increment', increment)
       do i = 1, size(runs, kind=ip)
          if (runs(i)%code == STATUS_OK) cycle
-         call append_string(table%remarks, runs(i)%label//': exit code '//to_text(int(runs(i)%code, ip)))
+         call append_string(table%remarks, runs(i)%label//': exit code '//to_text(int(runs(i)%code, ip))// &
+                            trim(merge(', its history ends early', '                        ', &
+                                       runs(i)%is_written .and. .not. runs(i)%is_whole)))
       end do
    end subroutine build_sweep
 
@@ -198,7 +201,7 @@ contains
       text = text//right(code, 5)
    end function row_of
 
-   !> A value of the summary as text of a few digits; '-' where there is none.
+   !> A value of the summary as text of a few digits; '-' where there is none, or none of the end of the history.
    pure function amount(run, quantity) result(text)
       type(sweep_run_t), intent(in) :: run
       character(len=*), intent(in) :: quantity
@@ -207,7 +210,7 @@ contains
 
       row = row_of_quantity(run%summary, quantity)
       text = '-'
-      if (row > 0) text = number(run%summary%value(find_column(run%summary, 'value'), row), DIGITS)
+      if (row > 0 .and. run%is_whole) text = number(run%summary%value(find_column(run%summary, 'value'), row), DIGITS)
    end function amount
 
 end module atrito_sweep_tables

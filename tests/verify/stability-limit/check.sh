@@ -75,6 +75,29 @@ between slide 0.2 1e-6
 near 'slide: along the floor' "$(motion slide POST u1)" 1 1e-6
 [ -s slide.out ] && complain '--quiet prints'
 
+# histories: the second of three steps is too much, or the peak of an amplitude in it; the run that falls says when
+for form in dense sparse; do
+   limit 0 push-$form "$here/push.inp" --vary H=0.1:8 --contact $form
+   between push-$form 4.2 1e-6
+done
+says 'push: when' push-dense.out 'mechanism: in step 2, at time 2: body BLOCK'
+near 'push: factored once' "$(column push-dense/limit.tab factorisations | awk '{ n += $1 } END { print n }')" 1 0
+awk '!/^#/ && $2 == 0 && !($5 >= 9 && $6 > $5) { exit 1 }' push-dense/limit.tab || complain 'push: iterations of all increments'
+awk '/^push$/ { second = 1 } /^back$/ { second = 0 } second { sub(/^\*DLOAD/, "*DLOAD, AMPLITUDE=UPS") } { print }' "$here/push.inp" >peak.inp
+limit 0 peak peak.inp --vary peak=0.6:8
+between peak "$(value '4.2')" 1e-6
+says 'peak: when' peak.out 'mechanism: in step 2, at time 1.35: body BLOCK'
+# the pressure comes behind the push: at the end all would be well
+sed -e '/^\*DSLOAD/,+1d' -e 's/^0.25, 1$/0.25, 1\n*DSLOAD, AMPLITUDE=LATE\nBLOCK-TOP, P, 5/' -e '/^back$/,$d' "$here/push.inp" |
+   sed -e '$d' -e 's/^\*AMPLITUDE, NAME=UPS/*AMPLITUDE, NAME=LATE\n0, 0, 0.5, 0, 1, 1\n&/' >late.inp
+limit 0 late late.inp --vary H=0.1:8
+between late 2.4 1e-6
+says 'late: when' late.out 'at time 1.5'
+"$atrito" "$here/push.inp" --set H=5 -o fallen --quiet >/dev/null 2>&1
+[ $? -eq 4 ] || complain 'push with H = 5: exit code'
+says 'push with H = 5' fallen/contact.tab '# NOT CONVERGED: ended in step 2, increment'
+near 'push with H = 5: when' "$(awk '!/^#/ { t = $3 } END { print t }' fallen/history.tab)" 1.84 1e-5
+
 # arches
 for n in 9 20; do
    awk -v n=$n -f "$here/arch.awk" >arch-$n.inp

@@ -135,6 +135,21 @@ says 'smooth field of triangles' out/study.tab '2 (cpe6) at the last level, as f
 says 'held' out/study.tab '# normal_resultant: 1.5 in every run, but for rounding'
 says 'held' out/plots/study.gp 'multiplot layout 3,1'
 
+# A history: the values of its end; a run that ends early has none.
+sed 's/NX=8, NY=4/NX=2, NY=1/' "$here/../stability-limit/push.inp" >push.inp
+"$atrito" study push.inp --levels 3 --set H=4 -o push --quiet || complain 'push'
+for k in 0 1 2; do
+   near "push, level $k" "$(awk -v k=$k '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 } !/^#/ && $1 == k { print $at["strain_energy"] }' push/study.tab)" \
+      "$(awk '!/^#/ && $3 == "strain_energy" { v = $4 } END { print v }' "push/deck_$k/summary.tab")" 1e-15
+done
+sed 's/^\*STEP$/*STEP, INC=2/' push.inp >short.inp
+"$atrito" study short.inp --levels 3 -o short --quiet >/dev/null 2>&1
+near 'histories that end early' $? 3 0
+[ -s short/deck_2/summary.tab ] || complain 'short: nothing is written'
+awk '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 }
+   !/^#/ { n++; if ($at["strain_energy"] !~ /nan/ || $at["exit"] != 3) bad = 1 } END { exit bad || n != 3 }' short/study.tab ||
+   complain 'short: values of another time'
+
 # Faults are told before anything is written.
 for fault in '--levels 2 --elements cpe4' '--levels 2 --reference energy' '--levels 2 --reference strain_energy=x' '--elements cps4'; do
    # shellcheck disable=SC2086

@@ -68,6 +68,27 @@ found=$(column broken/runs.tab exit | tr '\n' ' ')
 sweep 2 hopeless --vary rho=-1,-2 --quiet
 absent hopeless
 
+# Histories: each run to its end is the run by itself; one that ends early has the increments that it wrote, and no part in the screen's
+# rows and in pictures; one without any increment has nothing.
+"$atrito" sweep "$here/../stability-limit/push.inp" --vary H=2,4,5 -o push --plot --quiet >/dev/null 2>push.err
+near 'history that falls: exit code' $? 4 0
+run 0 "$here/../stability-limit/push.inp" push-4 --set H=4 --quiet
+same_tables 'history' push-4/contact.tab push/H_4/contact.tab 0
+read -r first <push/sweep.tab
+[ "$first" = '# NOT CONVERGED' ] || complain "push/sweep.tab begins with '$first'"
+says 'history that falls' push/sweep.tab '# H=5: exit code 4, its history ends early'
+near 'history that falls: quantities' "$(awk '!/^#/ && $1 == 5' push/sweep.tab | wc -l)" "$(grep -vc '^#' push/H_5/summary.tab)" 0
+grep -q 'H=4' push/plots/overlay-1.gp || complain 'push/plots/overlay-1.gp has no H=4'
+grep -q 'H=5' push/plots/overlay-1.gp && complain 'push/plots/overlay-1.gp has what ends early'
+"$atrito" sweep "$here/../stability-limit/push.inp" --vary H=2,4,5 -o push >push.out 2>/dev/null
+awk '$1 == 5 { n++; if ($2 != "-" || $5 != "-" || $NF != 4) bad = 1 } END { exit bad || n != 1 }' push.out || complain 'push.out: H = 5'
+near 'histories: factored once' "$(column push/runs.tab factorisations | awk '{ n += $1 } END { print n }')" 1 0
+sed -e 's/^\*STATIC.*/*STATIC\n0.5, 1, 0.25\n*CONTROLS, METHOD=PICARD, MAXIT=10/' "$here/../no-equilibrium/stack.inp" >slow.inp
+"$atrito" sweep slow.inp --vary push3=0.1,3.5 -o slow --quiet >/dev/null 2>&1
+near 'history without an increment: exit code' $? 3 0
+absent slow/push3_3.5
+says 'history without an increment' slow/sweep.tab '# push3=3.5: exit code 3'
+
 # What is wrong with the command line is told before anything is computed.
 sweep 1 wrong --vary epss=1,2
 says 'an unknown parameter' wrong.err 'setting epss'
