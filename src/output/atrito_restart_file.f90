@@ -167,6 +167,8 @@ contains
       call exchange(archive, 'began', state%began)
       call exchange(archive, 'condition', state%condition)
       call exchange(archive, 'grain', state%grain)
+      call exchange(archive, 'contact_form', state%contact_form)
+      call exchange(archive, 'contact_reason', state%contact_reason)
       call exchange(archive, 'from', state%from)
       call exchange(archive, 'released', state%released)
       call exchange(archive, 'rest', state%rest)
