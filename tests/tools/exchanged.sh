@@ -13,7 +13,7 @@ contact_result_t   output/atrito_exchange_results.f90 exchange_contact contact
 unsettled_t        output/atrito_exchange_results.f90 exchange_unsettled point
 body_motion_t      output/atrito_exchange_results.f90 exchange_motion body
 joint_t            output/atrito_exchange_results.f90 exchange_joint joint
-iteration_t        output/atrito_exchange_results.f90 exchange_iteration iteration
+iteration_t        output/atrito_exchange_results.f90 exchange_iterations list
 extreme_t          output/atrito_exchange_results.f90 exchange_extreme extreme
 balance_t          output/atrito_exchange_results.f90 exchange_balance balance
 scene_t            output/atrito_exchange_scene.f90 exchange_scene scene
@@ -21,7 +21,7 @@ body_result_t      output/atrito_exchange_scene.f90 exchange_body body
 pair_scene_t       output/atrito_exchange_scene.f90 exchange_pair pair
 string_t           output/atrito_exchange_scene.f90 exchange_strings list
 history_t          output/atrito_restart_file.f90 exchange_findings history ending
-history_row_t      output/atrito_restart_file.f90 exchange_row row
+history_row_t      output/atrito_restart_file.f90 exchange_rows list
 restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findings state
 warm_start_t       output/atrito_restart_file.f90 exchange_start start
 warm_start_t       solve/atrito_warm_start.f90 put_start,put_multipliers start
