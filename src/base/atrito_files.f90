@@ -9,8 +9,8 @@ module atrito_files
    use atrito_renaming, only: find_obstacle, replace_files, rename_over, TEMPORARY
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    use atrito_strings, only: string_t, append_string
-   use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_line, c_write_text, c_close_file, hold_interrupts, &
-                            release_interrupts, note_path, forget_path
+   use atrito_system, only: c_file_length, c_true_path, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, &
+                            hold_interrupts, release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
    public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
@@ -53,6 +53,8 @@ contains
       integer(lp) :: length
 
       call judge_file(path, status)
+      if (is_ok(status) .and. c_file_length(path//c_null_char) > LARGEST_FILE) &
+         call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
       if (.not. is_ok(status)) return
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=ios, iomsg=reason)
       if (ios /= 0) then
@@ -69,17 +71,11 @@ contains
    subroutine judge_file(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(out) :: status
-      integer(lp) :: length
 
       if (is_folder(path)) then
          call set_status(status, STATUS_FILE, path//': is a folder')
-         return
-      end if
-      length = c_file_length(path//c_null_char)
-      if (length == NO_LENGTH) then
+      else if (c_file_length(path//c_null_char) == NO_LENGTH) then
          call set_status(status, STATUS_FILE, path//': is a pipe or a terminal; a plain file is expected')
-      else if (length > LARGEST_FILE) then
-         call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
       end if
    end subroutine judge_file
 
@@ -244,7 +240,7 @@ contains
    end subroutine commit_files
 
    !> Gives each file of the set its final name in one step of the file system: at any moment there is the former file or the
-   !> new one under it, also when the process is killed. Meant for sets of one file.
+   !> new one under it, also when the process is killed or the power goes. Meant for sets of one file.
    !>
    !> status: STATUS_FILE, and then the former files are there but for those that were replaced before.
    subroutine commit_over(set, status)
@@ -253,6 +249,7 @@ contains
       type(string_t) :: none(0)
 
       call find_obstacle(set%folder, set%names, none, status)
+      if (is_ok(status)) call settle_files(set, status)
       if (is_ok(status)) then
          call hold_interrupts()
          call rename_over(set%folder, set%names, status)
@@ -261,6 +258,19 @@ contains
       end if
       if (.not. is_ok(status)) call discard_files(set)
    end subroutine commit_over
+
+   !> The files are on the disk before they take their names: else a name may outlive what was written, where the power goes.
+   subroutine settle_files(set, status)
+      type(file_set_t), intent(in) :: set
+      type(status_t), intent(inout) :: status
+      integer :: i
+
+      do i = 1, size(set%names)
+         if (c_settle_file(set%folder//'/'//set%names(i)%s//TEMPORARY//c_null_char) == 1) cycle
+         call set_status(status, STATUS_FILE, set%folder//'/'//set%names(i)%s//': cannot be written completely; is the disk full?')
+         return
+      end do
+   end subroutine settle_files
 
    !> The files have their names: they, and their folders, stay.
    subroutine keep_files(set)

@@ -51,6 +51,15 @@ void atrito_remove_file(const char *path) { unlink(path); }
 
 void atrito_remove_folder(const char *path) { rmdir(path); }
 
+/* What was written into a file is on the disk, not in the memory of the system, which a loss of power takes. 1: done. */
+int atrito_settle_file(const char *path) {
+   int file = open(path, O_RDONLY);
+   if (file < 0)
+      return 0;
+   int is_done = fsync(file) == 0 || errno == EINVAL || errno == EROFS; /* some file systems know of no such thing */
+   return close(file) == 0 && is_done;
+}
+
 /* 1: done. */
 int atrito_rename(const char *from, const char *to) { return rename(from, to) == 0; }
 

@@ -192,7 +192,10 @@ contains
       call add_to(digest, rows%node(:last))
       call add_to(digest, rows%vector(:, :last))
       call add_to(digest, rows%compliance(:rows%n))
+      call add_to(digest, rows%weight(:rows%n))
       call add_to(digest, rows%kind(:rows%n))
+      call add_to(digest, rows%group(:rows%n))
+      call add_to(digest, rows%part(:rows%n))
       call add_to(digest, rows%value(:rows%n))
    end function digest_of_rows
 

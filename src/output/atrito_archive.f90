@@ -12,8 +12,8 @@ module atrito_archive
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
    implicit none (type, external)
    private
-   public :: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, exchange_word, &
-             exchange_size, demand, is_sound, close_archive
+   public :: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, exchange_numbers, &
+             exchange_word, exchange_size, demand, is_sound, close_archive
 
    type :: archive_t
       logical :: is_reading = .false.
@@ -385,6 +385,24 @@ contains
       call demand(archive, all(abs(longs) <= huge(1_ip)), name)
       if (archive%is_reading .and. is_ok(archive%status)) values = int(longs, ip)
    end subroutine exchange_integers
+
+   !> A list of a length that is known.
+   subroutine exchange_numbers(archive, name, values)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      integer(ip), intent(inout) :: values(:)
+      integer(ip), allocatable :: copy(:)
+      logical :: ok
+
+      copy = values
+      call exchange(archive, name, copy)
+      if (.not. archive%is_reading) return
+      ok = allocated(copy)
+      if (ok) ok = size(copy) == size(values)
+      call demand(archive, ok, name)
+      values = 0
+      if (is_ok(archive%status)) values = copy
+   end subroutine exchange_numbers
 
    subroutine exchange_logical(archive, name, value)
       type(archive_t), intent(inout) :: archive

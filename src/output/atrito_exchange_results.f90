@@ -1,6 +1,6 @@
 !> What of the results goes into an archive, or comes out of it (atrito_archive): all of an increment, bit by bit.
 module atrito_exchange_results
-   use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_word, exchange_size
+   use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_numbers, exchange_word, exchange_size
    use atrito_exchange_scene, only: exchange_scene
    use atrito_kinds, only: ip
    use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, joint_t, extreme_t, iteration_t
@@ -206,7 +206,7 @@ contains
       character(len=*), intent(in) :: name
       type(iteration_t), allocatable, intent(inout) :: list(:)
       logical :: is_there
-      integer(ip) :: n, i
+      integer(ip) :: n
 
       is_there = allocated(list)
       n = 0
@@ -216,27 +216,26 @@ contains
          if (allocated(list)) deallocate (list)
          if (is_there) allocate (list(n))
       end if
-      do i = 1, n
-         call exchange_iteration(archive, list(i))
-      end do
+      if (is_there) call exchange_iterations(archive, list)
    end subroutine exchange_iteration_list
 
-   subroutine exchange_iteration(archive, iteration)
+   !> Column by column: there may be thousands, in every file.
+   subroutine exchange_iterations(archive, list)
       type(archive_t), intent(inout) :: archive
-      type(iteration_t), intent(inout) :: iteration
+      type(iteration_t), intent(inout) :: list(:)
 
-      call exchange(archive, 'step', iteration%step)
-      call exchange(archive, 'increment', iteration%increment)
-      call exchange(archive, 'outer', iteration%outer)
-      call exchange(archive, 'inner', iteration%inner)
-      call exchange(archive, 'change_displacement', iteration%change_displacement)
-      call exchange(archive, 'change_pressure', iteration%change_pressure)
-      call exchange(archive, 'change_friction', iteration%change_friction)
-      call exchange(archive, 'open', iteration%open)
-      call exchange(archive, 'stick', iteration%stick)
-      call exchange(archive, 'slip', iteration%slip)
-      call exchange(archive, 'residual', iteration%residual)
-   end subroutine exchange_iteration
+      call exchange_numbers(archive, 'step', list%step)
+      call exchange_numbers(archive, 'increment', list%increment)
+      call exchange_numbers(archive, 'outer', list%outer)
+      call exchange_numbers(archive, 'inner', list%inner)
+      call exchange_vector(archive, 'change_displacement', list%change_displacement)
+      call exchange_vector(archive, 'change_pressure', list%change_pressure)
+      call exchange_vector(archive, 'change_friction', list%change_friction)
+      call exchange_numbers(archive, 'open', list%open)
+      call exchange_numbers(archive, 'stick', list%stick)
+      call exchange_numbers(archive, 'slip', list%slip)
+      call exchange_vector(archive, 'residual', list%residual)
+   end subroutine exchange_iterations
 
    subroutine exchange_extreme(archive, extreme)
       type(archive_t), intent(inout) :: archive

@@ -10,6 +10,7 @@ module atrito_hdf5_arrays
    use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
                    h5fis_hdf5_f, H5F_ACC_TRUNC_F, H5F_ACC_RDONLY_F, H5F_LIBVER_LATEST_F, h5pcreate_f, h5pclose_f, &
                    h5pset_libver_bounds_f, h5pset_create_inter_group_f, h5pset_chunk_f, h5pset_fletcher32_f, &
+                   h5pset_fill_time_f, H5D_FILL_TIME_NEVER_F, &
                    h5pset_obj_track_times_f, H5P_FILE_ACCESS_F, H5P_LINK_CREATE_F, H5P_DATASET_CREATE_F, h5screate_simple_f, &
                    h5sclose_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, h5dopen_f, h5dwrite_f, &
                    h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, h5tequal_f, h5tclose_f, h5kind_to_type, &
@@ -133,7 +134,7 @@ contains
       integer(hsize_t), intent(in) :: n
       integer(hid_t), intent(out) :: dataset
       integer(hid_t) :: space, creation, link
-      integer :: error(8)
+      integer :: error(9)
 
       dataset = 0
       if (.not. is_ok(file%status)) return
@@ -144,6 +145,7 @@ contains
       if (n > 0) then
          call h5pset_chunk_f(creation, 1, [min(n, MOST_IN_CHUNK)], error(4))
          call h5pset_fletcher32_f(creation, error(5))
+         call h5pset_fill_time_f(creation, H5D_FILL_TIME_NEVER_F, error(9))   ! all of it is written
       end if
       call h5pcreate_f(H5P_LINK_CREATE_F, link, error(6))
       call h5pset_create_inter_group_f(link, 1, error(7))

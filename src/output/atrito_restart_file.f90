@@ -2,8 +2,8 @@
 !> the next increment begins from. It is written whole under a temporary name and takes the place of the one before in one step of
 !> the file system, so that a run that is killed at any moment leaves the last one that was whole.
 module atrito_restart_file
-   use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_size, demand, &
-                             is_sound, close_archive
+   use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_numbers, &
+                             exchange_vector, exchange_size, demand, is_sound, close_archive
    use atrito_exchange_results, only: exchange_results, exchange_iteration_list
    use atrito_files, only: file_set_t, begin_files, file_exists, judge_file, reserve_file, commit_over, discard_files
    use atrito_fingerprint, only: fingerprint_t, find_difference
@@ -126,7 +126,8 @@ contains
       end if
    end function foreign_origin
 
-   !> The state, the rows of every increment, and each increment that is printed as a part of its own.
+   !> The state and the rows of every increment, and each increment that is printed as a part of its own. (A list of the file costs
+   !> more than some thousand numbers in it.)
    subroutine exchange_findings(archive, history, state)
       type(archive_t), intent(inout) :: archive
       type(history_t), intent(inout) :: history
@@ -136,11 +137,7 @@ contains
 
       call begin_part(archive, 'state')
       call exchange_state(archive, state)
-      call end_part(archive)
-      call begin_part(archive, 'increment')
       call exchange_results(archive, state%last)
-      call end_part(archive)
-      call begin_part(archive, 'history')
       call exchange_row_list(archive, 'rows', history%rows)
       call exchange_iteration_list(archive, 'iterations', history%iterations)
       if (allocated(history%frames)) frames = history%frames%increment
@@ -167,6 +164,8 @@ contains
       call exchange(archive, 'began', state%began)
       call exchange(archive, 'condition', state%condition)
       call exchange(archive, 'grain', state%grain)
+      call exchange(archive, 'contact_form', state%contact_form)
+      call exchange(archive, 'contact_reason', state%contact_reason)
       call exchange(archive, 'from', state%from)
       call exchange(archive, 'released', state%released)
       call exchange(archive, 'rest', state%rest)
@@ -222,7 +221,7 @@ contains
       character(len=*), intent(in) :: name
       type(history_row_t), allocatable, intent(inout) :: list(:)
       logical :: is_there
-      integer(ip) :: n, i
+      integer(ip) :: n
 
       is_there = allocated(list)
       n = 0
@@ -232,32 +231,31 @@ contains
          if (allocated(list)) deallocate (list)
          if (is_there) allocate (list(n))
       end if
-      do i = 1, n
-         call exchange_row(archive, list(i))
-      end do
+      if (is_there) call exchange_rows(archive, list)
    end subroutine exchange_row_list
 
-   subroutine exchange_row(archive, row)
+   !> Column by column: there is a row of every increment and pair, in every file.
+   subroutine exchange_rows(archive, list)
       type(archive_t), intent(inout) :: archive
-      type(history_row_t), intent(inout) :: row
+      type(history_row_t), intent(inout) :: list(:)
 
-      call exchange(archive, 'step', row%step)
-      call exchange(archive, 'increment', row%increment)
-      call exchange(archive, 'pair', row%pair)
-      call exchange(archive, 'time', row%time)
-      call exchange(archive, 'normal', row%normal)
-      call exchange(archive, 'shear', row%shear)
-      call exchange(archive, 'moment', row%moment)
-      call exchange(archive, 'length', row%length)
-      call exchange(archive, 'centre', row%centre)
-      call exchange(archive, 'max_pressure', row%max_pressure)
-      call exchange(archive, 'open', row%open)
-      call exchange(archive, 'stick', row%stick)
-      call exchange(archive, 'slip', row%slip)
-      call exchange(archive, 'dissipation', row%dissipation)
-      call exchange(archive, 'elastic_energy', row%elastic_energy)
-      call exchange(archive, 'mean_slip', row%mean_slip)
-   end subroutine exchange_row
+      call exchange_numbers(archive, 'step', list%step)
+      call exchange_numbers(archive, 'increment', list%increment)
+      call exchange_numbers(archive, 'pair', list%pair)
+      call exchange_vector(archive, 'time', list%time)
+      call exchange_vector(archive, 'normal', list%normal)
+      call exchange_vector(archive, 'shear', list%shear)
+      call exchange_vector(archive, 'moment', list%moment)
+      call exchange_vector(archive, 'length', list%length)
+      call exchange_vector(archive, 'centre', list%centre)
+      call exchange_vector(archive, 'max_pressure', list%max_pressure)
+      call exchange_numbers(archive, 'open', list%open)
+      call exchange_numbers(archive, 'stick', list%stick)
+      call exchange_numbers(archive, 'slip', list%slip)
+      call exchange_vector(archive, 'dissipation', list%dissipation)
+      call exchange_vector(archive, 'elastic_energy', list%elastic_energy)
+      call exchange_vector(archive, 'mean_slip', list%mean_slip)
+   end subroutine exchange_rows
 
    !> The arrays have the sizes that the deck gives them; a file with the right marks and others was changed by hand.
    subroutine check_sizes(archive, model, history, state)

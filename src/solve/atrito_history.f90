@@ -22,6 +22,7 @@ module atrito_history
    use atrito_solution_warnings, only: warn
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
    use atrito_status, only: is_ok, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_step_change, only: begin_from, changes_form
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
    use atrito_warm_start, only: put_start, take_start
@@ -126,6 +127,7 @@ contains
       type(history_t), intent(out) :: history
       type(progress_t), intent(out) :: now
       type(status_t), intent(out) :: status
+      type(solve_options_t) :: as_before
 
       history = run%recorder%found
       run%n_frames = size(history%frames, kind=ip)
@@ -134,8 +136,12 @@ contains
       associate (state => run%recorder%state)
          run%step = model%steps(state%step)
          if (allocated(state%from)) run%step%prescribed%from = state%from
-         call begin_scene(model, run%options, store, .false., run%data, run%scene, status, run%step)
+         as_before = run%options
+         as_before%contact_form = int(state%contact_form)   ! its choice depends on the memory of the machine
+         call begin_scene(model, as_before, store, .false., run%data, run%scene, status, run%step)
          if (.not. is_ok(status)) return
+         run%data%reason = state%contact_reason
+         run%scene%contact_reason = state%contact_reason
          if (.not. allocated(state%from)) run%data%step => model%steps(state%step)
          call begin_memory(model, run%data%points%n, run%memory)
          call note_method(run%data)
@@ -173,6 +179,8 @@ contains
       state%began = run%began
       state%condition = run%condition
       state%grain = run%data%fem%grain
+      state%contact_form = int(run%data%contact_form, ip)
+      state%contact_reason = run%data%reason
       if (associated(run%data%step, run%step)) state%from = run%step%prescribed%from
       if (allocated(run%data%released)) state%released = run%data%released
       call put_memory(run%memory, state)
@@ -218,7 +226,7 @@ contains
       end associate
    end subroutine solve_only_increment
 
-   !> Makes the scene of a step. With the same dofs held it is the one that is there.
+   !> Makes the scene of a step. With the same dofs held, and methods of the same form, it is the one that is there.
    subroutine begin_step(model, k, store, run, status)
       type(model_t), intent(in), target :: model
       integer(ip), intent(in) :: k
@@ -235,7 +243,7 @@ contains
          call note_method(run%data)
       else
          call list_prescribed(model%steps(k)%prescribed, model%mesh%n_nodes, held, value)
-         if (all(held .eqv. run%data%held)) then
+         if (all(held .eqv. run%data%held) .and. .not. changes_form(model, k)) then
             run%data%step => model%steps(k)
             if (allocated(run%data%released)) deallocate (run%data%released)
             return
@@ -251,22 +259,6 @@ contains
       end if
       run%data%keeps = .true.
    end subroutine begin_step
-
-   !> A displacement that is prescribed now and was free before begins where it is.
-   pure subroutine begin_from(held_before, u, step)
-      logical, intent(in) :: held_before(:, :)       !< (2, n_nodes)
-      real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) at the end of the step before [L]
-      type(step_t), intent(inout) :: step
-      integer(ip) :: i
-
-      associate (prescribed => step%prescribed)
-         if (.not. allocated(prescribed%from)) allocate (prescribed%from(prescribed%n), source=0.0_wp)
-         do i = 1, prescribed%n
-            if (held_before(prescribed%dof(i), prescribed%node(i))) cycle
-            prescribed%from(i) = u(prescribed%dof(i), prescribed%node(i))
-         end do
-      end associate
-   end subroutine begin_from
 
    !> All increments of a step.
    subroutine go_through_step(model, k, store, run, now, history, status)

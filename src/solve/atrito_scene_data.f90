@@ -106,8 +106,9 @@ contains
       type(step_t), intent(in) :: acting                    !< with the values of a time
 
       call nodal_loads(data%model, acting, data%f)
+      if (allocated(data%thermal)) deallocate (data%thermal)
       if (.not. allocated(data%fem%heating)) return
-      if (.not. allocated(data%thermal)) allocate (data%thermal, mold=data%f)
+      allocate (data%thermal, mold=data%f)
       data%thermal = 0.0_wp
       call add_thermal_loads(data%fem, data%thermal)
    end subroutine take_forces
@@ -122,7 +123,7 @@ contains
       share = share_at(data%step, moment)
       call act_at(data%model, data%step, moment, now)
       call list_prescribed(now%prescribed, data%model%mesh%n_nodes, data%held, data%value)
-      if (allocated(data%fem%heating)) data%fem%heating = now%heating
+      call move_alloc(now%heating, data%fem%heating)        ! which only some steps have
       call take_forces(data, now)
       if (allocated(data%released) .and. share < 1.0_wp) data%f = data%f + (1.0_wp - share)*data%released
       call move_skew_supports(data, moment, share)

@@ -89,7 +89,7 @@ contains
    subroutine note_method(data)
       type(scene_data_t), intent(in) :: data
 
-      if (data%contact_form /= CONTACT_SPARSE .or. data%step%controls%method == METHOD_ANDERSON) return
+      if (data%contact_form /= CONTACT_SPARSE .or. all(data%model%steps%controls%method == METHOD_ANDERSON)) return
       call add_note('N-METHOD', 'METHOD is one of the dense form of the contact system; the sparse one, which was taken, has' &
                     //' its own')
    end subroutine note_method

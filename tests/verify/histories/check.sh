@@ -118,4 +118,13 @@ says 'too far' too-far/contact.tab 'NOT CONVERGED: ended in step 2'
 last=$(column too-far/history.tab time | tail -n 1)
 near 'too far: the last time that converged' "$last" "$(value '1 + 2/3')" 2e-4
 near 'too far: the shear force there' "$(column too-far/history.tab shear_resultant | tail -n 1)" "$(value "-15*($last - 1)")" 1e-9
+
+# 5. Temperatures that some steps have and others have not
+for form in dense sparse; do
+   run 0 "$here/heat.inp" "heat-$form" --contact $form --digits 17 --quiet
+   # shellcheck disable=SC2016
+   field_near "heated in the second step, $form" "heat-$form/nodes.tab" u1 \
+      'x*(0.03*($1 == 2 ? $NF/4 : $1 == 3 ? 1 - $NF/2 : 0) - 0.007)' 1e-14
+   near "heated in the second step, $form: increments" "$(column "heat-$form/history.tab" time | wc -l)" 9 0
+done
 finish

@@ -1,0 +1,82 @@
+#!/bin/sh
+# No component of a type can be forgotten that a restart file should have: what the procedures that write, read and compare it name is
+# held against the types. A component is named by `variable%component`, or stands in the rule as one that need not be.
+#    exchanged.sh SRC
+. "$(dirname "$0")/lib.sh"
+src=$1
+here=$(cd "$(dirname "$0")" && pwd)
+
+# type, file, procedures (* all), variable, components that are left out
+cat >"$work/rules" <<'RULES'
+results_t          output/atrito_exchange_results.f90 exchange_results results
+contact_result_t   output/atrito_exchange_results.f90 exchange_contact contact
+unsettled_t        output/atrito_exchange_results.f90 exchange_unsettled point
+body_motion_t      output/atrito_exchange_results.f90 exchange_motion body
+joint_t            output/atrito_exchange_results.f90 exchange_joint joint
+iteration_t        output/atrito_exchange_results.f90 exchange_iterations list
+extreme_t          output/atrito_exchange_results.f90 exchange_extreme extreme
+balance_t          output/atrito_exchange_results.f90 exchange_balance balance
+scene_t            output/atrito_exchange_scene.f90 exchange_scene scene
+body_result_t      output/atrito_exchange_scene.f90 exchange_body body
+pair_scene_t       output/atrito_exchange_scene.f90 exchange_pair pair
+string_t           output/atrito_exchange_scene.f90 exchange_strings list
+history_t          output/atrito_restart_file.f90 exchange_findings history ending
+history_row_t      output/atrito_restart_file.f90 exchange_rows list
+restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findings state
+warm_start_t       output/atrito_restart_file.f90 exchange_start start
+warm_start_t       solve/atrito_warm_start.f90 put_start,put_multipliers start
+warm_start_t       solve/atrito_warm_start.f90 take_start,take_multipliers start
+contact_solution_t solve/atrito_warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations
+box_state_t        solve/atrito_warm_start.f90 put_start state
+box_bounds_t       solve/atrito_warm_start.f90 put_start bounds
+multiplier_t       solve/atrito_warm_start.f90 put_multipliers multipliers factorisations,solves,generation
+slip_memory_t      solve/atrito_slip_memory.f90 put_memory memory is_incremental
+slip_memory_t      solve/atrito_slip_memory.f90 take_memory memory is_incremental
+run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last
+run_t              solve/atrito_history.f90 resume run reporter
+progress_t         solve/atrito_history.f90 record now cuts
+model_t            model/atrito_fingerprint.f90 * model deck_path,deck_name,heading,parameters,levels,node_sets,element_sets,springs,ties,equations,restart_every
+mesh_t             model/atrito_fingerprint.f90 digest_of_mesh mesh node_map,element_map
+material_t         model/atrito_fingerprint.f90 digest_of_materials material name
+section_t          model/atrito_fingerprint.f90 digest_of_materials sections elset
+surface_t          model/atrito_fingerprint.f90 digest_of_surfaces surface
+face_list_t        model/atrito_fingerprint.f90 digest_of_surfaces faces
+interaction_t      model/atrito_fingerprint.f90 digest_of_interactions law
+pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set
+contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,faces,coarseness,coarse_node
+bilateral_rows_t   model/atrito_fingerprint.f90 digest_of_rows rows n_groups
+step_t             model/atrito_fingerprint.f90 * step title
+nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values
+element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line
+amplitude_t        model/atrito_fingerprint.f90 add_amplitude amplitude name
+increments_t       model/atrito_fingerprint.f90 add_way way
+controls_t         model/atrito_fingerprint.f90 add_way controls
+requests_t         model/atrito_fingerprint.f90 add_requests requests
+frequencies_t      model/atrito_fingerprint.f90 add_requests every
+requested_t        model/atrito_fingerprint.f90 add_requested requested
+RULES
+
+judge() { # judge SRC: what is wrong, a line each
+   (cd "$1" && awk -f "$here/exchanged.awk" "$work/rules" */*.f90)
+}
+
+judge "$src" >"$work/wrong"
+while read -r line; do
+   fail "$line"
+done <"$work/wrong"
+
+# and it finds what is forgotten: a new component, one that is no longer written, a type without a rule, a rule without a type
+mkdir "$work/copy"
+must_find() { # must_find FILE SED-COMMAND TEXT
+   rm -rf "$work/copy"
+   cp -r "$src" "$work/copy"
+   sed "$2" "$src/$1" >"$work/copy/$1"
+   cmp -s "$src/$1" "$work/copy/$1" && fail "$1: $2 changes nothing"
+   judge "$work/copy" | grep -qF -- "$3" || fail "not found: $3"
+}
+must_find model/atrito_results.f90 's/^      logical :: law_holds = .*/&\n      real(wp), allocatable :: wear(:), worn(:)/' 'results_t: worn'
+must_find output/atrito_exchange_results.f90 '/contact%slip_increment/d' 'contact_result_t: slip_increment'
+must_find model/atrito_results.f90 's/^      type(scene_t) :: scene/&\n      type(ending_t) :: ending/' 'ending_t has no rule'
+must_find solve/atrito_history.f90 '/run%condition = state%condition/d' 'run_t: condition'
+must_find model/atrito_model.f90 's/^   type :: pair_t$/   type :: couple_t/' 'there is no type pair_t'
+finish
