@@ -64,6 +64,7 @@ contains
       type(controls_t) :: controls
 
       controls = data%step%controls
+      controls%is_brief = data%may_cut
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
@@ -168,7 +169,7 @@ contains
       if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
       call try_form(data, merge(CONTACT_SPARSE, CONTACT_DENSE, data%contact_form == CONTACT_DENSE), controls, store, results, &
                     solution)
-      if (results%converged .and. results%law_holds) return
+      if (controls%is_brief .or. (results%converged .and. results%law_holds)) return
       newton = controls
       newton%method = METHOD_NEWTON
       call try_form(data, CONTACT_DENSE, newton, store, results, solution)
