@@ -100,7 +100,7 @@ contains
       type(results_t) :: again
 
       call report_progress(data%reporter, 'not solved; each element with its own last digits')
-      again%scene = results%scene
+      call begin_results(results, again)
       again%scene%near_elements = .false.
       results = again
       data%fem%grain = 0.0_wp
@@ -197,7 +197,7 @@ contains
       if (form == CONTACT_DENSE .and. .not. can_be_dense(size(data%line%point, kind=ip))) return
       call report_progress(data%reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
                            attempt_text(data%step%controls%max_iterations, controls))
-      other%scene = results%scene
+      call begin_results(results, other)
       other%scene%contact_form = contact_form_name(form)
       other%scene%contact_reason = 'what was tried before found no solution'
       call solve_one_form(data, form, controls, store, other, other_solution, status)
@@ -205,6 +205,19 @@ contains
       solution = other_solution
       results = other
    end subroutine try_form
+
+   !> Scene, and place in the history, of another attempt.
+   pure subroutine begin_results(results, other)
+      type(results_t), intent(in) :: results
+      type(results_t), intent(inout) :: other
+
+      other%scene = results%scene
+      other%step = results%step
+      other%increment = results%increment
+      other%time = results%time
+      other%step_time = results%step_time
+      other%ends_step = results%ends_step
+   end subroutine begin_results
 
    !> What an attempt is, besides its form.
    function attempt_text(usual, controls) result(text)
