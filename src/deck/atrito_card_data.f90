@@ -303,6 +303,7 @@ contains
       character(len=:), allocatable :: text
       integer :: f
 
+      if (removes_all(deck, card)) return
       do f = 1, size(tally%forms)
          associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
             if (tally%n_lines(f) >= form%min_lines) cycle
@@ -316,5 +317,14 @@ contains
          end associate
       end do
    end subroutine check_counts
+
+   !> OP=NEW may stand alone: nothing takes the place of what is removed.
+   pure logical function removes_all(deck, card)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+
+      removes_all = .false.
+      if (has_option(deck, card, 'OP')) removes_all = option_word(deck, card, 'OP') == 'NEW'
+   end function removes_all
 
 end module atrito_card_data

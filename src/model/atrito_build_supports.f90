@@ -9,6 +9,7 @@ module atrito_build_supports
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, replace_nodal_value, trim_nodal_values, amplitude_of
+   use atrito_model, only: nodal_values_t
    use atrito_parameters, only: evaluate_function
    use atrito_references, only: find_nodes
    use atrito_refinement, only: edge_place, is_refined
@@ -38,6 +39,7 @@ contains
    subroutine build_supports(context)
       type(build_context_t), intent(inout) :: context
       type(by_number_t) :: numbered
+      type(nodal_values_t) :: before
 
       if (context%open%number == 1) then
          allocate (context%dof_entry(PLANE_DOFS, context%model%mesh%n_nodes), &
@@ -45,11 +47,30 @@ contains
          call read_cards(context, 0_ip, numbered)
          context%open%n_fixed = context%open%supports%n
       else
-         if (removes_all(context, 'BOUNDARY')) call release_all(context)
          call carry_values(context, context%open%supports, keeps_zeros=.true.)
+         if (removes_all(context, 'BOUNDARY')) then
+            before = context%open%supports
+            call release_all(context)
+         end if
       end if
       call read_cards(context, context%open%number, numbered)
+      if (before%n > 0) call begin_where_it_was(before, context)
    end subroutine build_supports
+
+   !> A displacement that is given anew by OP=NEW begins with what it has come to.
+   pure subroutine begin_where_it_was(before, context)
+      type(nodal_values_t), intent(in) :: before       !< with `from`, of this step
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i, entry
+
+      associate (supports => context%open%supports)
+         if (.not. allocated(supports%from)) allocate (supports%from(size(supports%value)), source=0.0_wp)
+         do i = context%open%n_fixed + 1, before%n
+            entry = context%dof_entry(before%dof(i), before%node(i))
+            if (entry > context%open%n_fixed) supports%from(entry) = before%from(i)
+         end do
+      end associate
+   end subroutine begin_where_it_was
 
    !> OP=NEW leaves those of the model.
    pure subroutine release_all(context)

@@ -18,7 +18,7 @@ module atrito_body_cache
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies
+   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies, forget_loads
 
    type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
@@ -143,6 +143,13 @@ contains
       store%holds = .false.
       if (allocated(store%bodies)) deallocate (store%bodies)
    end subroutine forget_bodies
+
+   !> The bodies have other loads than those that they were asked for with.
+   pure subroutine forget_loads(store)
+      type(body_cache_t), intent(inout) :: store
+
+      if (store%holds) store%load = huge(store%load)
+   end subroutine forget_loads
 
    !> Takes the bodies, their equations and rigid motions over from the scene before, where they would come out the same: how they
    !> are numbered depends on the solver.

@@ -1,6 +1,8 @@
 !> Solving with the dense form: bodies condensed to their contact dofs, and the flexibility of all points.
 module atrito_dense_form
-   use atrito_body_cache, only: body_cache_t, provide_bodies, reload_bodies, release_bodies, forget_bodies
+   use atrito_base_loads, only: forget_reduced, load_bodies
+   use atrito_body_cache, only: body_cache_t, provide_bodies, reload_bodies, release_bodies, forget_bodies, &
+                                forget_loads
    use atrito_bound_qp, only: bound_qp_t, DEPENDENT_POINTS
    use atrito_contact_form, only: CONTACT_DENSE
    use atrito_contact_problem, only: build_flexibility, set_right_hand_sides
@@ -61,7 +63,7 @@ contains
 
    !> Solves with the bodies as they are factored.
    subroutine solve_condensed(data, controls, store, results, problem, solution, u, status)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls
       type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
@@ -91,19 +93,26 @@ contains
 
    !> The bodies with the loads of the increment; those of the increment before stay as they are factored.
    subroutine provide_loaded_bodies(data, store, results, problem, status)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(inout) :: data
       type(body_cache_t), intent(inout) :: store
       type(results_t), intent(inout) :: results
       type(bound_qp_t), allocatable, intent(inout) :: problem
       type(status_t), intent(out) :: status
 
       if (allocated(problem) .and. allocated(store%bodies)) then
-         call reload_bodies(store, data%fem, free_load(data))
+         if (.not. allocated(data%bases)) call reload_bodies(store, data%fem, free_load(data))
       else
          if (allocated(problem)) deallocate (problem)
+         call forget_reduced(data%bases)
          call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
                              status, data%model%bilateral)
          results%factorisations = store%factorisations
+      end if
+      if (is_ok(status) .and. allocated(data%bases)) then
+         call start_phase('factor')
+         call load_bodies(data%fem, data%bases, store%bodies)
+         call forget_loads(store)
+         call stop_phase('factor')
       end if
       if (is_ok(status)) results%scene%near_elements = any(store%bodies%is_near)
    end subroutine provide_loaded_bodies

@@ -146,6 +146,7 @@ contains
          call begin_memory(model, run%data%points%n, run%memory)
          call note_method(run%data)
          run%data%keeps = .true.
+         run%data%asks_for_bases = .true.
          if (allocated(state%released)) run%data%released = state%released
          run%data%fem%grain = state%grain
          call take_memory(state, run%memory)
@@ -246,6 +247,8 @@ contains
          if (all(held .eqv. run%data%held) .and. .not. changes_form(model, k)) then
             run%data%step => model%steps(k)
             if (allocated(run%data%released)) deallocate (run%data%released)
+            if (allocated(run%data%bases)) deallocate (run%data%bases)
+            run%data%asks_for_bases = .true.
             return
          end if
          before = run%data%held
@@ -258,6 +261,7 @@ contains
          call put_rest(run%memory, run%data%line)
       end if
       run%data%keeps = .true.
+      run%data%asks_for_bases = .true.
    end subroutine begin_step
 
    !> All increments of a step.
@@ -283,6 +287,7 @@ contains
                call end_early(k, now, run, history, status)
                return
             end if
+            run%data%may_cut = min(now%length, to - now%time) > (1.0_wp + SLIVER)*control%least
             call try_increment(k, now%increment, to, store, run, results, solution, status)
             history%factorisations = history%factorisations + results%factorisations
             if (is_solved(results, status)) then

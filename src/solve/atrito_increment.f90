@@ -64,6 +64,7 @@ contains
       type(controls_t) :: controls
 
       controls = data%step%controls
+      controls%is_brief = data%may_cut
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
@@ -99,7 +100,7 @@ contains
       type(results_t) :: again
 
       call report_progress(data%reporter, 'not solved; each element with its own last digits')
-      again%scene = results%scene
+      call begin_results(results, again)
       again%scene%near_elements = .false.
       results = again
       data%fem%grain = 0.0_wp
@@ -168,7 +169,7 @@ contains
       if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
       call try_form(data, merge(CONTACT_SPARSE, CONTACT_DENSE, data%contact_form == CONTACT_DENSE), controls, store, results, &
                     solution)
-      if (results%converged .and. results%law_holds) return
+      if (controls%is_brief .or. (results%converged .and. results%law_holds)) return
       newton = controls
       newton%method = METHOD_NEWTON
       call try_form(data, CONTACT_DENSE, newton, store, results, solution)
@@ -196,7 +197,7 @@ contains
       if (form == CONTACT_DENSE .and. .not. can_be_dense(size(data%line%point, kind=ip))) return
       call report_progress(data%reporter, 'no solution; the '//contact_form_name(form)//' form of the contact system'// &
                            attempt_text(data%step%controls%max_iterations, controls))
-      other%scene = results%scene
+      call begin_results(results, other)
       other%scene%contact_form = contact_form_name(form)
       other%scene%contact_reason = 'what was tried before found no solution'
       call solve_one_form(data, form, controls, store, other, other_solution, status)
@@ -204,6 +205,19 @@ contains
       solution = other_solution
       results = other
    end subroutine try_form
+
+   !> Scene, and place in the history, of another attempt.
+   pure subroutine begin_results(results, other)
+      type(results_t), intent(in) :: results
+      type(results_t), intent(inout) :: other
+
+      other%scene = results%scene
+      other%step = results%step
+      other%increment = results%increment
+      other%time = results%time
+      other%step_time = results%step_time
+      other%ends_step = results%ends_step
+   end subroutine begin_results
 
    !> What an attempt is, besides its form.
    function attempt_text(usual, controls) result(text)

@@ -231,7 +231,7 @@ contains
       if (.not. (is_ok(status) .or. is_free_motion(status))) return
       found = solution
       do attempt = 1, size(ATTEMPTS)
-         if (is_too_much(task, found%history)) exit
+         if (is_too_much(task, found%history) .or. (task%controls%is_brief .and. attempt >= SMALL_STEPS)) exit
          call report_progress(task%reporter, 'not converged; '//trim(ATTEMPTS(attempt)))
          call try_again(task, attempt, first, found, outcome)
          if (.not. (is_ok(outcome) .or. is_free_motion(outcome))) dependent = outcome

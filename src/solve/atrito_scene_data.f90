@@ -2,6 +2,7 @@
 module atrito_scene_data
    use atrito_assembled_scene, only: assembled_scene_t, assemble_scene, set_scene_gaps, set_scene_load
    use atrito_assembly, only: fem_t
+   use atrito_base_loads, only: base_loads_t, build_bases, load_of_bases, set_factors, without_prescribed
    use atrito_bilateral_rows, only: ROW_KIND_NAME, ROW_SUPPORT
    use atrito_body_cache, only: body_cache_t, take_numbering
    use atrito_bound_qp, only: bound_qp_t
@@ -10,7 +11,6 @@ module atrito_scene_data
    use atrito_contact_problem, only: average_entries, build_line, set_known_points
    use atrito_contact_rows, only: contact_rows_t, allow_overlap, build_rows
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_internal_forces, only: internal_forces
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
    use atrito_model, only: model_t, step_t, METHOD_ANDERSON
@@ -48,6 +48,9 @@ module atrito_scene_data
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       ! Of a history:
       logical :: keeps = .false.                            !< what one increment leaves serves the next
+      logical :: may_cut = .false.                          !< without a solution a shorter increment is tried
+      type(base_loads_t), allocatable :: bases              !< whose sum the loads of each increment of the step are
+      logical :: asks_for_bases = .false.                   !< the step begins
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
       type(bound_qp_t), allocatable :: flexibility          !< C and G of the bodies that are factored
       type(contact_solution_t), allocatable :: last         !< of the increment before, to start from
@@ -126,6 +129,9 @@ contains
       call move_alloc(now%heating, data%fem%heating)        ! which only some steps have
       call take_forces(data, now)
       if (allocated(data%released) .and. share < 1.0_wp) data%f = data%f + (1.0_wp - share)*data%released
+      if (data%asks_for_bases) call build_bases(data%model, data%step, data%released, data%fem, data%bases)
+      data%asks_for_bases = .false.
+      if (allocated(data%bases)) call set_factors(data%model, data%step, moment, data%bases)
       call move_skew_supports(data, moment, share)
       call resolve_overlaps(data, moment)
       call set_known_points(data%rows, data%value, data%line)
@@ -239,17 +245,13 @@ contains
    !> every element, so they have no part in what moves a body: whoever sums forces takes data%f alone.
    function free_load(data) result(load)
       type(scene_data_t), intent(in) :: data
-      real(wp), allocatable :: load(:, :), force(:, :)
-      real(wp) :: energy
+      real(wp), allocatable :: load(:, :)
 
-      load = data%f
-      if (allocated(data%thermal)) load = load + data%thermal
-      if (all(data%value == 0.0_wp)) return
-      allocate (force, mold=load)
-      force = 0.0_wp
-      energy = 0.0_wp
-      call internal_forces(data%fem, data%value, force, energy)
-      load = load - force
+      if (allocated(data%bases)) then
+         load = load_of_bases(data%bases)
+      else
+         load = without_prescribed(data%fem, data%f, data%thermal, data%value)
+      end if
    end function free_load
 
 end module atrito_scene_data

@@ -9,7 +9,10 @@ module atrito_step_loads
    use atrito_model, only: element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC
    implicit none (type, external)
    private
-   public :: moment_t, is_end, share_at, act_at
+   public :: moment_t, is_end, share_at, act_at, list_bases, base_of, base_factors, BASE_BEGIN, BASE_END
+
+   !> What acts is a sum of bases: what is there at the beginning of the step, at its end, and what each amplitude (> 0) multiplies.
+   integer(ip), parameter :: BASE_BEGIN = -1, BASE_END = 0
 
    !> A time of a history.
    type :: moment_t
@@ -189,5 +192,109 @@ contains
       now%face = [own%face, going%face]
       now%value = reshape([own%value, going%value], [size(own%value, 1), int(now%n)])
    end subroutine add_levels_that_go
+
+   !> The bases of which there is something at some time of the step.
+   pure function list_bases(step) result(bases)
+      type(step_t), intent(in) :: step
+      integer(ip), allocatable :: bases(:)
+
+      bases = [BASE_END]
+      if (.not. step%at_once) bases = [BASE_BEGIN, BASE_END]
+      call add_amplitudes(step%prescribed%amplitude, bases)
+      call add_amplitudes(step%node_loads%amplitude, bases)
+      call add_amplitudes(step%element_loads%amplitude, bases)
+   end function list_bases
+
+   pure subroutine add_amplitudes(amplitude, bases)
+      integer(ip), allocatable, intent(in) :: amplitude(:)
+      integer(ip), allocatable, intent(inout) :: bases(:)
+      integer(ip) :: i
+
+      if (.not. allocated(amplitude)) return
+      do i = 1, size(amplitude, kind=ip)
+         if (amplitude(i) > 0 .and. .not. any(bases == amplitude(i))) bases = [bases, amplitude(i)]
+      end do
+   end subroutine add_amplitudes
+
+   !> How much of each base there is at a time; at the end of the step, 1 of BASE_END and nothing of BASE_BEGIN.
+   pure function base_factors(model, step, bases, moment) result(factor)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
+      integer(ip), intent(in) :: bases(:)
+      type(moment_t), intent(in) :: moment
+      real(wp) :: factor(size(bases))
+      integer(ip) :: i
+
+      do i = 1, size(bases, kind=ip)
+         select case (bases(i))
+         case (BASE_BEGIN)
+            factor(i) = 1.0_wp - share_at(step, moment)
+         case (BASE_END)
+            factor(i) = share_at(step, moment)
+         case default
+            factor(i) = factor_of(model, bases(i), moment)
+         end select
+      end do
+   end function base_factors
+
+   !> What acts of a base alone, as a step that ends with it: the same dofs are held.
+   pure subroutine base_of(step, base, now)
+      type(step_t), intent(in) :: step
+      integer(ip), intent(in) :: base
+      type(step_t), intent(out) :: now              !< with nothing else of the step
+      integer(ip) :: i
+
+      call values_of_base(step%prescribed, base, now%prescribed)
+      call values_of_base(step%node_loads, base, now%node_loads)
+      associate (loads => step%element_loads)
+         if (loads%n > 0) then
+            call take_loads(loads, loads%value, [(i, i=1, loads%n)], now%element_loads)
+            do i = 1, loads%n
+               associate (value => now%element_loads%value(:, i))
+                  if (is_of_base(loads%amplitude, i, base)) then
+                     if (base == BASE_BEGIN) then
+                        value(scaled(loads%kind(i))) = 0.0_wp
+                        if (allocated(loads%from)) value = loads%from(:, i)
+                     end if
+                  else
+                     value(scaled(loads%kind(i))) = 0.0_wp
+                  end if
+               end associate
+            end do
+         end if
+      end associate
+      if (.not. allocated(step%heating)) return
+      allocate (now%heating, mold=step%heating)
+      now%heating = 0.0_wp
+      if (base == BASE_END) now%heating = step%heating
+      if (base == BASE_BEGIN .and. allocated(step%heating_from)) now%heating = step%heating_from
+   end subroutine base_of
+
+   pure subroutine values_of_base(values, base, now)
+      type(nodal_values_t), intent(in) :: values
+      integer(ip), intent(in) :: base
+      type(nodal_values_t), intent(out) :: now
+      integer(ip) :: i
+
+      now%n = values%n
+      if (values%n == 0) return
+      now%node = values%node
+      now%dof = values%dof
+      now%value = values%value
+      if (base == BASE_BEGIN) then
+         now%value = 0.0_wp
+         if (allocated(values%from)) now%value = values%from
+      end if
+      do i = 1, values%n
+         if (.not. is_of_base(values%amplitude, i, base)) now%value(i) = 0.0_wp
+      end do
+   end subroutine values_of_base
+
+   pure logical function is_of_base(amplitude, i, base)
+      integer(ip), allocatable, intent(in) :: amplitude(:)
+      integer(ip), intent(in) :: i, base
+
+      is_of_base = amplitude_of(amplitude, i) == max(base, 0_ip)
+   end function is_of_base
 
 end module atrito_step_loads

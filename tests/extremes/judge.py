@@ -471,6 +471,9 @@ def pair_fields(pair, number, contact, verdict):
     if len(pair.nodes) > 1 and not np.all(np.diff(field['s']) > 0.5*step):
         verdict.wrong.append((math.inf, f'{where}: s does not grow along the slave'))
     field['bound'] = pair.law.nu*(pair.average @ field['pressure'])
+    # slip that the law feels, and how uncertain where it counts from is
+    field['elastic'], field['drift'] = field['slip'], np.zeros(len(pair.nodes))
+    field['zero'] = 0.0  # what is printed as 0 because of other increments
     return field
 
 
@@ -505,7 +508,7 @@ def check_pair(pair, field, number, owner, verdict):
     u_n, u_t = (motion*pair.normal).sum(axis=1), (motion*pair.tangent).sum(axis=1)
     size = max(np.abs(u_n).max(), np.abs(u_t).max(), law.delta*p.max())
     largest = max(np.abs(body.u).max() for body in pair.bodies)
-    places = PLACE*size + GROWTH*EPS*largest + printed + 1e-300
+    places = PLACE*size + GROWTH*EPS*largest + printed + field['zero'] + 1e-300
     bound = field['bound']
     law_scale = LAW*bound.max()
     for j in range(len(p)):
@@ -519,13 +522,15 @@ def check_pair(pair, field, number, owner, verdict):
             verdict.test('gap under pressure', gap[j] + law.delta*p[j], distance + 1e-12*law.delta*p[j], where)
         else:
             verdict.test('penetration', min(gap[j], 0.0), distance, where)
-        low = law_range(law, bound[j], slip[j] - place)[0]
-        high = law_range(law, bound[j], slip[j] + place)[1]
+        elastic, uncertain = field['elastic'][j], place + field['drift'][j]
+        low = law_range(law, bound[j], elastic - uncertain)[0]
+        high = law_range(law, bound[j], elastic + uncertain)[1]
         verdict.test('friction', max(low - t[j], t[j] - high, 0.0), law_scale + 1e-300, where)
         verdict.test('friction bound', max(abs(t[j]) - bound[j], 0.0), law_scale + 1e-300, where)
         average = (pair.average @ p)[j]
         verdict.test('weighted pressure', field['weighted_pressure'][j] - average, 1e-12*p.max() + PRINTED_ZERO*p.max() + 1e-300, where)
-        check_status(law, field, j, bound[j], place, distance, where, verdict)
+        check_status(law, field, j, bound[j], uncertain, distance, where, verdict)
+    field['place'] = places
 
 
 def law_range(law, bound, slip):
@@ -541,7 +546,7 @@ def law_range(law, bound, slip):
 
 
 def check_status(law, field, j, bound, place, distance, where, verdict):
-    status, p, slip = int(field['status'][j]), field['pressure'][j], abs(field['slip'][j])
+    status, p, slip = int(field['status'][j]), field['pressure'][j], abs(field['elastic'][j])
     limit = law.eps if law.kind == 'NONLOCAL' else bound/law.slope
     # a pressure that is round-off is printed as 0, and the point is closed all the same
     good = p == 0 if status == 0 else p > 0 or abs(field['gap'][j]) <= distance
@@ -550,7 +555,7 @@ def check_status(law, field, j, bound, place, distance, where, verdict):
     if status == 2 and p > 0 and law.kind != 'NONE' and bound > 0 and limit > 0:
         good = good and slip >= limit*(1 - 1e-7) - place
     if not good:
-        verdict.wrong.append((math.inf, f'status {status} at {where}: p {p}, slip {field["slip"][j]}, limit {limit}'))
+        verdict.wrong.append((math.inf, f'status {status} at {where}: p {p}, slip {slip}, limit {limit}'))
 
 
 def contact_forces(pair, field):
@@ -630,7 +635,11 @@ def judge_feasibility(scene):
     the rows of action and reaction cancel. 11 decks of seeds 11 and 12 were feasible by forces of 1e12 to 1e16 loads alone.) A joint
     that slopes by 1e-9 is still a slope."""
     bodies, owner = build_bodies(scene)
-    pairs = [Pair(scene, owner, *names) for names in scene.pairs]
+    return judge_bodies(bodies, owner, [Pair(scene, owner, *names) for names in scene.pairs])
+
+
+def judge_bodies(bodies, owner, pairs):
+    """The same with the loads that the bodies have."""
     normal, tangential, touched, h, scale = balance_rows(bodies, owner, pairs)
     if not np.abs(h).any():
         return 'feasible', 0.0

@@ -35,6 +35,7 @@ class Law:
         self.eps = 0.0
         self.rho = 0.0
         self.kernel = 'POINTS'
+        self.is_incremental = False  # slip counts from the increment before
 
 
 def cards(text):
@@ -111,6 +112,7 @@ def read_deck(text):
 def read_friction(law, options, data):
     row = data[0]
     law.nu = float(row[0])
+    law.is_incremental = options.get('SLIP', 'TOTAL' if 'NONLOCAL' in options else 'INCREMENTAL') == 'INCREMENTAL'
     if 'NONLOCAL' in options:
         law.kind = 'NONLOCAL'
         law.eps, law.rho = float(row[1]), float(row[2])
@@ -178,8 +180,9 @@ def face_nodes(scene, element, face):
     return ends + [nodes[4 + face]] if kind.endswith('9') else ends
 
 
-def read_table(path):
-    """Columns by name, and whether the run did not converge. Raises ValueError for what is not a finite number."""
+def read_table(path, may_be_nan=()):
+    """Columns by name, and whether the run did not converge. Raises ValueError for what is not a finite number, but for some
+    columns."""
     names, rows, converged = None, [], True
     with open(path) as lines:
         for line in lines:
@@ -190,6 +193,7 @@ def read_table(path):
             if not line.startswith('#') and line.strip():
                 rows.append([float(word) for word in line.split()])
     table = np.array(rows).reshape(len(rows), len(names))
-    if not np.all(np.isfinite(table)):
+    known = [name not in may_be_nan for name in names]
+    if not np.all(np.isfinite(table[:, known])):
         raise ValueError(path + ' holds what is not a number')
     return dict(zip(names, table.T)), converged

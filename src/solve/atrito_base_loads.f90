@@ -1,0 +1,163 @@
+!> The loads of a step as sums of a few: what acts at its beginning, what acts at its end, and what each amplitude multiplies.
+!>
+!> What prescribed displacements do to the bodies, and what a load is on the contact dofs of a condensed body, are linear in the
+!> loads: both are found once in a step, for each of the few, and an increment adds them up.
+module atrito_base_loads
+   use atrito_assembly, only: fem_t
+   use atrito_condensed_body, only: condensed_body_t, set_load
+   use atrito_internal_forces, only: internal_forces
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t, step_t
+   use atrito_nodal_loads, only: nodal_loads
+   use atrito_scene_builder, only: list_prescribed
+   use atrito_step_loads, only: base_of, base_factors, list_bases, moment_t, BASE_BEGIN
+   use atrito_thermal_loads, only: add_thermal_loads
+   implicit none (type, external)
+   private
+   public :: base_loads_t, build_bases, set_factors, load_of_bases, without_prescribed, load_bodies, forget_reduced
+
+   !> Reduced loads of a body.
+   type :: reduced_t
+      real(wp), allocatable :: x(:, :)              !< (n, bases) as condensed_body_t%load
+   end type reduced_t
+
+   type :: base_loads_t
+      integer(ip), allocatable :: base(:)           !< BASE_BEGIN, BASE_END, or an amplitude
+      real(wp), allocatable :: factor(:)            !< (bases) at the time of the increment
+      real(wp), allocatable :: load(:, :, :)        !< (2, n_nodes, bases) less the forces of prescribed displacements [F]
+      type(reduced_t), allocatable :: reduced(:)    !< (bodies); not allocated: not found yet
+   end type base_loads_t
+
+contains
+
+   !> The bases of a step, where it has more increments than they are; else none.
+   subroutine build_bases(model, step, released, fem, bases)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
+      real(wp), allocatable, intent(in) :: released(:, :) !< (2, n_nodes) forces that fade [F]; not allocated: none
+      type(fem_t), intent(inout) :: fem              !< its heating is as it was on return
+      type(base_loads_t), allocatable, intent(out) :: bases
+      real(wp), allocatable :: heating(:)
+      logical, allocatable :: acts(:)
+      integer(ip) :: i
+
+      if (step%increments%period < (size(list_bases(step)) + 1)*step%increments%initial) return
+      allocate (bases)
+      bases%base = list_bases(step)
+      allocate (bases%load(2, model%mesh%n_nodes, size(bases%base)))
+      if (allocated(fem%heating)) heating = fem%heating
+      do i = 1, size(bases%base, kind=ip)
+         call load_of_base(model, step, bases%base(i), released, fem, bases%load(:, :, i))
+      end do
+      if (allocated(heating)) fem%heating = heating
+      acts = [(any(bases%load(:, :, i) /= 0.0_wp), i=1, size(bases%base))]
+      bases%load = bases%load(:, :, pack([(i, i=1, size(acts))], acts))
+      bases%base = pack(bases%base, acts)
+      allocate (bases%factor(size(bases%base)), source=0.0_wp)
+   end subroutine build_bases
+
+   subroutine load_of_base(model, step, base, released, fem, load)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
+      integer(ip), intent(in) :: base
+      real(wp), allocatable, intent(in) :: released(:, :)
+      type(fem_t), intent(inout) :: fem
+      real(wp), intent(out) :: load(:, :)            !< (2, n_nodes) [F]
+      type(step_t) :: acting
+      logical, allocatable :: held(:, :)
+      real(wp), allocatable :: f(:, :), value(:, :), thermal(:, :)
+
+      call base_of(step, base, acting)
+      call nodal_loads(model, acting, f)
+      if (allocated(fem%heating)) then
+         fem%heating = acting%heating
+         allocate (thermal, mold=f)
+         thermal = 0.0_wp
+         call add_thermal_loads(fem, thermal)
+      end if
+      if (allocated(released) .and. base == BASE_BEGIN) f = f + released
+      call list_prescribed(acting%prescribed, model%mesh%n_nodes, held, value)
+      load = without_prescribed(fem, f, thermal, value)
+   end subroutine load_of_base
+
+   !> Applied forces and those of the temperatures less those of the prescribed displacements.
+   function without_prescribed(fem, f, thermal, value) result(load)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: f(:, :), value(:, :)   !< (2, n_nodes) [F], [L]
+      real(wp), allocatable, intent(in) :: thermal(:, :) !< [F]; not allocated: none
+      real(wp), allocatable :: load(:, :), force(:, :)
+      real(wp) :: energy
+
+      load = f
+      if (allocated(thermal)) load = load + thermal
+      if (all(value == 0.0_wp)) return
+      allocate (force, mold=load)
+      force = 0.0_wp
+      energy = 0.0_wp
+      call internal_forces(fem, value, force, energy)
+      load = load - force
+   end function without_prescribed
+
+   !> How much of each base there is at a time of the step.
+   pure subroutine set_factors(model, step, moment, bases)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
+      type(moment_t), intent(in) :: moment
+      type(base_loads_t), intent(inout) :: bases
+
+      bases%factor = base_factors(model, step, bases%base, moment)
+   end subroutine set_factors
+
+   pure function load_of_bases(bases) result(load)
+      type(base_loads_t), intent(in) :: bases
+      real(wp), allocatable :: load(:, :)
+      integer(ip) :: i
+
+      allocate (load(2, size(bases%load, 2)), source=0.0_wp)
+      do i = 1, size(bases%base, kind=ip)
+         if (bases%factor(i) /= 0.0_wp) load = load + bases%factor(i)*bases%load(:, :, i)
+      end do
+   end function load_of_bases
+
+   !> Gives the bodies the reduced load of the time that the factors are of.
+   subroutine load_bodies(fem, bases, bodies)
+      type(fem_t), intent(in) :: fem
+      type(base_loads_t), intent(inout) :: bases
+      type(condensed_body_t), intent(inout) :: bodies(:)
+      integer(ip) :: b, i
+
+      if (.not. allocated(bases%reduced)) call reduce_bases(fem, bases, bodies)
+      do b = 1, size(bodies, kind=ip)
+         bodies(b)%load = 0.0_wp
+         do i = 1, size(bases%base, kind=ip)
+            if (bases%factor(i) == 0.0_wp) cycle
+            bodies(b)%load(:, 1) = bodies(b)%load(:, 1) + bases%factor(i)*bases%reduced(b)%x(:, i)
+         end do
+      end do
+   end subroutine load_bodies
+
+   subroutine reduce_bases(fem, bases, bodies)
+      type(fem_t), intent(in) :: fem
+      type(base_loads_t), intent(inout) :: bases
+      type(condensed_body_t), intent(inout) :: bodies(:)
+      integer(ip) :: b, i
+
+      allocate (bases%reduced(size(bodies)))
+      do b = 1, size(bodies, kind=ip)
+         allocate (bases%reduced(b)%x(fem%bodies%list(b)%n, size(bases%base)))
+         do i = 1, size(bases%base, kind=ip)
+            call set_load(fem, b, bases%load(:, :, i), bodies(b))
+            bases%reduced(b)%x(:, i) = bodies(b)%load(:, 1)
+         end do
+      end do
+   end subroutine reduce_bases
+
+   !> Other bodies come, or the same ones factored anew.
+   pure subroutine forget_reduced(bases)
+      type(base_loads_t), allocatable, intent(inout) :: bases
+
+      if (.not. allocated(bases)) return
+      if (allocated(bases%reduced)) deallocate (bases%reduced)
+   end subroutine forget_reduced
+
+end module atrito_base_loads
