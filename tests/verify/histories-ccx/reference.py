@@ -2,7 +2,8 @@
 
     python3 reference.py FOLDER [NAME ...]       in FOLDER; ccx is taken from the path. Standard library alone.
 
-A line `resultant STEP FX FY` a step, what the supports of the base give; a line `point STEP X PRESSURE SHEAR` for each node of the slave
+A line `resultant STEP FX FY` a step, what the supports of the base give (bodies of revolution: the force of the contact, *CONTACT PRINT with CF,
+of the full circle, as CalculiX leaves out of the radial reaction of a node what the hoop stress gives it); a line `point STEP X PRESSURE SHEAR` for each node of the slave
 at the end of each step.
 """
 import pathlib
@@ -46,6 +47,13 @@ def resultants(text):
     return sums
 
 
+def contact_forces(text):
+    """Forces of the contact, of the full circle, of each time in a .dat file: CalculiX has a wedge of 2 degrees."""
+    lines = text.splitlines()
+    heads = [k for k, line in enumerate(lines) if "total surface force" in line]
+    return [[180*float(word) for word in lines[k + 2].split()[:2]] for k in heads]
+
+
 def contact_fields(text):
     """Pressure and shear by node of each CONTACT block of a .frd file."""
     blocks, inside = [], False
@@ -67,9 +75,13 @@ def main(folder, names):
     folder.mkdir(parents=True, exist_ok=True)
     for name in names or sorted(path.stem for path in HERE.glob("*.steps")):
         deck = subprocess.run(["sh", HERE/"deck.sh", name], capture_output=True, text=True, check=True).stdout
+        round_body = "TYPE=CAX" in deck
+        if round_body:
+            deck = deck.replace("*CONTACT FILE", "*CONTACT PRINT, MASTER=LOWER-FACE, SLAVE=UPPER-FACE, FREQUENCY=1000\nCF\n*CONTACT FILE", 1)
         (folder/f"{name}.inp").write_text(deck)
         subprocess.run(["ccx", name], cwd=folder, stdout=subprocess.DEVNULL, check=True)
-        sums = resultants((folder/f"{name}.dat").read_text())
+        text = (folder/f"{name}.dat").read_text()
+        sums = contact_forces(text) if round_body else resultants(text)
         fields = contact_fields((folder/f"{name}.frd").read_text())
         steps = deck.count("*END STEP")
         if not len(sums) == len(fields) == steps:

@@ -1,19 +1,20 @@
 # Two rectangles of E = 1000, mu = 0.3 with friction, one on the other, as a deck that both atrito and CalculiX read; the steps follow from
 # standard input.
 #
-#    awk -v type=CPE4 -v above=20 -v below=40 [-v radius=8] [-v gap=0.001] [-v nu=0.3] [-v K=1e6] [-v stick=1e5] -f scene.awk <steps.inp
+#    awk -v type=CPE4 -v above=20 -v below=40 [-v radius=8] [-v gap=0.001] [-v nu=0.3] [-v K=1e6] [-v stick=1e5]
+#        [-v thick=0.01] [-v shift=2] -f scene.awk <steps.inp
 #
 # The lower one is 2 x 1 around x = 0 with its base held, `below` elements along its top; the upper one 1 x 0.5 with `above` elements, its
-# under side a circle of `radius` or straight, `gap` above the lower one. Sets TOP and BASE of nodes, and TOP-ROW
+# under side a circle of `radius` or straight, `gap` above the lower one; both are `shift` to the right of x = 0. Sets TOP and BASE of nodes, and TOP-ROW
 # of elements, whose faces 3 are the top.
 function body(name, nx, ny, x0, width, y0, height, r, faces, far,    i, j, x, y, q, c, order, s, t) {
    order = type ~ /8/ ? 2 : 1
    print "*NODE, NSET=" name "-NODES"
    for (j = 0; j <= order*ny; j++) for (i = 0; i <= order*nx; i++) if (order == 1 || i%2 == 0 || j%2 == 0) {
-      x = x0 + width*i/(order*nx)
+      x = shift + x0 + width*i/(order*nx)
       t = graded(j, order, ny, name == "LOWER")
       y = y0 + height*t
-      if (r > 0) y += (1 - t)*x*x/(r + sqrt(r*r - x*x))
+      if (r > 0) y += (1 - t)*(x - shift)^2/(r + sqrt(r*r - (x - shift)^2))
       printf "%d, %.12g, %.12g\n", nodes + j*(order*nx + 1) + i + 1, x, y
    }
    print "*ELEMENT, TYPE=" type ", ELSET=" name
@@ -40,13 +41,14 @@ function graded(j, order, ny, up,    t) {
 }
 BEGIN {
    if (nu == "") nu = 0.3
+   if (thick == "") thick = "1."
    if (K == "") K = 1e6
    if (stick == "") stick = 1e5
    print "*HEADING\ntwo bodies, pressed and pushed"
    body("LOWER", below, int(below/2), -1, 2, -1, 1, 0)
    body("UPPER", above, int(above/2), -0.5, 1, gap + 0, 0.5, radius + 0)
    print "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3"
-   print "*SOLID SECTION, ELSET=LOWER, MATERIAL=M\n1.\n*SOLID SECTION, ELSET=UPPER, MATERIAL=M\n1."
+   print "*SOLID SECTION, ELSET=LOWER, MATERIAL=M\n" thick "\n*SOLID SECTION, ELSET=UPPER, MATERIAL=M\n" thick
    printf "*SURFACE INTERACTION, NAME=ROUGH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n%g\n*FRICTION\n%g, %g\n", K, nu, stick
    print "*CONTACT PAIR, INTERACTION=ROUGH, TYPE=SURFACE TO SURFACE\nUPPER-FACE, LOWER-FACE"
    print "*BOUNDARY\nBASE, 1, 2"

@@ -5,6 +5,7 @@
 # Each is 20 wide and 10 high; turned by half a turn about the origin one is the other, so a shear force does not change the pressure to the
 # first order. The base of the lower one is held; the top of the upper one is rigid and does not turn: REF is its node, which takes the
 # forces. The force 3.8838 makes a = 0.3; n elements a, three times as far as a is long. slave=B: the lower one is the slave.
+# depth=4: the elements at the contact are 1/4 as high as long.
 function side(x) { x = x < 0 ? -x : x; return x < 3 ? x*x/(20 + sqrt(400 - x*x)) : 9/(20 + sqrt(391)) + (x - 3)*3/sqrt(391) }
 # Places 0, h, .. up to `fine`, then growing up to 10, with the middles for eight nodes: line[0..count].
 function make_line(line, h, fine,    k, x, count, j) {
@@ -54,7 +55,8 @@ BEGIN {
    q = middle ? 2 : 1
    first = 1
    nx = make_line(along, 0.3/n, 0.45)
-   ny = make_line(up, 0.3/n, 0.15)
+   if (!depth) depth = 1
+   ny = make_line(up, 0.3/n/depth, 0.15/depth)
    row = 2*nx + 1
    print "*HEADING\ntwo equal cylinders, pressed and pushed"
    make_body("A", 1)

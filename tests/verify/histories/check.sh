@@ -2,9 +2,9 @@
 # Histories of friction against closed forms; README.md has their sources.
 . "$(dirname "$0")/../lib.sh"
 
-# cylinders NAME STEPS INTERACTION [SLAVE]: a deck of cattaneo.awk, run.
+# cylinders NAME STEPS INTERACTION [SLAVE [DEPTH]]: a deck of cattaneo.awk, run.
 cylinders() {
-   awk -v type=CPE4 -v n=24 -v interaction="$3" -v slave="${4:-A}" -f "$here/cattaneo.awk" <"$2" >"$1.inp"
+   awk -v type=CPE4 -v n=24 -v interaction="$3" -v slave="${4:-A}" -v depth="${5:-1}" -f "$here/cattaneo.awk" <"$2" >"$1.inp"
    run 0 "$1.inp" "$1" --digits 17 --quiet
 }
 
@@ -75,15 +75,15 @@ mindlin amplitude 2 40 0.5 0.5
 near 'amplitude: dissipation' "$(dissipation amplitude 1 2)" "$(dissipation loop-A 1 4)" "$(value "1e-9*$loop")"
 
 # 2. N and T grow together: with slip in increments all sticks, q = T/N p; the total law has Cattaneo's tractions
-# ramp NAME INCREMENTS INTERACTION: from 1/1000 of the forces on, each increment by the same factor.
+# ramp NAME INCREMENTS INTERACTION: the half width grows by the same length in each; elements a quarter as high as they are long.
 ramp() {
    {
       echo '*AMPLITUDE, NAME=GROWING'
-      awk -v n="$2" 'BEGIN { for (k = 0; k <= n; k++) printf "%.12g, %.12g\n", k/n, 0.001^(1 - k/n) }' </dev/null
+      awk -v n="$2" 'BEGIN { for (k = 0; k <= n; k++) printf "%.12g, %.12g\n", k/n, (k/n)^2 }' </dev/null
       printf '*STEP, INC=1000\n*STATIC\n%s, 1.\n*CLOAD, AMPLITUDE=GROWING\nREF, 2, -3.8838\nREF, 1, 0.58257\n' "$(value "1/$2")"
       printf '*CONTACT PRINT\n*END STEP\n'
    } >"$1.steps"
-   cylinders "$1" "$1.steps" "$3"
+   cylinders "$1" "$1.steps" "$3" A 4
 }
 # share NAME REACH: the mean of q/(nu p) over the points within REACH of the middle.
 share() {
@@ -91,10 +91,15 @@ share() {
       !/^#/ && $at["x"] <= reach && -$at["x"] <= reach { sum -= $at["shear"]/(0.3*$at["pressure"]); n++ }
       END { if (n) printf "%.17g", sum/n; else print "none" }' "$1/contact.tab"
 }
-ramp together 240 '*FRICTION/0.3'
-near 'together, 240 increments: q/(nu p) over half of the contact' "$(share together 0.15)" 0.5 0.006
-near 'together, 240 increments: q(0)/(nu p(0))' "$(share together 1e-9)" 0.5 0.02
-near 'together, 240 increments: points that slip' "$(after together slip 1)" 0 0
+for increments in 30 60 240; do
+   ramp together-$increments $increments '*FRICTION/0.3'
+done
+near 'together, 240 increments: points that slip' "$(after together-240 slip 1)" 0 0
+# 1 % of the ratio; q over p is asked for, as all sticks and the mesh has its own p0
+near 'together, 240 increments: q(0)/(nu p(0))' "$(share together-240 1e-9)" 0.5 0.005
+near 'together, 240 increments: q/(nu p) over half of the contact' "$(share together-240 0.15)" 0.5 0.002
+near 'together, 60 increments: q(0)/(nu p(0))' "$(share together-60 1e-9)" 0.5 0.015
+near 'together, 30 increments: q(0)/(nu p(0))' "$(share together-30 1e-9)" 0.5 0.025
 ramp total 4 '*FRICTION, NONLOCAL/0.3, 0, 0'
 near 'together, total slip: q(0)/(nu p(0))' "$(share total 1e-9)" 0.2929 0.003
 ramp once 1 '*FRICTION/0.3'
