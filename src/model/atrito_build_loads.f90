@@ -3,6 +3,7 @@ module atrito_build_loads
    use atrito_deck, only: data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, is_invalid
+   use atrito_build_rigid_bodies, only: is_reference, load_reference, ROTATION_DOF
    use atrito_faces, only: is_outer_face
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
@@ -68,11 +69,12 @@ contains
    subroutine read_cload_line(line, context)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
-      character(len=*), parameter :: WHAT = 'degree of freedom: 1 (x) or 2 (y)'
+      character(len=*), parameter :: WHAT = 'degree of freedom: 1 (x) or 2 (y)', &
+                                     AT_REFERENCE = '; of the reference node of a *RIGID BODY also 6'
       integer(ip), allocatable :: nodes(:)
       real(wp) :: force
       integer(ip) :: dof, i
-      logical :: ok(3)
+      logical :: ok(3), turns
 
       call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
       ! a concentrated force stays where the deck puts it
@@ -80,17 +82,20 @@ contains
       call get_integer(context%deck, line_item(context%deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
       call get_real(context%deck, line_item(context%deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
       if (.not. all(ok(2:))) return
-      if (dof > 2 .and. dof <= LAST_DOF .and. .not. abs(force) > 0.0_wp) then
+      turns = dof == ROTATION_DOF .and. size(nodes) > 0 .and. all(is_reference(context, nodes))
+      if (dof > 2 .and. dof <= LAST_DOF .and. .not. abs(force) > 0.0_wp .and. .not. turns) then
          call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-DOF', 'dof '//to_text(dof)// &
                           ' does not exist in the plane; its force is 0', keyword='CLOAD')
          return
       end if
-      if (dof < 1 .or. dof > 2) then
+      if ((dof < 1 .or. dof > 2) .and. .not. turns) then
          call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-DOF', 'dof '//to_text(dof)// &
-                           ' does not exist in the plane', expected=WHAT, keyword='CLOAD')
+                           ' does not exist in the plane', expected=WHAT//repeat(AT_REFERENCE, merge(1, 0, dof == ROTATION_DOF)), &
+                           keyword='CLOAD')
          return
       end if
       if (.not. ok(1)) return
+      call load_references(line, dof, force, context, nodes)
       if (any(in_no_element(context, nodes)) .and. abs(force) > 0.0_wp) then
          call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'node '// &
                            ids_text(pack(context%model%mesh%node_id(nodes), in_no_element(context, nodes)))// &
@@ -102,6 +107,29 @@ contains
       end do
       call note_supported(line, context, nodes, dof)
    end subroutine read_cload_line
+
+   !> Loads those of the nodes that are reference nodes, and leaves the others.
+   subroutine load_references(line, dof, force, context, nodes)
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: dof
+      real(wp), intent(in) :: force                   !< [F], or [F L]
+      type(build_context_t), intent(in) :: context
+      integer(ip), allocatable, intent(inout) :: nodes(:)
+      integer(ip) :: i
+
+      if (size(context%model%rigid_bodies) == 0) return
+      do i = 1, size(nodes, kind=ip)
+         if (.not. is_reference(context, nodes(i))) cycle
+         call load_reference(context, line_item(context%deck, line, 1_ip), context%model%steps(1)%rigid_loads, nodes(i), dof, force)
+         associate (held => context%model%steps(1)%rigid_prescribed)
+            if (held%n == 0) cycle
+            if (any(held%node(:held%n) == nodes(i) .and. held%dof(:held%n) == dof)) call report_note( &
+               context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)//' of node ' &
+               //to_text(context%model%mesh%node_id(nodes(i)))//' is prescribed: the force goes into the reaction', keyword='CLOAD')
+         end associate
+      end do
+      nodes = pack(nodes,.not. is_reference(context, nodes))
+   end subroutine load_references
 
    !> A force along a dof, which may be a local axis.
    subroutine add_force(context, node, dof, force)

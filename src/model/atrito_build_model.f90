@@ -11,6 +11,7 @@ module atrito_build_model
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
+   use atrito_build_rigid_bodies, only: build_rigid_bodies, trim_reference_lists, make_solver_mesh
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_sets, only: try_set_card, read_set_card
@@ -113,6 +114,7 @@ contains
       if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
       if (state > 0) model%mesh%state = state
       call build_surfaces(context)
+      call build_rigid_bodies(context)
       call build_materials(context)
       call check_temperatures(context)
       call build_contact(context)
@@ -126,6 +128,7 @@ contains
       call build_equations(context)
       call build_springs(context)
       call build_loads(context)
+      call trim_reference_lists(model)
       call build_requests(context)
       call check_mesh(model, context)
       call check_axis(model, context)
@@ -146,6 +149,7 @@ contains
       call move_alloc(points, model%points)
       call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)
+      call make_solver_mesh(model)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
    end subroutine build_once

@@ -10,6 +10,7 @@ module atrito_write_tables
    use atrito_model, only: model_t
    use atrito_results, only: results_t, contact_result_t, iteration_t, body_motion_t
    use atrito_number_text, only: trimmed_real
+   use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_row_table
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, &
                              measure_fields, scales_of_pair, pair_count
@@ -20,8 +21,9 @@ module atrito_write_tables
    public :: write_tables, write_timing, list_table_files, origin_of, stress_rows, TABLE_NAMES
 
    !> Every table that atrito can write.
-   character(len=10), parameter :: TABLE_NAMES(12) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
-                                                         'bodies', 'joints', 'ties', 'equations', 'springs', 'iterations', 'timing']
+   character(len=10), parameter :: TABLE_NAMES(13) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
+                                                         'bodies', 'rigid', 'joints', 'ties', 'equations', 'springs', &
+                                                         'iterations', 'timing']
 
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
@@ -92,6 +94,9 @@ contains
          case ('bodies')
             if (.not. (model%steps(results%step)%requests%bodies .and. allocated(results%bodies))) cycle
             call build_bodies(results, scales, table)
+         case ('rigid')
+            if (.not. allocated(results%rigid)) cycle
+            call build_rigid_table(results, scales, table)
          case ('joints')
             if (.not. (model%steps(results%step)%requests%joints .and. allocated(results%joints))) cycle
             call build_joints(results, scales, table)

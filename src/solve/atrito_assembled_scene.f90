@@ -154,6 +154,7 @@ contains
       if (numbering%k == 0) return
       call sum_diagonals(store, store%n, diagonal)
       do i = 1, numbering%k
+         if (numbering%spring(i) == 0) cycle
          call add_to_store(store, [numbering%spring(i)], reshape([diagonal(numbering%spring(i))], [1, 1]))
       end do
    end subroutine collect_scene
@@ -216,9 +217,11 @@ contains
          if (b == 0) cycle
          do dof = 1, 2
             if (fem%bodies%equation(dof, node) == 0) cycle
-            k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
-            scene%load(k) = free_load(dof, node)
-            scene%size_of_load(k) = abs(free_load(dof, node))
+            if (fem%bodies%equation(dof, node) > 0) then
+               k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
+               scene%load(k) = free_load(dof, node)
+               scene%size_of_load(k) = abs(free_load(dof, node))
+            end if
             do mode = 1, scene%numbering%n_motions(b)
                motion = scene%numbering%first_motion(b) + mode - 1
                part = f(dof, node)*mode_at(fem%bodies%list(b), fem%bodies%list(b)%modes(:, mode), fem%mesh%x(:, node), dof)

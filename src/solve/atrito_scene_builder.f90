@@ -11,6 +11,7 @@ module atrito_scene_builder
    use atrito_pairing, only: pair_all
    use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
+   use atrito_rigid_bodies, only: append_rigid_bodies, attach_points, has_moving_surfaces, hold_carriers
    use atrito_solver_choice, only: needs_profile
    implicit none (type, external)
    private
@@ -29,6 +30,7 @@ contains
       integer(ip) :: i
 
       fem%mesh => model%mesh
+      if (has_moving_surfaces(model)) fem%mesh => model%solver_mesh
       fem%grain = grain_of(model%mesh%x(:, :model%mesh%n_nodes))
       fem%section_of = model%section_of
       allocate (fem%sections(size(model%sections)))
@@ -39,12 +41,15 @@ contains
          end associate
       end do
       if (allocated(step%heating)) fem%heating = step%heating
-      call list_prescribed(step%prescribed, model%mesh%n_nodes, held, value)
+      call list_prescribed(step%prescribed, fem%mesh%n_nodes, held, value)
       if (allocated(model%points)) then
          points = model%points
       else
          call pair_all(model, points)     ! no deck was checked
       end if
+      if (.not. has_moving_surfaces(model)) return
+      call hold_carriers(model, step, held, value)
+      call attach_points(model, points)
    end subroutine build_scene
 
    !> Bodies, equations (contact nodes last) and rigid motions.
@@ -66,6 +71,7 @@ contains
                                                                            model%bilateral%n > 0), needs_profile(asked, n_free))
          call find_rigid_modes(fem%mesh, fem%bodies%list(i), held)
       end do
+      if (has_moving_surfaces(model)) call append_rigid_bodies(model, points, fem%bodies)
    end subroutine build_bodies
 
    !> A body that hangs on one node alone could turn about it while the others are eliminated: the one farthest from it stays, too.

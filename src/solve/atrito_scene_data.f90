@@ -15,6 +15,7 @@ module atrito_scene_data
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t
+   use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_solver_choice, only: SOLVER_SPARSE
@@ -72,6 +73,7 @@ contains
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
+      if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step, data%fem%bodies)
       call build_rows(data%points, data%rows, model%bilateral)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
@@ -80,6 +82,7 @@ contains
       end if
       call build_line(model, data%fem, data%points, data%rows, data%value, data%line)
       call nodal_loads(model, data%step, data%f)
+      if (has_moving_surfaces(model)) call add_rigid_loads(model, data%step, data%f)
       if (allocated(data%fem%heating)) then
          allocate (data%thermal, mold=data%f)
          data%thermal = 0.0_wp
@@ -92,7 +95,7 @@ contains
    subroutine choose_form(asked, data)
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(inout) :: data
-      logical :: seen(data%model%mesh%n_nodes)
+      logical :: seen(data%fem%mesh%n_nodes)
       integer(ip) :: i, n, n_points
 
       n = data%model%bilateral%n
