@@ -71,7 +71,7 @@ contains
       logical :: ok
 
       call option_text(context%deck, card, 'REF NODE', name, ok, place)
-      if (.not. ok) return
+      if (.not. ok .or. .not. card%ok) return
       call find_nodes(context, place, nodes, ok, 'RIGID BODY')
       if (.not. ok) return
       if (size(nodes) /= 1) then

@@ -212,8 +212,11 @@ contains
       expected = WHAT_DOF
       if (turns .or. last == ROTATION_DOF) expected = WHAT_DOF//'; of the reference node of a *RIGID BODY also 6'
       item = merge(2_ip, 3_ip, first < 1 .or. first > LAST_DOF .or. is_empty_token(line_item(deck, line, 3_ip)))
-      if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp &
-                                                                       .and. .not. (turns .and. first == ROTATION_DOF))) then
+      if (turns .and. first >= 1 .and. first < ROTATION_DOF .and. last > PLANE_DOFS .and. last <= LAST_DOF .and. &
+          abs(value) > 0.0_wp) then
+         call report_error(deck, line_item(deck, line, 2_ip), 'E-DOF', 'the dofs 3 to 5 do not exist in the plane', &
+                           expected=expected, keyword='BOUNDARY')
+      else if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp .and. .not. turns)) then
          call report_error(deck, line_item(deck, line, item), 'E-DOF', 'dof '//to_text(merge(first, last, item == 2))// &
                            ' does not exist in the plane', expected=expected, keyword='BOUNDARY')
       else if (last < first) then
