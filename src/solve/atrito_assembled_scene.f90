@@ -180,6 +180,12 @@ contains
                                    + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)
          end do
       end do
+      ! between a held node and a rigid surface, which moves, nothing gives way
+      if (any(scene%flexibility > 0.0_wp)) then
+         where (scene%flexibility <= 0.0_wp) scene%flexibility = maxval(scene%flexibility)
+      else if (scene%n > scene%k) then
+         scene%flexibility = 1.0_wp/maxval(diagonal(:scene%n - scene%k))
+      end if
    end subroutine set_flexibility
 
    !> d' K^-1 d for the free displacements of a node.

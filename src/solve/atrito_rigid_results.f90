@@ -2,6 +2,7 @@
 module atrito_rigid_results
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: is_revolved
    use atrito_results, only: results_t, rigid_result_t
    use atrito_rigid_bodies, only: carriers_of, has_moving_surfaces, prescribed_motion
    use atrito_scene_data, only: scene_data_t
@@ -83,6 +84,10 @@ contains
             body%moment = body%moment + (arm(1)*r(2) - arm(2)*r(1))
          end associate
       end do
+      if (is_revolved(data%fem%mesh)) then             ! on the full circle these balance in themselves
+         body%reaction(1) = 0.0_wp
+         body%moment = 0.0_wp
+      end if
       where (.not. body%is_prescribed(:2)) body%reaction = 0.0_wp
       if (.not. body%is_prescribed(3)) body%moment = 0.0_wp
    end subroutine take_body
