@@ -4,6 +4,7 @@ module atrito_model_report
    use atrito_row_tables, only: joined_text
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: depth_at
+   use atrito_rigid_report, only: describe_references
    use atrito_strings, only: to_text
    use atrito_face_loads, only: traction_load, hydrostatic_load
    use atrito_mesh, only: face_end, face_nodes, side_count, is_revolved
@@ -181,6 +182,7 @@ contains
          pressure = force_t([0.0_wp, pressure%f(2)])
          body = force_t([0.0_wp, body%f(2)])
       end if
+      call describe_references(page, model)
       call add_blank(page)
       call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
                     right('moment about 0,0', 18))
@@ -220,6 +222,14 @@ contains
             f = 0.0_wp
             f(loads%dof(i)) = loads%value(i)
             call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
+         end do
+      end associate
+      associate (loads => model%steps(1)%rigid_loads)
+         do i = 1, loads%n
+            f = 0.0_wp
+            if (loads%dof(i) <= 2) f(loads%dof(i)) = loads%value(i)
+            call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
+            if (loads%dof(i) > 2) concentrated%moment = concentrated%moment + loads%value(i)
          end do
       end associate
       do i = 1, model%steps(1)%element_loads%n

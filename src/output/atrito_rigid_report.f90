@@ -1,16 +1,18 @@
 !> Rigid surfaces that move: rigid.tab, and their lines of the listing.
 module atrito_rigid_report
    use atrito_kinds, only: ip, wp
-   use atrito_page, only: page_t, add_line, add_blank, left, right, number
+   use atrito_model, only: model_t
+   use atrito_page, only: page_t, add_entry, add_line, add_blank, left, right, number
    use atrito_results, only: results_t
-   use atrito_strings, only: string_t
+   use atrito_strings, only: string_t, to_text
    use atrito_summary, only: scales_t
    use atrito_table, only: table_t, begin_table, add_integers, add_words, add_real_columns, clear_small, one_word
    implicit none (type, external)
    private
-   public :: build_rigid_table, describe_rigid_bodies
+   public :: build_rigid_table, describe_rigid_bodies, describe_references
 
    integer, parameter :: DIGITS = 6
+   character(len=8), parameter :: DOF_NAMES(6) = ['u1      ', 'u2      ', '        ', '        ', '        ', 'rotation']
 
 contains
 
@@ -44,7 +46,30 @@ contains
       call add_integers(table, 'increment', spread(results%increment, 1, n))
    end subroutine build_rigid_table
 
-   !> The same for the listing.
+   !> The rigid surfaces that move, and what of them is prescribed in the first step.
+   subroutine describe_references(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      character(len=:), allocatable :: text
+      integer(ip) :: i, k
+
+      if (.not. allocated(model%rigid_bodies)) return
+      do i = 1, size(model%rigid_bodies, kind=ip)
+         text = ''
+         associate (held => model%steps(1)%rigid_prescribed, node => model%rigid_bodies(i)%node)
+            do k = 1, held%n
+               if (held%node(k) /= node) cycle
+               if (len(text) > 0) text = text//', '
+               text = text//trim(DOF_NAMES(held%dof(k)))//' = '//number(held%value(k), DIGITS)
+            end do
+            if (len(text) == 0) text = 'free'
+            call add_entry(page, 'rigid body '//model%surfaces(model%rigid_bodies(i)%surface)%name, &
+                           'reference node '//to_text(model%mesh%node_id(node))//', '//text)
+         end associate
+      end do
+   end subroutine describe_references
+
+   !> Motions and reactions, as rigid.tab has them, for the listing.
    subroutine describe_rigid_bodies(page, results)
       type(page_t), intent(inout) :: page
       type(results_t), intent(in) :: results

@@ -22,8 +22,8 @@ module atrito_write_tables
 
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(13) = [character(len=10) :: 'contact', 'summary', 'nodes', 'reactions', 'stress', &
-                                                         'bodies', 'rigid', 'joints', 'ties', 'equations', 'springs', &
-                                                         'iterations', 'timing']
+                                                                      'bodies', 'rigid', 'joints', 'ties', 'equations', 'springs', &
+                                                                                                             'iterations', 'timing']
 
    !> The reals of contact.tab, as copy_fields has them. The column status stands among them.
    integer, parameter :: BEFORE_STATUS = 8
