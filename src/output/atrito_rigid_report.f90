@@ -12,6 +12,7 @@ module atrito_rigid_report
    public :: build_rigid_table, describe_rigid_bodies, describe_references
 
    integer, parameter :: DIGITS = 6
+   real(wp), parameter :: SUMMED = 100.0_wp         !< round-offs of a moment, which is the sum of those of all points
    character(len=8), parameter :: DOF_NAMES(6) = ['u1      ', 'u2      ', '        ', '        ', '        ', 'rotation']
 
 contains
@@ -34,7 +35,7 @@ contains
             call clear_small(scales%displacement, field(i, 1:2))
             call clear_small(scales%displacement/body%size, field(i, 3:3))
             call clear_small(force, field(i, 4:5))
-            call clear_small(force*body%size, field(i, 6:6))
+            call clear_small(SUMMED*force*body%size, field(i, 6:6))
          end associate
       end do
       call begin_table(table, 'rigid', 'a row a rigid surface with a reference node: its motion and what holds it', n)

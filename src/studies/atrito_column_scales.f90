@@ -10,6 +10,7 @@ module atrito_column_scales
    character(len=72), parameter :: FAMILIES_OF_BODIES(3) = [character(len=72) :: ' u1 u2 ', &
                                                               ' loads_fx loads_fy supports_fx supports_fy contact_fx contact_fy ', &
                                                                                     ' loads_moment supports_moment contact_moment ']
+   character(len=7), parameter :: FAMILIES_OF_RIGID(2) = [' u1 u2 ', ' r1 r2 ']
    character(len=20), parameter :: FAMILIES_OF_JOINTS(3) = [character(len=20) :: ' n t ', ' x y ', ' opening sliding ']
 
 contains
@@ -24,6 +25,7 @@ contains
       if (find_column(table, 'outer') > 0 .and. find_column(table, 'inner') > 0) kind = 'iterations'
       if (find_column(table, 'phase') > 0 .and. find_column(table, 'wall') > 0) kind = 'timing'
       if (find_column(table, 'rotation') > 0 .and. find_column(table, 'loads_moment') > 0) kind = 'bodies'
+      if (find_column(table, 'ur') > 0 .and. find_column(table, 'moment') > 0) kind = 'rigid'
       if (find_column(table, 'body_1') > 0 .and. find_column(table, 'opening') > 0) kind = 'joints'
    end function kind_of
 
@@ -37,6 +39,8 @@ contains
       select case (kind_of(table))
       case ('bodies')
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_BODIES, i), i=1, table%n_columns)])
+      case ('rigid')
+         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_RIGID, i), i=1, table%n_columns)])
       case ('joints')
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_JOINTS, i), i=1, table%n_columns)])
       case default
