@@ -112,10 +112,24 @@ says 'listing' push-CPE8-dense/push-CPE8.lst 'from rigid surfaces               
 near 'listing: sum' "$(awk '/resultants  .*F1/ { at = 1 } at && $1 == "sum" { print $2 + $3; exit }' push-CPE8-dense/push-CPE8.lst)" 0 1e-11
 says 'listing' force-dense/force.lst 'PUNCH                       0      -4.52146             0'
 
-# 7. A node that is held along x under a punch that is free to go there
+# 7. A node that is held along x under a punch that is free to go there.
 run 0 "$here/held.inp" held --digits 17 --quiet
 near 'held nodes: the punch is in balance' "$(rigid held r1)" 0 0
 near 'held nodes: shear resultant' "$(summary held shear_resultant)" -3 1e-9
+
+# Two columns between platens, the upper one free, the lower one moved: what the upper one is loaded with comes out of the lower one,
+# and the upper one has all motions of the lower one besides.
+for form in dense sparse; do
+   run 0 "$here/platens.inp" platens-$form --digits 17 --contact $form --quiet
+   near "platens, $form: r1" "$(rigid platens-$form r1 | tail -1)" -2 1e-9
+   near "platens, $form: r2" "$(rigid platens-$form r2 | tail -1)" 50 1e-9
+   near "platens, $form: moment" "$(rigid platens-$form moment | tail -1)" 0 1e-9
+done
+sed 's/^2000, 1, 2, 0.01/2000, 1, 2, 0./; s/^2000, 6, 6, 0.002/2000, 6, 6, 0./' "$here/platens.inp" >resting.inp
+run 0 resting.inp resting --digits 17 --quiet
+near 'platens: u1 by the motion of the lower one' "$(value "$(rigid platens-dense u1 | head -1) - ($(rigid resting u1 | head -1))")" 0.004 1e-11
+near 'platens: u2 by the motion of the lower one' "$(value "$(rigid platens-dense u2 | head -1) - ($(rigid resting u2 | head -1))")" 0.01 1e-11
+near 'platens: rotation by that of the lower one' "$(value "$(rigid platens-dense ur | head -1) - ($(rigid resting ur | head -1))")" 0.002 1e-11
 
 # 8. What nothing holds
 deck loose punch n=4 'step=*CLOAD/1000, 1, 0.1/1000, 2, -1.'
