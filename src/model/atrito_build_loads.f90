@@ -96,6 +96,7 @@ contains
       end if
       if (.not. ok(1)) return
       call load_references(line, dof, force, context, nodes)
+      if (turns) return
       if (any(in_no_element(context, nodes)) .and. abs(force) > 0.0_wp) then
          call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'node '// &
                            ids_text(pack(context%model%mesh%node_id(nodes), in_no_element(context, nodes)))// &
