@@ -143,4 +143,14 @@ for name in loose pulled alone; do
    done
 done
 says pulled pulled.err 'its supports (node 1000 along x1 and 1 more) do not prevent that'
+
+# 9. The force that pushes a free punch off: nu N, and the mechanism is its motion
+deck shove punch n=4 'friction=*FRICTION/0.3' 'step=*CLOAD/1000, 1, <H>/1000, 2, -1./*BOUNDARY/1000, 6'
+sed 's/^rigid flat punch$/&\
+*PARAMETER\
+H = 0.1/' shove.inp >shoved.inp
+rm -rf limit
+"$atrito" limit shoved.inp -o limit --vary H=0:1 --digits 17 >limit.out 2>limit.err || complain "limit: exit $?"
+near 'limit: falls' "$(sed -n 's/^# .*falls at \([-0-9.e+]*\).*/\1/p' limit/limit.tab)" 0.3 1e-6
+says 'limit: mechanism' limit/mechanism.tab ' PUNCH '
 finish
