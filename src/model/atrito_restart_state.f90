@@ -36,6 +36,7 @@ module atrito_restart_state
       real(wp) :: condition = 1.0_wp                !< the largest so far
       real(wp) :: grain = 0.0_wp                    !< to which stiffnesses are taken as equal
       real(wp), allocatable :: from(:)              !< prescribed, at the beginning of the step [L]; not allocated: the deck's
+      real(wp), allocatable :: from_of_motions(:)   !< prescribed at reference nodes, at the beginning of the step
       real(wp), allocatable :: released(:, :)       !< (2, n_nodes) of supports that the step does not have [F]
       real(wp), allocatable :: rest(:)              !< (points) rest slip [L]
       real(wp), allocatable :: slip(:)              !< (points) u_T [L]

@@ -17,6 +17,7 @@ module atrito_listing
                           number, bytes
    use atrito_model_report, only: describe_model
    use atrito_row_tables, only: describe_rows
+   use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, &
                              pair_scales, pair_name
@@ -358,6 +359,7 @@ contains
       if (any(abs(b%rows) > 0.0_wp)) call add_line(page, force_line('from springs and equations', -b%rows))
       call add_line(page, force_line('sum', balance_sum(b)))
       call add_blank(page)
+      call describe_rigid_bodies(page, results)
       list = step_quantities(results)
       do i = 1, size(list)
          if (list(i)%is_count .or. list(i)%name == 'error_estimate_percent') cycle

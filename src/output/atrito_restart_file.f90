@@ -168,6 +168,7 @@ contains
       call exchange(archive, 'condition', state%condition)
       call exchange(archive, 'grain', state%grain)
       call exchange(archive, 'from', state%from)
+      call exchange(archive, 'from_of_motions', state%from_of_motions)
       call exchange(archive, 'released', state%released)
       call exchange(archive, 'rest', state%rest)
       call exchange(archive, 'slip', state%slip)

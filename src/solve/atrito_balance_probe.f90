@@ -67,7 +67,7 @@ contains
       collapse%text = free_motion_text(data%fem, data%held, data%rows, data%line, pairs, mechanism)
       call move_nodes(data, mechanism, collapse)
       largest = max(maxval(norm2(collapse%u, dim=1)), tiny(largest))
-      collapse%u = collapse%u/largest
+      collapse%u = collapse%u(:, :data%model%mesh%n_nodes)/largest
       collapse%motion = collapse%motion/largest
    end subroutine describe_collapse
 
