@@ -292,6 +292,7 @@ contains
          if (i > 1) call add_blank(page)
          if (has_history(model, history)) call add_line(page, frame_name(history%frames(due(i))))
          call add_pairs(page, history%frames(due(i)), own)
+         if (has_history(model, history)) call describe_rigid_bodies(page, history%frames(due(i)))
       end do
    end subroutine add_contact
 
@@ -358,8 +359,8 @@ contains
       call add_line(page, force_line('from rigid surfaces', -b%rigid))
       if (any(abs(b%rows) > 0.0_wp)) call add_line(page, force_line('from springs and equations', -b%rows))
       call add_line(page, force_line('sum', balance_sum(b)))
-      call add_blank(page)
       call describe_rigid_bodies(page, results)
+      call add_blank(page)
       list = step_quantities(results)
       do i = 1, size(list)
          if (list(i)%is_count .or. list(i)%name == 'error_estimate_percent') cycle

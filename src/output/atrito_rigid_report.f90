@@ -82,6 +82,7 @@ contains
       integer :: i
 
       if (.not. allocated(results%rigid)) return
+      call add_blank(page)
       call add_line(page, '   '//left('rigid body', 15)//right('u1 [L]', 14)//right('u2 [L]', 14)//right('rotation', 14)// &
                     right('R1 [F]', 14)//right('R2 [F]', 14)//right('moment [F L]', 14))
       do i = 1, size(results%rigid)
@@ -93,7 +94,6 @@ contains
                           right(held(body%is_prescribed(3), body%moment), 14))
          end associate
       end do
-      call add_blank(page)
    end subroutine describe_rigid_bodies
 
    !> A reaction, where there may be one.
