@@ -105,6 +105,17 @@ both moment moment.inp
 near 'by a moment: rotation' "$(end moment-dense 2 ur 2)" 0.003 1e-11
 near 'by a moment: rotation back' "$(end moment-dense 2 ur 6)" -0.003 1e-11
 
+# The rotation alone is let go, with the moment that held it: it stays. One increment follows an amplitude, too.
+{ sed '/^\*STEP/,$d; /^1000, 6$/d; s/^<nu>$/0/' "$here/push.inp"
+   echo "*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 6, 6, 0.003/*CLOAD/1000, 2, -20/*END STEP/*STEP/*STATIC/0.5, 1/*BOUNDARY, OP=NEW/1000, 1/*CLOAD/1000, 6, $(end wave-dense 2 moment 2)/*CONTACT PRINT, FREQUENCY=1/*END STEP" | tr / '\n'; } >turns.inp
+both turns turns.inp
+near 'rotation let go: half way' "$(end turns-dense 2 ur 1)" 0.003 1e-12
+near 'rotation let go' "$(end turns-dense 2 ur 2)" 0.003 1e-12
+near 'rotation let go: no moment' "$(end turns-dense 2 moment 2)" 0 0
+steps once '*AMPLITUDE, NAME=HALF/0, 0, 1, 0.5/*STEP/*STATIC/*BOUNDARY/1000, 2, 2, -0.02/*BOUNDARY, AMPLITUDE=HALF/1000, 1, 1, 0.001/*END STEP'
+run 0 once.inp once --digits 17 --quiet
+near 'one increment with an amplitude' "$(end once 1 u1)" 0.0005 1e-17
+
 # 7. A force beyond nu N: the history ends where it begins to slide
 steps beyond "*STEP/*STATIC/*BOUNDARY/1000, 1/*CLOAD/1000, 2, -20/*END STEP/*STEP/*STATIC/0.25, 1, 0.001/*BOUNDARY, OP=NEW/1000, 6/*CLOAD/1000, 1, 12/*END STEP"
 for form in dense sparse; do
