@@ -137,6 +137,7 @@ module atrito_results
       real(wp) :: value = 0.0_wp
       integer(ip) :: id = 0                         !< the user's number of the element or node
       real(wp) :: x(2) = 0.0_wp                     !< [L]
+      logical :: is_node = .false.                  !< id is that of a node
    end type extreme_t
 
    !> An increment of a history, or a run of one.

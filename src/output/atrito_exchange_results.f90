@@ -284,6 +284,7 @@ contains
       call exchange(archive, 'value', extreme%value)
       call exchange(archive, 'id', extreme%id)
       call exchange_vector(archive, 'x', extreme%x)
+      call exchange(archive, 'is_node', extreme%is_node)
    end subroutine exchange_extreme
 
    subroutine exchange_balance(archive, balance)

@@ -3,7 +3,8 @@ module atrito_rigid_results
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: is_revolved
-   use atrito_results, only: results_t, rigid_result_t
+   use atrito_linear_limits, only: LARGE_ROTATION
+   use atrito_results, only: extreme_t, results_t, rigid_result_t
    use atrito_rigid_bodies, only: carriers_of, has_moving_surfaces, prescribed_motion
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
@@ -35,7 +36,7 @@ contains
       call leave_mesh_alone(data, results)
    end subroutine take_rigid_results
 
-   !> The fields without the nodes that carry motions.
+   !> The fields without the nodes that carry motions; rotations that are not small are those of rigid surfaces, too.
    pure subroutine leave_mesh_alone(data, results)
       type(scene_data_t), intent(in) :: data
       type(results_t), intent(inout) :: results
@@ -47,7 +48,23 @@ contains
          results%prescribed = results%prescribed(:, :n)
          if (allocated(results%nodal_stress)) results%nodal_stress = results%nodal_stress(:, :n)
       end associate
+      if (allocated(results%rigid)) call find_large_rotation(data, results)
    end subroutine leave_mesh_alone
+
+   !> A rigid surface may rotate more than any element.
+   pure subroutine find_large_rotation(data, results)
+      type(scene_data_t), intent(in) :: data
+      type(results_t), intent(inout) :: results
+      integer(ip) :: i
+
+      do i = 1, size(results%rigid, kind=ip)
+         associate (rotation => abs(results%rigid(i)%rotation))
+            if (rotation <= max(LARGE_ROTATION, results%large_rotation%value)) cycle
+            results%large_rotation = extreme_t(rotation, results%rigid(i)%node, &
+                                               data%model%mesh%x(:, data%model%rigid_bodies(i)%node), is_node=.true.)
+         end associate
+      end do
+   end subroutine find_large_rotation
 
    !> Whether the master of a pair is a rigid surface that stays where it is.
    pure logical function has_fixed_surfaces(data) result(has)

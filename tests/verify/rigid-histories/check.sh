@@ -116,6 +116,14 @@ steps once '*AMPLITUDE, NAME=HALF/0, 0, 1, 0.5/*STEP/*STATIC/*BOUNDARY/1000, 2, 
 run 0 once.inp once --digits 17 --quiet
 near 'one increment with an amplitude' "$(end once 1 u1)" 0.0005 1e-17
 
+# A rotation that is not small is told
+{ sed '/^\*STEP/,$d; /^1000, 6$/d' "$here/push.inp"
+   echo '*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 6, 6, 0.2/*CLOAD/1000, 2, -20/*END STEP' | tr / '\n'; } >larger.inp
+for form in dense sparse; do
+   run 0 larger.inp larger-$form --digits 17 --contact $form
+   says "large rotation, $form" larger-$form.err 'the largest rotation is 0.2 at node 1000 (0, 1)'
+done
+
 # 7. A force beyond nu N: the history ends where it begins to slide
 steps beyond "*STEP/*STATIC/*BOUNDARY/1000, 1/*CLOAD/1000, 2, -20/*END STEP/*STEP/*STATIC/0.25, 1, 0.001/*BOUNDARY, OP=NEW/1000, 6/*CLOAD/1000, 1, 12/*END STEP"
 for form in dense sparse; do
