@@ -76,6 +76,7 @@ contains
       do i = 1, system%n - system%k
          own(system%body(i)) = max(own(system%body(i)), abs(force(i)), abs(system%load(i)))
       end do
+      if (any(own <= 0.0_wp)) call measure_rigid_bodies(system, q, own)
       of_body = own
       do i = 1, system%rows%n
          associate (bodies => system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1)))
@@ -85,6 +86,28 @@ contains
          end associate
       end do
    end subroutine measure_bodies
+
+   !> The same of bodies without displacements: the largest load on a motion, and contact force along one.
+   pure subroutine measure_rigid_bodies(system, q, own)
+      class(contact_system_t), intent(in) :: system
+      real(wp), intent(in) :: q(:)
+      real(wp), intent(inout) :: own(:)          !< (bodies) [F]: those that are 0 are set
+      logical :: is_rigid(size(own))
+      integer(ip) :: i, k
+
+      is_rigid = own <= 0.0_wp
+      do i = system%n - system%k + 1, system%n
+         if (is_rigid(system%body(i))) own(system%body(i)) = max(own(system%body(i)), abs(system%load(i)))
+      end do
+      do i = 1, system%rows%n
+         do k = system%rows%first(i), system%rows%first(i + 1) - 1
+            associate (column => system%rows%column(k))
+               if (column <= system%n - system%k .or. .not. is_rigid(system%body(column))) cycle
+               own(system%body(column)) = max(own(system%body(column)), abs(system%rows%value(k)*q(i)))
+            end associate
+         end do
+      end do
+   end subroutine measure_rigid_bodies
 
    !> The force at each pair that is round-off of those on its bodies.
    subroutine measure_pairs(system, multipliers, of_body, least)

@@ -48,6 +48,8 @@ contains
       logical :: stands
 
       c = [(problem%c(i, i), i=1, problem%m)]
+      if (all(c <= 0.0_wp)) c = 1.0_wp
+      where (c <= 0.0_wp) c = maxval(c)              ! between a held node and a rigid surface, which moves, nothing gives way
       near = bounds
       share = LARGEST_SHARE
       last = huge(last)

@@ -73,6 +73,8 @@ contains
          text = text//'=integer'
       case (KIND_FILE)
          text = text//'=file'
+      case (KIND_ID_OR_NAME)
+         text = text//'=number or name'
       case (KIND_REAL_OR_NAME)
          text = text//'=real or name'
       end select

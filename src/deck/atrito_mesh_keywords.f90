@@ -269,10 +269,13 @@ contains
       call add_item(k, 'yc', KIND_REAL, 'coordinate of its centre', dimension='L')
       call add_example(k, '*SURFACE, NAME=sole|plate, S1|*SURFACE, NAME=floor, TYPE=SEGMENTS|START, -1., 0.|LINE, 2., 0.')
 
-      call define_keyword(k, 'RIGID BODY', LEVEL_MODEL, 'makes a drawn surface a fixed rigid body')
+      call define_keyword(k, 'RIGID BODY', LEVEL_MODEL, 'makes a drawn surface a rigid body', &
+                          doc='Without a reference node it is fixed. With one it moves with that node: *BOUNDARY prescribes '// &
+                          'its dofs 1, 2 and 6, the rotation about the node, *CLOAD loads them, and what is not prescribed '// &
+                          'is free. Beside CAX elements it moves along the axis alone. rigid.tab has motions and reactions.')
       call add_option(k, 'ANALYTICAL SURFACE!', KIND_NAME, 'a surface of TYPE=SEGMENTS')
-      call add_option(k, '(REF NODE)', KIND_NAME, 'the body is fixed')
-      call add_example(k, '*RIGID BODY, ANALYTICAL SURFACE=floor')
+      call add_option(k, 'REF NODE', KIND_ID_OR_NAME, 'a node of no element, or a set of one')
+      call add_example(k, '*RIGID BODY, ANALYTICAL SURFACE=floor|*RIGID BODY, ANALYTICAL SURFACE=punch, REF NODE=1000')
    end subroutine define_surface_keywords
 
    subroutine add_set_forms(k, member)

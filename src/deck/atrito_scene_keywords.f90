@@ -177,18 +177,18 @@ contains
 
       call define_keyword(k, 'BOUNDARY', LEVEL_BOTH, 'prescribed displacements', &
                           doc='Before *STEP zero values only, which hold in every step. Dof 1 is x and 2 is y; a dof 3 to 6 of '// &
-                          'value 0 is a note. Two different values for one dof in a step are an error. A later step has the '// &
-                          'displacements of the one before, but for the dofs that its lines give anew. FUNCTION: in the step, '// &
-                          'evaluated at each node.')
+                          'value 0 is a note, but 6 turns the reference node of a *RIGID BODY, counter-clockwise [rad]. Two '// &
+                          'different values for one dof in a step are an error. A later step has the displacements of the one '// &
+                          'before, but for the dofs that its lines give anew. FUNCTION: in the step, evaluated at each node.')
       call add_option(k, 'FUNCTION+', KIND_FLAG, 'the value is an expression in x and y')
       call add_option(k, 'AMPLITUDE', KIND_NAME, 'curve over time that multiplies the values, in a step')
       call add_option(k, 'OP', KIND_WORD, 'MOD: lines change and add; NEW: what the steps before gave is removed, the same in '// &
                       'all cards of the keyword in a step', default='MOD', choices='MOD NEW')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='-FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
-      call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')
-      call add_item(k, 'last dof', KIND_INTEGER, '1 or 2', default='first dof')
-      call add_item(k, 'value', KIND_REAL, 'displacement', dimension='L', default='0')
+      call add_item(k, 'first dof', KIND_INTEGER, '1 or 2; of a reference node also 6')
+      call add_item(k, 'last dof', KIND_INTEGER, '1 or 2; of a reference node also 6', default='first dof')
+      call add_item(k, 'value', KIND_REAL, 'displacement; of dof 6 the rotation [rad]', dimension='L', default='0')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
       call add_item(k, 'first dof', KIND_INTEGER, '1 or 2')

@@ -121,11 +121,12 @@ contains
 
       call define_keyword(k, 'CLOAD', LEVEL_STEP, 'forces at nodes', &
                           doc='For the whole thickness, or the full circle of CAX elements. Lines on one dof in a step add up; '// &
-                          'they take the place of what earlier steps gave there. At a set every node takes the force.')
+                          'they take the place of what earlier steps gave there. At a set every node takes the force. Dof 6 of '// &
+                          'the reference node of a *RIGID BODY takes a moment, counter-clockwise [F L].')
       call add_changes(k)
       call add_form(k, 'one force a line', 1, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
-      call add_item(k, 'dof', KIND_INTEGER, '1 (x) or 2 (y)')
+      call add_item(k, 'dof', KIND_INTEGER, '1 (x) or 2 (y); of a reference node also 6')
       call add_item(k, 'force', KIND_REAL, 'along the axis', dimension='F')
       call add_example(k, '*CLOAD|7, 2, -10.')
    end subroutine define_forces

@@ -11,7 +11,9 @@ module atrito_bodies
    implicit none (type, external)
    private
    public :: body_t, bodies_t, find_bodies, number_equations, order_by_dissection, find_rigid_modes, element_equations, mode_at
-   public :: reduce_columns
+   public :: reduce_columns, MOVES_RIGIDLY
+
+   integer(ip), parameter :: MOVES_RIGIDLY = -1_ip
 
    type :: body_t
       character(len=:), allocatable :: name
@@ -24,13 +26,17 @@ module atrito_bodies
       real(wp) :: size = 1.0_wp                !< [L], largest distance from the centre
       real(wp) :: slenderness = 1.0_wp         !< shorter over longer side of the box round the nodes
       real(wp), allocatable :: modes(:, :)     !< (3, n_modes): translations along 1 and 2, rotation about the centre at `size`
+      logical :: is_rigid = .false.            !< a rigid surface that moves: no elements, no equations, its nodes carry its motion
+      logical :: is_touched = .false.          !< of a rigid one: a contact point sees it
    end type body_t
 
    type :: bodies_t
       integer(ip) :: n = 0
+      integer(ip) :: n_rigid = 0                            !< the last ones are rigid
       type(body_t), allocatable :: list(:)
       integer(ip), allocatable :: of_node(:), of_element(:) !< body of a node (0: in no element) and of an element
-      integer(ip), allocatable :: equation(:, :)            !< (2, n_nodes): number within the body; 0 prescribed or unused
+      integer(ip), allocatable :: equation(:, :)            !< (2, n_nodes): number within the body; 0 prescribed or unused;
+      !< MOVES_RIGIDLY: of a rigid body, none of its own, but a motion has a part there
    end type bodies_t
 
    !> A prescribed combination smaller than this, relative to the largest, does not hold the body.

@@ -20,7 +20,7 @@ module atrito_build_context
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: build_context_t, open_step_t, carried_t, numbered_t, block_t, BLOCK_SIDES
+   public :: build_context_t, open_step_t, references_t, carried_t, numbered_t, block_t, BLOCK_SIDES
    public :: prepare_context, add_context_block, invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, &
              has_errors
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text
@@ -61,6 +61,14 @@ module atrito_build_context
       logical, allocatable :: is_given(:)              !< (n) a line of the step has taken its place
    end type carried_t
 
+   !> What is prescribed and applied at the reference nodes of rigid surfaces.
+   type :: references_t
+      type(nodal_values_t) :: prescribed, loads
+      integer(ip), allocatable :: token(:)             !< first of the line that prescribes each
+      integer(ip) :: n_fixed = 0                       !< prescribed in every step
+      type(carried_t) :: old_loads
+   end type references_t
+
    !> The step that is being built.
    type :: open_step_t
       integer(ip) :: number = 1
@@ -72,6 +80,7 @@ module atrito_build_context
       type(nodal_values_t) :: supports, forces         !< along the dofs of the deck, which may be local axes
       type(nodal_values_t) :: inclined                 !< supports of the first step along directions that are no axis
       type(carried_t) :: old_forces, old_loads
+      type(references_t) :: references
    end type open_step_t
 
    type :: build_context_t

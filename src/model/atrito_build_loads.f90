@@ -4,6 +4,7 @@ module atrito_build_loads
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_amplitudes, only: take_amplitude
    use atrito_build_context, only: build_context_t, carried_t, ids_text, is_invalid
+   use atrito_build_rigid_bodies, only: is_reference, ROTATION_DOF
    use atrito_carry_on, only: is_of_step, removes_all, carry_values, carry_loads, list_carried, take_force_place, &
                               take_load_place, remove_load
    use atrito_faces, only: is_outer_face
@@ -20,6 +21,7 @@ module atrito_build_loads
    use atrito_references, only: find_nodes, find_elements, check_faces, report_unknown
    use atrito_refined_members, only: is_on_side
    use atrito_refinement, only: is_refined
+   use atrito_rigid_motions, only: carry_reference_loads, load_reference, is_prescribed
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -76,9 +78,13 @@ contains
       associate (open => context%open, loads => context%model%steps(context%open%number)%element_loads)
          call carry_values(context, open%forces, keeps_zeros=.false.)
          call list_carried(2*context%model%mesh%n_nodes, dof_places(open%forces), open%old_forces)
+         call carry_reference_loads(context)
          if (removes_all(context, 'CLOAD')) then
             do i = 1, open%forces%n
                call replace_nodal_value(open%forces, i, 0.0_wp, 0_ip)
+            end do
+            do i = 1, open%references%loads%n
+               call replace_nodal_value(open%references%loads, i, 0.0_wp, 0_ip)
             end do
          end if
          loads = context%model%steps(open%number - 1)%element_loads
@@ -173,11 +179,12 @@ contains
    subroutine read_cload_line(line, context)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(inout) :: context
-      character(len=*), parameter :: WHAT = 'degree of freedom: 1 (x) or 2 (y)'
+      character(len=*), parameter :: WHAT = 'degree of freedom: 1 (x) or 2 (y)', &
+                                     AT_REFERENCE = '; of the reference node of a *RIGID BODY also 6'
       integer(ip), allocatable :: nodes(:)
       real(wp) :: force
       integer(ip) :: dof, i
-      logical :: ok(3)
+      logical :: ok(3), turns
 
       call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok(1), 'CLOAD')
       ! a concentrated force stays where the deck puts it
@@ -185,17 +192,21 @@ contains
       call get_integer(context%deck, line_item(context%deck, line, 2_ip), WHAT, dof, ok(2), keyword='CLOAD')
       call get_real(context%deck, line_item(context%deck, line, 3_ip), 'force, a real [F]', force, ok(3), keyword='CLOAD')
       if (.not. all(ok(2:))) return
-      if (dof > 2 .and. dof <= LAST_DOF .and. .not. abs(force) > 0.0_wp) then
+      turns = dof == ROTATION_DOF .and. size(nodes) > 0 .and. all(is_reference(context, nodes))
+      if (dof > 2 .and. dof <= LAST_DOF .and. .not. abs(force) > 0.0_wp .and. .not. turns) then
          call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-DOF', 'dof '//to_text(dof)// &
                           ' does not exist in the plane; its force is 0', keyword='CLOAD')
          return
       end if
-      if (dof < 1 .or. dof > 2) then
+      if ((dof < 1 .or. dof > 2) .and. .not. turns) then
          call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-DOF', 'dof '//to_text(dof)// &
-                           ' does not exist in the plane', expected=WHAT, keyword='CLOAD')
+                           ' does not exist in the plane', expected=WHAT//repeat(AT_REFERENCE, merge(1, 0, dof == ROTATION_DOF)), &
+                           keyword='CLOAD')
          return
       end if
       if (.not. ok(1)) return
+      call load_references(line, dof, force, context, nodes)
+      if (turns) return
       if (any(in_no_element(context, nodes)) .and. abs(force) > 0.0_wp) then
          call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'node '// &
                            ids_text(pack(context%model%mesh%node_id(nodes), in_no_element(context, nodes)))// &
@@ -207,6 +218,27 @@ contains
       end do
       call note_supported(line, context, nodes, dof)
    end subroutine read_cload_line
+
+   !> Loads those of the nodes that are reference nodes, and leaves the others.
+   subroutine load_references(line, dof, force, context, nodes)
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: dof
+      real(wp), intent(in) :: force                   !< [F], or [F L]
+      type(build_context_t), intent(inout) :: context
+      integer(ip), allocatable, intent(inout) :: nodes(:)
+      integer(ip) :: i
+
+      if (size(context%model%rigid_bodies) == 0) return
+      do i = 1, size(nodes, kind=ip)
+         if (.not. is_reference(context, nodes(i))) cycle
+         call load_reference(context, line_item(context%deck, line, 1_ip), nodes(i), dof, force)
+         if (.not. is_prescribed(context, nodes(i), dof)) cycle
+         call report_note(context%deck, line_item(context%deck, line, 2_ip), 'N-SUPPORT', 'dof '//to_text(dof)//' of node ' &
+                          //to_text(context%model%mesh%node_id(nodes(i)))//' is prescribed: the force goes into the reaction', &
+                          keyword='CLOAD')
+      end do
+      nodes = pack(nodes,.not. is_reference(context, nodes))
+   end subroutine load_references
 
    !> A force along a dof of the deck, in the place of what is carried on there or besides what the step has.
    pure subroutine add_force(context, node, dof, force)

@@ -12,6 +12,7 @@ module atrito_build_model
    use atrito_build_loads, only: build_loads
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
+   use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
    use atrito_build_steps, only: build_steps, open_step
@@ -40,6 +41,7 @@ module atrito_build_model
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
+   use atrito_rigid_motions, only: keep_reference_lists
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports
    implicit none (type, external)
@@ -119,6 +121,7 @@ contains
       if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
       if (state > 0) model%mesh%state = state
       call build_surfaces(context)
+      call build_rigid_bodies(context)
       call build_materials(context)
       call check_temperatures(context)
       call build_contact(context)
@@ -150,6 +153,7 @@ contains
       call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)
       call set_interferences(interferences, context)
+      call make_solver_mesh(model)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
    end subroutine build_once
@@ -165,6 +169,7 @@ contains
          call hold_axis(context)
          call turn_supports(context)
          call build_loads(context)
+         call keep_reference_lists(context)
          call build_requests(context)
       end do
    end subroutine fill_steps

@@ -2,6 +2,7 @@
 module atrito_build_supports
    use atrito_build_amplitudes, only: take_amplitude, refuse_step_options
    use atrito_build_loads, only: in_no_element
+   use atrito_build_rigid_bodies, only: is_reference, ROTATION_DOF
    use atrito_carry_on, only: carry_values, removes_all
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
@@ -14,6 +15,7 @@ module atrito_build_supports
    use atrito_references, only: find_nodes
    use atrito_refinement, only: edge_place, is_refined
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_rigid_motions, only: prescribe_reference
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
@@ -46,12 +48,14 @@ contains
                    context%dof_token(PLANE_DOFS, context%model%mesh%n_nodes), source=0_ip)
          call read_cards(context, 0_ip, numbered)
          context%open%n_fixed = context%open%supports%n
+         context%open%references%n_fixed = context%open%references%prescribed%n
       else
          call carry_values(context, context%open%supports, keeps_zeros=.true.)
          if (removes_all(context, 'BOUNDARY')) then
             before = context%open%supports
             call release_all(context)
          end if
+         call carry_values(context, context%open%references%prescribed, keeps_zeros=.true.)
       end if
       call read_cards(context, context%open%number, numbered)
       if (before%n > 0) call begin_where_it_was(before, context)
@@ -83,6 +87,7 @@ contains
          end do
          supports%n = context%open%n_fixed
       end associate
+      context%open%references%prescribed%n = context%open%references%n_fixed
    end subroutine release_all
 
    !> The cards of a step; 0: of the model.
@@ -122,7 +127,7 @@ contains
       integer(ip), allocatable :: nodes(:)
       real(wp) :: value
       integer(ip) :: first, last, dof, i
-      logical :: ok(4)
+      logical :: ok(4), turns
 
       call read_place(line, context, nodes, first, last, ok(:3))
       call get_real(context%deck, line_item(context%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
@@ -133,12 +138,14 @@ contains
                            'a displacement other than 0 before *STEP', &
                            expected='0 [L] here; other values in the step', keyword='BOUNDARY')
       end if
-      if (.not. are_dofs(context%deck, line, first, last, value)) return
+      turns = size(nodes) > 0 .and. all(is_reference(context, nodes))
+      if (.not. are_dofs(context%deck, line, first, last, value, turns)) return
       if (.not. all(ok)) return
       call note_loose(line, context, nodes)
       do dof = first, min(last, PLANE_DOFS)
          call prescribe(line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], context)
       end do
+      if (last == ROTATION_DOF) call prescribe_references(line, nodes, ROTATION_DOF, [(value, i=1, size(nodes, kind=ip))], context)
       if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
 
@@ -175,7 +182,7 @@ contains
       if (in_model) call report_error(context%deck, expression, 'E-VALUE', 'a displacement other than 0 before *STEP', &
                                       expected='*BOUNDARY, FUNCTION in the step', keyword='BOUNDARY')
       ! a function is not 0, whatever it is: there are no harmless dofs
-      if (all(ok(2:3))) ok(2) = are_dofs(context%deck, line, first, last, 1.0_wp)
+      if (all(ok(2:3))) ok(2) = are_dofs(context%deck, line, first, last, 1.0_wp, .false.)
       allocate (values(size(nodes)))
       if (ok(4)) call evaluate_function(context%deck, expression, context%model%mesh%x(:, nodes), values, ok(4), 'BOUNDARY')
       if (.not. all(ok)) return
@@ -250,25 +257,34 @@ contains
    end function edge_value
 
    !> The dofs of a line exist, or are those of three dimensions and harmless.
-   logical function are_dofs(deck, line, first, last, value)
+   logical function are_dofs(deck, line, first, last, value, turns)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: first, last
       real(wp), intent(in) :: value
+      logical, intent(in) :: turns                     !< they are of reference nodes, which have a dof 6
       integer(ip) :: item
+      character(len=:), allocatable :: expected
 
       are_dofs = .false.
+      expected = WHAT_DOF
+      if (turns .or. last == ROTATION_DOF) expected = WHAT_DOF//'; of the reference node of a *RIGID BODY also 6'
       item = merge(2_ip, 3_ip, first < 1 .or. first > LAST_DOF .or. is_empty_token(line_item(deck, line, 3_ip)))
-      if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp)) then
+      if (turns .and. first >= 1 .and. first < ROTATION_DOF .and. last > PLANE_DOFS .and. last <= LAST_DOF .and. &
+          abs(value) > 0.0_wp) then
+         call report_error(deck, line_item(deck, line, 2_ip), 'E-DOF', 'the dofs 3 to 5 do not exist in the plane', &
+                           expected=expected, keyword='BOUNDARY')
+      else if (first < 1 .or. max(first, last) > LAST_DOF .or. (last > PLANE_DOFS .and. abs(value) > 0.0_wp .and. .not. turns)) then
          call report_error(deck, line_item(deck, line, item), 'E-DOF', 'dof '//to_text(merge(first, last, item == 2))// &
-                           ' does not exist in the plane', expected=WHAT_DOF, keyword='BOUNDARY')
+                           ' does not exist in the plane', expected=expected, keyword='BOUNDARY')
       else if (last < first) then
          call report_error(deck, line_item(deck, line, 3_ip), 'E-DOF', 'the last dof, '//to_text(last)// &
                            ', is less than the first', expected=WHAT_DOF//', not less than the first', keyword='BOUNDARY')
       else
          are_dofs = .true.
-         if (last > PLANE_DOFS) call report_note(deck, line_item(deck, line, item), 'N-DOF', &
-                                                 'the dofs 3 to 6 do not exist in the plane; their value is 0', keyword='BOUNDARY')
+         if (last <= PLANE_DOFS .or. turns .and. first == ROTATION_DOF) return
+         call report_note(deck, line_item(deck, line, item), 'N-DOF', 'the dofs 3 to '//trim(merge('5', '6', turns)) &
+                          //' do not exist in the plane; their value is 0', keyword='BOUNDARY')
       end if
    end function are_dofs
 
@@ -278,13 +294,27 @@ contains
       integer(ip), intent(in) :: nodes(:)
       logical :: loose(size(nodes))
 
-      loose = in_no_element(context, nodes)
+      loose = in_no_element(context, nodes) .and. .not. is_reference(context, nodes)
       if (any(loose) .and. .not. has_errors()) call report_note(context%deck, line_item(context%deck, line, 1_ip), 'N-NODE', &
                                                                 'node '// &
                                                                 ids_text(pack(context%model%mesh%node_id(nodes), &
                                                                loose))//' belongs to no element; the support has no effect there', &
                                                                 keyword='BOUNDARY')
    end subroutine note_loose
+
+   !> Prescribes a dof of those of some nodes that are reference nodes.
+   subroutine prescribe_references(line, nodes, dof, value, context)
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: nodes(:), dof
+      real(wp), intent(in) :: value(:)                 !< of each node [L], or [-]
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      if (size(context%model%rigid_bodies) == 0) return
+      do i = 1, size(nodes, kind=ip)
+         if (is_reference(context, nodes(i))) call prescribe_reference(context, line%first_token, nodes(i), dof, value(i))
+      end do
+   end subroutine prescribe_references
 
    !> Prescribes a dof of some nodes. A value that differs from an earlier one is an error, told once a line.
    subroutine prescribe(line, nodes, dof, value, context)
@@ -297,6 +327,7 @@ contains
       logical :: loose(size(nodes))
       integer(ip) :: i, entry
 
+      call prescribe_references(line, nodes, dof, value, context)
       loose = in_no_element(context, nodes)
       scale = 0.0_wp
       if (size(nodes) > 0) scale = maxval(abs(value))

@@ -1,4 +1,4 @@
-!> *SURFACE and *RIGID BODY, and the surfaces that a *BLOCK has by itself.
+!> *SURFACE, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
    use atrito_arcs, only: centre_arc
    use atrito_coordinates, only: get_coordinate
@@ -16,7 +16,7 @@ module atrito_build_surfaces
    use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
-   use atrito_references, only: find_elements, check_faces, report_unknown
+   use atrito_references, only: find_elements, check_faces
    use atrito_refined_members, only: fine_elements, is_on_side
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
@@ -43,9 +43,6 @@ contains
       if (context%surface_names%n < size(context%model%surfaces)) then
          context%model%surfaces = context%model%surfaces(:context%surface_names%n)
       end if
-      do i = 1, context%deck%n_cards
-         if (keyword_name(context%deck%cards(i)) == 'RIGID BODY') call read_rigid_body_card(context%deck%cards(i), context)
-      end do
    end subroutine build_surfaces
 
    !> The four sides of a block, and its part of the sides of all copies; faces that another block has joined are left out.
@@ -301,29 +298,5 @@ contains
       if (.not. has_length) call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'the segment has no length', &
                                               expected='an end that differs from the one before [L]', keyword='SURFACE')
    end function has_length
-
-   !> *RIGID BODY.
-   subroutine read_rigid_body_card(card, context)
-      type(card_t), intent(in) :: card
-      type(build_context_t), intent(inout) :: context
-      type(token_t) :: place
-      character(len=:), allocatable :: name
-      integer(ip) :: i
-      logical :: found
-
-      call option_text(context%deck, card, 'ANALYTICAL SURFACE', name, found, place)
-      if (.not. found) return
-      i = find_name(context%surface_names, name)
-      if (i == 0) then
-         call report_unknown(context, place, 'surface', 'E-SURFACE', context%surface_names, 'RIGID BODY')
-      else if (context%model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
-         call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
-                           expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
-      else
-         context%model%surfaces(i)%is_rigid_body = .true.
-         return
-      end if
-      context%rigid_undetermined = .true.
-   end subroutine read_rigid_body_card
 
 end module atrito_build_surfaces

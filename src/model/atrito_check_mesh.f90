@@ -165,6 +165,7 @@ contains
       first = 0
       do i = 1, model%mesh%n_nodes
          if (context%around%first(i + 1) > context%around%first(i)) cycle
+         if (any(model%rigid_bodies%node == i)) cycle
          if (first == 0) first = i
          call add_number(loose, model%mesh%node_id(i))
       end do

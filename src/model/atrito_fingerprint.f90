@@ -130,6 +130,10 @@ contains
             if (any(surface%is_arc)) call add_allocated(digest, surface%centre)
          end associate
       end do
+      if (.not. allocated(model%rigid_bodies)) return
+      if (size(model%rigid_bodies) == 0) return
+      call add_to(digest, model%rigid_bodies%surface)
+      call add_to(digest, model%rigid_bodies%node)
    end function digest_of_surfaces
 
    pure function digest_of_interactions(model) result(digest)
@@ -208,8 +212,10 @@ contains
 
       associate (step => model%steps(i))
          call add_nodal_values(supports, model, step%prescribed)
+         if (step%rigid_prescribed%n > 0) call add_nodal_values(supports, model, step%rigid_prescribed)
          call add_to(supports, step%at_once)
          call add_nodal_values(loads, model, step%node_loads)
+         if (step%rigid_loads%n > 0) call add_nodal_values(loads, model, step%rigid_loads)
          call add_element_loads(loads, model, step%element_loads)
          call add_allocated(loads, step%heating)
          call add_allocated(loads, step%heating_from)
@@ -219,10 +225,12 @@ contains
          call add_way(way, step)
          call add_requests(requests, step)
       end associate
-      call add_part(fingerprint, 'prescribed displacements of step '//to_text(i), to_text(model%steps(i)%prescribed%n)//' values', &
-                    supports, i)
-      call add_part(fingerprint, 'loads of step '//to_text(i), to_text(model%steps(i)%node_loads%n)//' on nodes, '// &
-                    to_text(model%steps(i)%element_loads%n)//' on elements', loads, i)
+      associate (step => model%steps(i))
+         call add_part(fingerprint, 'prescribed displacements of step '//to_text(i), &
+                       to_text(step%prescribed%n + step%rigid_prescribed%n)//' values', supports, i)
+         call add_part(fingerprint, 'loads of step '//to_text(i), to_text(step%node_loads%n + step%rigid_loads%n)// &
+                       ' on nodes, '//to_text(step%element_loads%n)//' on elements', loads, i)
+      end associate
       call add_part(fingerprint, '*CONTACT INTERFERENCE of step '//to_text(i), '', overlaps, i)
       call add_part(fingerprint, '*STATIC or *CONTROLS of step '//to_text(i), '', way, i)
       call add_part(fingerprint, 'what is printed in step '//to_text(i), '', requests, i)

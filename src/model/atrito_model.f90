@@ -12,6 +12,7 @@ module atrito_model
    implicit none (type, external)
    private
    public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
+   public :: rigid_body_t
    public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, controls_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
@@ -82,11 +83,17 @@ module atrito_model
    !> Values at single dofs: prescribed displacements [L], or forces [F] for the whole thickness.
    type :: nodal_values_t
       integer(ip) :: n = 0
-      integer(ip), allocatable :: node(:), dof(:)   !< dof 1 or 2
+      integer(ip), allocatable :: node(:), dof(:)   !< dof 1 or 2; of reference nodes also 6, rotation [-] and moment [F L]
       real(wp), allocatable :: value(:)             !< at the end of a step, or what an amplitude multiplies
       real(wp), allocatable :: from(:)              !< at the beginning of a step; not allocated: 0
       integer(ip), allocatable :: amplitude(:)      !< place in model%amplitudes; 0, or not allocated: none
    end type nodal_values_t
+
+   !> A rigid surface that moves with a reference node, as a body does that turns about it.
+   type :: rigid_body_t
+      integer(ip) :: surface = 0, node = 0          !< places; the node belongs to no element
+      real(wp) :: size = 1.0_wp                     !< largest distance of the surface from the node [L]
+   end type rigid_body_t
 
    type :: tie_t
       character(len=:), allocatable :: name
@@ -176,6 +183,8 @@ module atrito_model
       logical :: at_once = .false.                  !< AMPLITUDE=STEP: what has no amplitude has its last value from the beginning
       type(nodal_values_t) :: prescribed            !< each dof once
       type(nodal_values_t) :: node_loads            !< several on one dof add up
+      type(nodal_values_t) :: rigid_prescribed      !< of reference nodes, each dof once
+      type(nodal_values_t) :: rigid_loads           !< of reference nodes; several on one dof add up
       type(element_load_t) :: element_loads
       real(wp), allocatable :: heating(:)           !< (n_nodes) rise of the temperature; not allocated where none expands anything
       real(wp), allocatable :: heating_from(:)      !< (n_nodes) the same at the beginning; not allocated: 0
@@ -197,6 +206,9 @@ module atrito_model
       type(section_t), allocatable :: sections(:)
       integer(ip), allocatable :: section_of(:)     !< section of each element
       type(surface_t), allocatable :: surfaces(:)
+      type(rigid_body_t), allocatable :: rigid_bodies(:) !< the rigid surfaces with a reference node
+      type(mesh_t), allocatable :: solver_mesh      !< with the nodes that carry their motions, behind the mesh's own; not
+      !< allocated: there are none
       type(interaction_t), allocatable :: interactions(:)
       type(pair_t), allocatable :: pairs(:)
       type(contact_points_t), allocatable :: points(:) !< of each pair

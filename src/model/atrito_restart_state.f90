@@ -38,6 +38,7 @@ module atrito_restart_state
       integer(ip) :: contact_form = 0               !< CONTACT_*, of the scene
       character(len=:), allocatable :: contact_reason !< why
       real(wp), allocatable :: from(:)              !< prescribed, at the beginning of the step [L]; not allocated: the deck's
+      real(wp), allocatable :: from_of_motions(:)   !< prescribed at reference nodes, at the beginning of the step
       real(wp), allocatable :: released(:, :)       !< (2, n_nodes) of supports that the step does not have [F]
       real(wp), allocatable :: rest(:)              !< (points) rest slip [L]
       real(wp), allocatable :: slip(:)              !< (points) u_T [L]

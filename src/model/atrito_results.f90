@@ -6,7 +6,7 @@ module atrito_results
    implicit none (type, external)
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
-   public :: body_motion_t, joint_t, extreme_t, history_t, history_row_t, ending_t, last_frame
+   public :: body_motion_t, rigid_result_t, joint_t, extreme_t, history_t, history_row_t, ending_t, last_frame
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -107,6 +107,18 @@ module atrito_results
       real(wp) :: terms(2) = 0.0_wp                 !< sizes of all that is summed in them [F], [F L]: what rounding is measured by
    end type body_motion_t
 
+   !> A row of rigid.tab: a rigid surface that moves with a reference node.
+   type :: rigid_result_t
+      character(len=:), allocatable :: name         !< of the surface
+      integer(ip) :: node = 0                       !< the user's number
+      real(wp) :: size = 0.0_wp                     !< largest distance of the surface from the node [L]
+      logical :: is_prescribed(3) = .false.         !< u1, u2, rotation
+      real(wp) :: u(2) = 0.0_wp                     !< of the node [L]
+      real(wp) :: rotation = 0.0_wp                 !< about it, counter-clockwise [rad]
+      real(wp) :: reaction(2) = 0.0_wp              !< [F]; 0 where nothing is prescribed
+      real(wp) :: moment = 0.0_wp                   !< about the node [F L]; 0 where the rotation is free
+   end type rigid_result_t
+
    !> A row of joints.tab: what one body of a pair does to the other. NaN stands for what is not defined.
    type :: joint_t
       integer(ip) :: pair = 0
@@ -125,6 +137,7 @@ module atrito_results
       real(wp) :: value = 0.0_wp
       integer(ip) :: id = 0                         !< the user's number of the element or node
       real(wp) :: x(2) = 0.0_wp                     !< [L]
+      logical :: is_node = .false.                  !< id is that of a node
    end type extreme_t
 
    !> An increment of a history, or a run of one.
@@ -158,6 +171,7 @@ module atrito_results
       type(extreme_t) :: large_strain, large_rotation, large_slip  !< where they pass what a linear theory knows; 0: they do not
       type(balance_t) :: balance
       type(body_motion_t), allocatable :: bodies(:) !< when asked for
+      type(rigid_result_t), allocatable :: rigid(:) !< rigid surfaces with a reference node; not allocated: there are none
       type(joint_t), allocatable :: joints(:)       !< by pair, then along s
    end type results_t
 

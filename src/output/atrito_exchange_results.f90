@@ -3,7 +3,8 @@ module atrito_exchange_results
    use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_numbers, exchange_word, exchange_size
    use atrito_exchange_scene, only: exchange_scene
    use atrito_kinds, only: ip
-   use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, joint_t, extreme_t, iteration_t
+   use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, rigid_result_t, joint_t, &
+                             extreme_t, iteration_t
    implicit none (type, external)
    private
    public :: exchange_results, exchange_iteration_list
@@ -51,6 +52,7 @@ contains
       call exchange_extreme(archive, results%large_slip)
       call exchange_balance(archive, results%balance)
       call exchange_motion_list(archive, 'bodies', results%bodies)
+      call exchange_rigid_list(archive, 'rigid', results%rigid)
       call exchange_joint_list(archive, 'joints', results%joints)
    end subroutine exchange_results
 
@@ -163,6 +165,43 @@ contains
       call exchange_vector(archive, 'terms', body%terms)
    end subroutine exchange_motion
 
+   subroutine exchange_rigid_list(archive, name, list)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      type(rigid_result_t), allocatable, intent(inout) :: list(:)
+      logical :: is_there
+      integer(ip) :: n, i
+
+      is_there = allocated(list)
+      n = 0
+      if (is_there) n = size(list, kind=ip)
+      call exchange_size(archive, name, is_there, n)
+      if (archive%is_reading) then
+         if (allocated(list)) deallocate (list)
+         if (is_there) allocate (list(n))
+      end if
+      do i = 1, n
+         call exchange_rigid(archive, list(i))
+      end do
+   end subroutine exchange_rigid_list
+
+   subroutine exchange_rigid(archive, body)
+      type(archive_t), intent(inout) :: archive
+      type(rigid_result_t), intent(inout) :: body
+      integer :: i
+
+      call exchange(archive, 'name', body%name)
+      call exchange(archive, 'node', body%node)
+      call exchange(archive, 'size', body%size)
+      do i = 1, size(body%is_prescribed)
+         call exchange(archive, 'is_prescribed', body%is_prescribed(i))
+      end do
+      call exchange_vector(archive, 'u', body%u)
+      call exchange(archive, 'rotation', body%rotation)
+      call exchange_vector(archive, 'reaction', body%reaction)
+      call exchange(archive, 'moment', body%moment)
+   end subroutine exchange_rigid
+
    subroutine exchange_joint_list(archive, name, list)
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
@@ -244,6 +283,7 @@ contains
       call exchange(archive, 'value', extreme%value)
       call exchange(archive, 'id', extreme%id)
       call exchange_vector(archive, 'x', extreme%x)
+      call exchange(archive, 'is_node', extreme%is_node)
    end subroutine exchange_extreme
 
    subroutine exchange_balance(archive, balance)

@@ -1,11 +1,12 @@
-!> The tables with rows of one increment each, docs/user/tables.md: contact, nodes, reactions, stress, bodies, joints, and by
-!> atrito_row_tables ties, equations, springs.
+!> The tables with rows of one increment each, docs/user/tables.md: contact, nodes, reactions, stress, bodies, joints, by
+!> atrito_rigid_report rigid, and by atrito_row_tables ties, equations, springs.
 module atrito_frame_tables
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t
    use atrito_model, only: model_t, requests_t, is_due
    use atrito_results, only: results_t, history_t, contact_result_t, body_motion_t
+   use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_row_table
    use atrito_summary, only: scales_t, pair_count
    use atrito_table, only: table_t, begin_table, add_reals, add_real_columns, add_field, add_integers, add_integer_field, &
@@ -63,6 +64,8 @@ contains
             has_table = requests%stress .and. allocated(frame%stress)
          case ('bodies')
             has_table = requests%bodies .and. allocated(frame%bodies)
+         case ('rigid')
+            has_table = allocated(frame%rigid)
          case ('joints')
             has_table = requests%joints .and. allocated(frame%joints)
          case default
@@ -71,7 +74,7 @@ contains
       end associate
    end function has_table
 
-   !> How often a table is printed. What ties, equations and springs transmit goes with the contact.
+   !> How often a table is printed. What ties, equations and springs transmit and rigid surfaces do goes with the contact.
    pure integer(ip) function frequency_of(requests, name) result(every)
       type(requests_t), intent(in) :: requests
       character(len=*), intent(in) :: name
@@ -112,6 +115,8 @@ contains
          call build_stress(model, frame, scales, table)
       case ('bodies')
          call build_bodies(frame, scales, table)
+      case ('rigid')
+         call build_rigid_table(frame, scales, table)
       case ('joints')
          call build_joints(frame, scales, own, table)
       case default

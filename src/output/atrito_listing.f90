@@ -17,6 +17,7 @@ module atrito_listing
                           number, bytes
    use atrito_model_report, only: describe_model
    use atrito_row_tables, only: describe_rows
+   use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_summary, only: quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, measure_history, &
                              pair_scales, pair_name
@@ -291,6 +292,7 @@ contains
          if (i > 1) call add_blank(page)
          if (has_history(model, history)) call add_line(page, frame_name(history%frames(due(i))))
          call add_pairs(page, history%frames(due(i)), own)
+         if (has_history(model, history)) call describe_rigid_bodies(page, history%frames(due(i)))
       end do
    end subroutine add_contact
 
@@ -357,6 +359,7 @@ contains
       call add_line(page, force_line('from rigid surfaces', -b%rigid))
       if (any(abs(b%rows) > 0.0_wp)) call add_line(page, force_line('from springs and equations', -b%rows))
       call add_line(page, force_line('sum', balance_sum(b)))
+      call describe_rigid_bodies(page, results)
       call add_blank(page)
       list = step_quantities(results)
       do i = 1, size(list)

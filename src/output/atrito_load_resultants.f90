@@ -41,6 +41,7 @@ contains
             call add_to(concentrated, f, model%mesh%x(:, loads%node(i)))
          end do
       end associate
+      call add_rigid_loads(model, k, concentrated)
       if (.not. allocated(model%steps(k)%element_loads%amplitude)) then
          call add_element_loads(model, model%steps(k)%element_loads, pressure, body)
          return
@@ -52,6 +53,26 @@ contains
       end do
       call add_element_loads(model, last, pressure, body)
    end subroutine load_resultants
+
+   !> Forces and moments on the reference nodes of rigid surfaces.
+   pure subroutine add_rigid_loads(model, k, force)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: k                  !< the step
+      type(force_t), intent(inout) :: force
+      real(wp) :: f(2), value
+      integer(ip) :: i
+
+      associate (loads => model%steps(k)%rigid_loads)
+         do i = 1, loads%n
+            value = loads%value(i)
+            if (allocated(loads%amplitude)) value = value*last_factor(model, k, loads%amplitude(i))
+            f = 0.0_wp
+            if (loads%dof(i) <= 2) f(loads%dof(i)) = value
+            call add_to(force, f, model%mesh%x(:, loads%node(i)))
+            if (loads%dof(i) > 2) force%moment = force%moment + value
+         end do
+      end associate
+   end subroutine add_rigid_loads
 
    !> What an amplitude multiplies by at the end of a step.
    pure real(wp) function last_factor(model, k, amplitude) result(factor)

@@ -4,6 +4,7 @@ module atrito_model_report
    use atrito_load_resultants, only: force_t, load_resultants, last_factor
    use atrito_row_tables, only: joined_text
    use atrito_kinds, only: ip, wp
+   use atrito_rigid_report, only: describe_references
    use atrito_strings, only: to_text
    use atrito_mesh, only: is_revolved
    use atrito_sets, only: set_count
@@ -272,6 +273,7 @@ contains
          pressure = force_t([0.0_wp, pressure%f(2)])
          body = force_t([0.0_wp, body%f(2)])
       end if
+      call describe_references(page, model, k)
       call add_blank(page)
       call add_line(page, '   '//left('loads, resultants', 24)//right('F1 [F]', 16)//right('F2 [F]', 16)// &
                     right('moment about 0,0', 18))

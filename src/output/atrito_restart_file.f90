@@ -167,6 +167,7 @@ contains
       call exchange(archive, 'contact_form', state%contact_form)
       call exchange(archive, 'contact_reason', state%contact_reason)
       call exchange(archive, 'from', state%from)
+      call exchange(archive, 'from_of_motions', state%from_of_motions)
       call exchange(archive, 'released', state%released)
       call exchange(archive, 'rest', state%rest)
       call exchange(archive, 'slip', state%slip)

@@ -112,7 +112,7 @@ contains
       character(len=:), allocatable :: text
 
       text = ' (half bandwidth '//to_text(body%half_bandwidth)//')'
-      if (any(text_of(body%solver) == ['sparse', 'mumps ', 'scene '])) text = ''
+      if (any(text_of(body%solver) == ['sparse', 'mumps ', 'scene ', 'none  '])) text = ''
    end function bandwidth_text
 
    pure function text_of(text) result(given)

@@ -151,7 +151,7 @@ contains
       if (is_sparse_form(scene)) text = 'sparse'
       do i = 1, merge(0_ip, body_count(scene), is_sparse_form(scene))
          if (.not. allocated(scene%bodies(i)%solver)) cycle
-         if (index(text, scene%bodies(i)%solver) > 0) cycle
+         if (index(text, scene%bodies(i)%solver) > 0 .or. scene%bodies(i)%solver == 'none') cycle
          if (len(text) > 0) text = text//' and '
          text = text//scene%bodies(i)%solver
       end do

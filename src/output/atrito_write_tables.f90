@@ -19,8 +19,8 @@ module atrito_write_tables
    public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
 
    !> Every table that atrito can write.
-   character(len=10), parameter :: TABLE_NAMES(13) = [character(len=10) :: 'contact', 'summary', 'history', 'nodes', 'reactions', &
-                                                                                'stress', 'bodies', 'joints', 'ties', 'equations', &
+   character(len=10), parameter :: TABLE_NAMES(14) = [character(len=10) :: 'contact', 'summary', 'history', 'nodes', 'reactions', &
+                                                                      'stress', 'bodies', 'rigid', 'joints', 'ties', 'equations', &
                                                                                                   'springs', 'iterations', 'timing']
 
    !> The comment lines at the top: of one result, or of a history.

@@ -9,6 +9,7 @@ module atrito_mechanism_plot
    use atrito_model, only: model_t
    use atrito_plot_files, only: MECHANISM_PLOT
    use atrito_plot_text, only: quoted, cleaned, begin_script, end_script, COLOUR, N_COLOURS
+   use atrito_results, only: rigid_result_t
    use atrito_stability_result, only: stability_t, collapse_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text
@@ -34,9 +35,30 @@ contains
       call begin_drawing(model, .true., drawing)
       call displace(drawing, model%mesh, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size))
       call write_lines(set, MECHANISM_PLOT, '# outlines of the bodies as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
-                       'the largest u is 1', ['', ''], model, limit%collapse%u, drawing, status)
+                       'the largest u is 1', ['', ''], model, limit%collapse%u, drawing, status, &
+                       rigid_motions(model, limit%collapse, drawing))
       if (is_ok(status)) call write_script(set, model, limit, title, drawing, status)
    end subroutine write_mechanism_plot
+
+   !> The motions of rigid surfaces, which are bodies behind those of elements.
+   pure function rigid_motions(model, collapse, drawing) result(rigid)
+      type(model_t), intent(in) :: model
+      type(collapse_t), intent(in) :: collapse
+      type(drawing_t), intent(in) :: drawing
+      type(rigid_result_t), allocatable :: rigid(:)
+      integer(ip) :: i, k
+
+      allocate (rigid(0))
+      if (.not. allocated(model%rigid_bodies)) return
+      deallocate (rigid)
+      allocate (rigid(size(model%rigid_bodies)))
+      do i = 1, size(collapse%bodies, kind=ip)
+         k = collapse%bodies(i) - maxval(drawing%lines%body)
+         if (k < 1) cycle
+         rigid(k)%u = collapse%motion(:2, i)
+         rigid(k)%rotation = collapse%motion(3, i)
+      end do
+   end function rigid_motions
 
    !> The number with which a motion of one is drawn 3 to 8 % of the scene long, or less where bodies would turn much.
    pure real(wp) function mechanism_scale(collapse, size_of_scene) result(scale)

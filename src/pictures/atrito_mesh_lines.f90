@@ -13,6 +13,7 @@ module atrito_mesh_lines
    use atrito_number_text, only: trimmed_real
    use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, put_terminal, put_plot, N_COLOURS
    use atrito_plot_files, only: JOINT_PLOT
+   use atrito_results, only: rigid_result_t
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, append_string, to_text
    implicit none (type, external)
@@ -174,7 +175,7 @@ contains
    end function displacement_scale
 
    !> Writes <name>.dat: a block a run of edges, then a block a rigid surface of the pairs.
-   subroutine write_lines(set, name, heading, of_kind, model, u, drawing, status)
+   subroutine write_lines(set, name, heading, of_kind, model, u, drawing, status, rigid)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name, heading
       character(len=*), intent(in) :: of_kind(:)    !< what is said of inner edges and of outlines
@@ -182,12 +183,13 @@ contains
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(drawing_t), intent(in) :: drawing
       type(status_t), intent(out) :: status
+      type(rigid_result_t), intent(in), optional :: rigid(:) !< motions of the model's rigid bodies; without them they stay
       type(text_file_t) :: file
 
       call open_text(set, name//'.dat', file)
       call put_line(file, heading)
       call put_lines(file, of_kind, model, u, drawing)
-      call put_rigid_lines(file, model)
+      call put_rigid_lines(file, model, rigid)
       call close_text(file, status)
    end subroutine write_lines
 
@@ -212,15 +214,41 @@ contains
    end subroutine put_lines
 
    !> A block a rigid surface of the pairs.
-   subroutine put_rigid_lines(file, model)
+   subroutine put_rigid_lines(file, model, rigid)
       type(text_file_t), intent(inout) :: file
       type(model_t), intent(in) :: model
+      type(rigid_result_t), intent(in), optional :: rigid(:)
+      real(wp) :: motion(5)
       integer(ip) :: i
 
       do i = 1, size(model%surfaces, kind=ip)
-         if (is_drawn_rigid(model, i)) call put_rigid(file, model%surfaces(i))
+         motion = 0.0_wp
+         if (present(rigid)) motion = motion_of(model, i, rigid)
+         if (is_drawn_rigid(model, i)) call put_rigid(file, model%surfaces(i), motion)
       end do
    end subroutine put_rigid_lines
+
+   !> The rigid body of a surface; 0: it stays where it is.
+   pure integer(ip) function body_of_surface(model, surface) result(body)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface
+
+      body = 0
+      if (allocated(model%rigid_bodies)) body = findloc(model%rigid_bodies%surface, surface, dim=1, kind=ip)
+   end function body_of_surface
+
+   !> u1, u2 and rotation of a rigid surface, and the place about which it turns.
+   pure function motion_of(model, surface, rigid) result(motion)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface
+      type(rigid_result_t), intent(in) :: rigid(:)
+      real(wp) :: motion(5)                         !< [L], [L], [-], [L], [L]
+
+      motion = 0.0_wp
+      associate (body => body_of_surface(model, surface))
+         if (body > 0) motion = [rigid(body)%u, rigid(body)%rotation, model%mesh%x(:, model%rigid_bodies(body)%node)]
+      end associate
+   end function motion_of
 
    !> An edge from corner to corner; a curved one in pieces.
    subroutine put_edge(file, mesh, u, element, face, sizes)
@@ -286,25 +314,36 @@ contains
       if (is_drawn_rigid) is_drawn_rigid = allocated(model%surfaces(surface)%points)
    end function is_drawn_rigid
 
-   subroutine put_rigid(file, surface)
+   subroutine put_rigid(file, surface, motion)
       type(text_file_t), intent(inout) :: file
       type(surface_t), intent(in) :: surface        !< of segments
+      real(wp), intent(in) :: motion(5)             !< as motion_of has it
       real(wp) :: place(2)
       integer :: i, j, n_pieces
 
       call put_line(file, '# a rigid surface')
-      call put_place(file, [surface%points(:, 1), 0.0_wp, 0.0_wp])
+      call put_place(file, moved(surface%points(:, 1)))
       do i = 1, size(surface%points, 2) - 1
          n_pieces = 1
          if (is_arc(surface, i)) n_pieces = ARC_PIECES
          do j = 1, n_pieces
             place = surface%points(:, i + 1)
             if (j < n_pieces) place = arc_place(surface, i, real(j, wp)/real(n_pieces, wp))
-            call put_place(file, [place, 0.0_wp, 0.0_wp])
+            call put_place(file, moved(place))
          end do
       end do
       call put_line(file, '')
       call put_line(file, '')
+
+   contains
+
+      pure function moved(x) result(v)
+         real(wp), intent(in) :: x(2)
+         real(wp) :: v(4)
+
+         v = [x, motion(1) - motion(3)*(x(2) - motion(5)), motion(2) + motion(3)*(x(1) - motion(4))]
+      end function moved
+
    end subroutine put_rigid
 
    pure logical function is_arc(surface, segment)
@@ -390,7 +429,9 @@ contains
       end do
       do i = 1, size(model%surfaces, kind=ip)
          if (.not. is_drawn_rigid(model, i)) cycle
-         call append_string(curves, '   "'//name//'.dat" index '//to_text(n)//' using 1:2 with lines ls 9 title '// &
+         call append_string(curves, '   "'//name//'.dat" index '//to_text(n)//' using '// &
+                            trim(merge('($1 + scale*$3):($2 + scale*$4)', '1:2                            ', &
+                                       body_of_surface(model, i) > 0))//' with lines ls 9 title '// &
                             quoted(cleaned(model%surfaces(i)%name, LONGEST_NAME)//' (rigid)')//' noenhanced')
          n = n + 1
       end do

@@ -52,7 +52,7 @@ contains
       call draw_mesh(model, results, drawing)
       call write_lines(set, MESH_PLOT, '# edges of the elements as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L]', &
                        [character(len=40) :: ', edges inside', ', outline and lines between sections'], model, results%u, &
-                       drawing, status)
+                       drawing, status, results%rigid)
       if (is_ok(status)) call write_script(set, model, results, drawing, status)
    end subroutine write_mesh_plot
 

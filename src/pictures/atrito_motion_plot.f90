@@ -105,7 +105,7 @@ contains
       end do
    end function largest_displacement
 
-   !> The rigid surfaces, which all images have; then of each image the lines of the bodies, and the contact points.
+   !> Of each image the rigid surfaces, the lines of the bodies, and the contact points.
    subroutine write_data(set, model, history, images, drawing, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
@@ -119,10 +119,10 @@ contains
       call open_text(set, MOTION_PLOT//'.dat', file)
       call put_line(file, '# columns: x [L]  y [L]  u1 [L]  u2 [L]; of contact points: pressure [F/L^2] along the inward '// &
                     'normal, in two columns; state')
-      call put_rigid_lines(file, model)
       do i = 1, size(images, kind=ip)
          associate (frame => history%frames(images(i)))
             call put_line(file, '# '//increment_name(frame%step, frame%increment, frame%time))
+            call put_rigid_lines(file, model, frame%rigid)
             call put_lines(file, [character(len=40) :: ', edges inside', ', outline and lines between sections'], model, frame%u, &
                            drawing)
             if (.not. has_points(frame)) cycle
@@ -264,15 +264,15 @@ contains
       n_blocks = n_lines + merge(1_ip, 0_ip, has_points(history%frames(1)))
       block = '"'//MOTION_PLOT//'.dat" index first'
       moved = ' using ($1 + scale*$3):($2 + scale*$4)'
-      call put_line(file, 'first = '//to_text(n_rigid)//' + '//to_text(n_blocks)//'*(k - 1)')
+      call put_line(file, 'first = '//to_text(n_rigid)//' + '//to_text(n_rigid + n_blocks)//'*(k - 1)')
       call append_string(curves, 'plot '//block//'+'//to_text(n_inner)//':first+'//to_text(n_lines - 1)// &
                          ' using 1:2 with lines ls 8 title "undeformed"')
       if (n_inner > 0) call append_string(curves, '   '//block//':first+'//to_text(n_inner - 1)//moved// &
                                           ' with lines lt 1 lw 1 lc rgb "#B0B0B0"')
       call append_string(curves, '   '//block//'+'//to_text(n_inner)//':first+'//to_text(n_lines - 1)//moved// &
                          ' with lines lt 1 lw 2 lc rgb "#404040"')
-      if (n_rigid > 0) call append_string(curves, '   "'//MOTION_PLOT//'.dat" index 0:'//to_text(n_rigid - 1)// &
-                                          ' using 1:2 with lines ls 9 title "rigid"')
+      if (n_rigid > 0) call append_string(curves, '   "'//MOTION_PLOT//'.dat" index first-'//to_text(n_rigid)//':first-1'// &
+                                          moved//' with lines ls 9 title "rigid"')
       if (n_blocks > n_lines) call add_contact(block//'+'//to_text(n_lines)//moved, history, images, pressure, curves)
       call put_plot(file, curves)
    end subroutine put_image

@@ -170,6 +170,7 @@ contains
       if (numbering%k == 0) return
       call sum_diagonals(store, store%n, diagonal)
       do i = 1, numbering%k
+         if (numbering%spring(i) == 0) cycle
          call add_to_store(store, [numbering%spring(i)], reshape([diagonal(numbering%spring(i))], [1, 1]))
       end do
    end subroutine collect_scene
@@ -195,6 +196,12 @@ contains
                                    + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)
          end do
       end do
+      ! between a held node and a rigid surface, which moves, nothing gives way
+      if (any(scene%flexibility > 0.0_wp)) then
+         where (scene%flexibility <= 0.0_wp) scene%flexibility = maxval(scene%flexibility)
+      else if (scene%n > scene%k) then
+         scene%flexibility = 1.0_wp/maxval(diagonal(:scene%n - scene%k))
+      end if
    end subroutine set_flexibility
 
    !> d' K^-1 d for the free displacements of a node.
@@ -232,9 +239,11 @@ contains
          if (b == 0) cycle
          do dof = 1, 2
             if (fem%bodies%equation(dof, node) == 0) cycle
-            k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
-            scene%load(k) = free_load(dof, node)
-            scene%size_of_load(k) = abs(free_load(dof, node))
+            if (fem%bodies%equation(dof, node) > 0) then
+               k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
+               scene%load(k) = free_load(dof, node)
+               scene%size_of_load(k) = abs(free_load(dof, node))
+            end if
             do mode = 1, scene%numbering%n_motions(b)
                motion = scene%numbering%first_motion(b) + mode - 1
                part = f(dof, node)*mode_at(fem%bodies%list(b), fem%bodies%list(b)%modes(:, mode), fem%mesh%x(:, node), dof)

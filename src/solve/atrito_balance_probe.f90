@@ -12,7 +12,8 @@ module atrito_balance_probe
    use atrito_motion_rows, only: motion_rows_t
    use atrito_motion_system, only: build_motion_rows
    use atrito_results, only: pair_scene_t
-   use atrito_scene_builder, only: list_prescribed
+   use atrito_rigid_bodies, only: hold_the_same
+   use atrito_scene_builder, only: list_held
    use atrito_scene_data, only: scene_data_t, asked_t, prepare, set_time
    use atrito_stability_result, only: collapse_t
    use atrito_stability_search, only: STANDS, FALLS, UNDECIDED
@@ -69,13 +70,15 @@ contains
       type(status_t), intent(out) :: status
       logical, allocatable :: held(:, :)
       real(wp), allocatable :: value(:, :)
+      logical :: same_motions
       type(body_cache_t) :: store
       type(asked_t) :: asked
 
       if (k > 1) then
-         call list_prescribed(model%steps(k)%prescribed, model%mesh%n_nodes, held, value)
-         if (any(data%held .and. .not. held)) times = times(size(times):)
-         if (all(held .eqv. data%held)) then
+         call list_held(model, model%steps(k), held, value)
+         same_motions = hold_the_same(model, data%rigid_prescribed, model%steps(k)%rigid_prescribed)
+         if (any(data%held .and. .not. held) .or. .not. same_motions) times = times(size(times):)
+         if (all(held .eqv. data%held) .and. same_motions) then
             data%step => model%steps(k)
             return
          end if
@@ -140,7 +143,7 @@ contains
       collapse%text = free_motion_text(data%fem, data%held, data%rows, data%line, pairs, mechanism)
       call move_nodes(data, mechanism, collapse)
       largest = max(maxval(norm2(collapse%u, dim=1)), tiny(largest))
-      collapse%u = collapse%u/largest
+      collapse%u = collapse%u(:, :data%model%mesh%n_nodes)/largest
       collapse%motion = collapse%motion/largest
    end subroutine describe_collapse
 

@@ -9,7 +9,8 @@ module atrito_base_loads
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, step_t
    use atrito_nodal_loads, only: nodal_loads
-   use atrito_scene_builder, only: list_prescribed
+   use atrito_rigid_bodies, only: has_moving_surfaces
+   use atrito_scene_builder, only: list_held
    use atrito_step_loads, only: base_of, base_factors, list_bases, moment_t, BASE_BEGIN
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
@@ -30,7 +31,8 @@ module atrito_base_loads
 
 contains
 
-   !> The bases of a step, where it has more increments than they are; else none.
+   !> The bases of a step, where it has more increments than they are; else none. Surfaces that move have loads beside the nodes of
+   !> the mesh: with them there are none, either.
    subroutine build_bases(model, step, released, fem, bases)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step
@@ -41,7 +43,7 @@ contains
       logical, allocatable :: acts(:)
       integer(ip) :: i
 
-      if (step%increments%period < (size(list_bases(step)) + 1)*step%increments%initial) return
+      if (step%increments%period < (size(list_bases(step)) + 1)*step%increments%initial .or. has_moving_surfaces(model)) return
       allocate (bases)
       bases%base = list_bases(step)
       allocate (bases%load(2, model%mesh%n_nodes, size(bases%base)))
@@ -76,7 +78,7 @@ contains
          call add_thermal_loads(fem, thermal)
       end if
       if (allocated(released) .and. base == BASE_BEGIN) f = f + released
-      call list_prescribed(acting%prescribed, model%mesh%n_nodes, held, value)
+      call list_held(model, acting, held, value)
       load = without_prescribed(fem, f, thermal, value)
    end subroutine load_of_base
 

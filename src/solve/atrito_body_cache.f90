@@ -6,7 +6,7 @@ module atrito_body_cache
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_bodies, only: bodies_t
-   use atrito_condensed_body, only: condensed_body_t, condense_body, set_load
+   use atrito_condensed_body, only: condensed_body_t, condense_body, check_held, set_load
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_plane_state, only: elastic_t
@@ -65,6 +65,11 @@ contains
       store%holds = .false.
       allocate (bodies(fem%bodies%n))
       do b = 1, fem%bodies%n
+         if (fem%bodies%list(b)%is_rigid) then             ! nothing to factor
+            call check_held(fem, b, status)
+            if (.not. is_ok(status)) return
+            cycle
+         end if
          same_load = .false.
          if (same_bodies) same_load = has_same_load(store, fem, b, load)
          if (serves_again(store, fem, b, same_bodies)) then
@@ -99,7 +104,7 @@ contains
 
       call start_phase('factor')
       do b = 1, fem%bodies%n
-         call set_load(fem, b, load, store%bodies(b))
+         if (.not. fem%bodies%list(b)%is_rigid) call set_load(fem, b, load, store%bodies(b))
       end do
       call stop_phase('factor')
       if (store%holds) store%load = load

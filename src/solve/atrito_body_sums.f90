@@ -26,8 +26,8 @@ contains
       integer(ip) :: b
 
       volume = nodal_volumes(fem)
-      allocate (bodies(fem%bodies%n))
-      do b = 1, fem%bodies%n
+      allocate (bodies(fem%bodies%n - fem%bodies%n_rigid))
+      do b = 1, size(bodies, kind=ip)
          associate (body => fem%bodies%list(b), row => bodies(b))
             row%name = body%name
             row%size = body%size

@@ -162,6 +162,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (fem%bodies%list(i_body)%n_retained > 0 .or. size(fem%bodies%list(i_body)%modes, 2) == 0) return
+      if (fem%bodies%list(i_body)%is_touched) return
       call set_status(status, STATUS_SINGULAR, motion_text(fem, i_body, fem%bodies%list(i_body)%modes(:, 1)) &
                       //'; no support and no contact pair holds it')
    end subroutine check_held
@@ -388,6 +389,7 @@ contains
 
       associate (body => fem%bodies%list(i_body))
          text = 'body '//body%name//' (node '//to_text(fem%mesh%node_id(body%nodes(1)))//' and all others)'
+         if (body%is_rigid) text = 'rigid body '//body%name//' (reference node '//to_text(fem%mesh%node_id(body%nodes(1)))//')'
       end associate
    end function body_text
 

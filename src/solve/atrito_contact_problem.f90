@@ -118,7 +118,7 @@ contains
       do k = rows%first(j), rows%first(j + 1) - 1
          along = direction_of_entry(rows, j, k, direction)
          do dof = 1, 2
-            has_unknown = has_unknown .or. (along(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) > 0)
+            has_unknown = has_unknown .or. (along(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) /= 0)
          end do
       end do
    end function has_unknown
@@ -308,7 +308,7 @@ contains
          if (fem%bodies%of_node(node) /= i_body) cycle
          along = direction_of_entry(rows, point, k, direction)
          do dof = 1, 2
-            if (fem%bodies%equation(dof, node) == 0 .or. along(dof) == 0.0_wp) cycle
+            if (fem%bodies%equation(dof, node) <= 0 .or. along(dof) == 0.0_wp) cycle
             n = n + 1
             dofs(n) = fem%bodies%equation(dof, node) - (fem%bodies%list(i_body)%n - fem%bodies%list(i_body)%n_retained)
             coefficients(n) = rows%coefficient(k)*along(dof)

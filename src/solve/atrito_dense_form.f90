@@ -136,10 +136,24 @@ contains
          solution = nothing
          status = fine
       end if
-      call solve_contact_line(problem, data%line, controls, data%reporter, solution, status)
+      if (gives_way_nowhere(problem)) then
+         call set_status(status, STATUS_SINGULAR, DEPENDENT_POINTS)
+      else
+         call solve_contact_line(problem, data%line, controls, data%reporter, solution, status)
+      end if
       if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, data%reporter, &
                                                                  solution, status)
    end subroutine solve_line
+   !> Whether a force displaces nothing but a rigid surface: a held node faces one that moves.
+   pure logical function gives_way_nowhere(problem) result(nowhere)
+      type(bound_qp_t), intent(in) :: problem
+      integer(ip) :: i
+
+      nowhere = .false.
+      do i = 1, problem%m
+         nowhere = nowhere .or. problem%c(i, i) <= 0.0_wp
+      end do
+   end function gives_way_nowhere
 
    !> Puts a failure of the contact line into words.
    subroutine explain_failure(data, problem, solution, status)

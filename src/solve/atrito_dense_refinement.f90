@@ -132,6 +132,7 @@ contains
       integer(ip) :: b
 
       do b = 1, size(bodies, kind=ip)
+         if (data%fem%bodies%list(b)%is_rigid) cycle
          call set_load(data%fem, b, now%residual, bodies(b))
          call add_displacements(data%fem, b, bodies(b), data%rows, data%line, problem)
       end do

@@ -256,6 +256,10 @@ contains
       first_dof = 0
       do b = 1, size(bodies, kind=ip)
          associate (nodes => fem%bodies%list(bodies(b))%nodes)
+            if (fem%bodies%list(bodies(b))%is_rigid) then
+               call count_rigid_supports(fem, bodies(b), n, first, first_dof)
+               cycle
+            end if
             do i = 1, size(nodes, kind=ip)
                do dof = 1, 2
                   if (.not. held(dof, nodes(i))) cycle
@@ -270,11 +274,29 @@ contains
       if (n == 0) then
          text = trim(merge('it has no support   ', 'they have no support', size(bodies) == 1))
       else
-         text = trim(merge('its supports (node  ', 'their supports (node', size(bodies) == 1))//' '//to_text(first)//' along x' &
-                //to_text(first_dof)
+         text = trim(merge('its supports (node  ', 'their supports (node', size(bodies) == 1))//' '//to_text(first)//' ' &
+                //trim(merge('against rotation', 'along x'//to_text(first_dof)//repeat(' ', 8), first_dof == 3))
          if (n > 1) text = text//' and '//to_text(n - 1)//' more'
          text = text//') do not prevent that'
       end if
    end function support_text
+
+   !> What of u1, u2 and the rotation of a rigid body is prescribed: the rows in which its modes have nothing.
+   pure subroutine count_rigid_supports(fem, b, n, first, first_dof)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b
+      integer(ip), intent(inout) :: n, first, first_dof !< supports; the user's number of the first node, and its dof
+      integer(ip) :: dof
+
+      associate (body => fem%bodies%list(b))
+         do dof = 1, size(body%modes, 1, kind=ip)
+            if (any(abs(body%modes(dof, :)) > 0.0_wp)) cycle
+            n = n + 1
+            if (first > 0) cycle
+            first = fem%mesh%node_id(body%nodes(1))
+            first_dof = dof
+         end do
+      end associate
+   end subroutine count_rigid_supports
 
 end module atrito_free_motion

@@ -15,7 +15,10 @@ module atrito_history
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_state, only: restart_state_t
    use atrito_results, only: ending_t, extreme_t, history_t, results_t, scene_t
-   use atrito_scene_builder, only: list_prescribed
+   use atrito_rigid_bodies, only: hold_the_same
+   use atrito_rigid_results, only: leave_mesh_alone
+   use atrito_rigid_steps, only: begin_motions_from, released_forces
+   use atrito_scene_builder, only: list_held
    use atrito_scene_data, only: check_known_points, scene_data_t, set_time
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
@@ -136,6 +139,7 @@ contains
       associate (state => run%recorder%state)
          run%step = model%steps(state%step)
          if (allocated(state%from)) run%step%prescribed%from = state%from
+         if (allocated(state%from_of_motions)) run%step%rigid_prescribed%from = state%from_of_motions
          as_before = run%options
          as_before%contact_form = int(state%contact_form)   ! its choice depends on the memory of the machine
          call begin_scene(model, as_before, store, .false., run%data, run%scene, status, run%step)
@@ -182,7 +186,10 @@ contains
       state%grain = run%data%fem%grain
       state%contact_form = int(run%data%contact_form, ip)
       state%contact_reason = run%data%reason
-      if (associated(run%data%step, run%step)) state%from = run%step%prescribed%from
+      if (associated(run%data%step, run%step)) then
+         state%from = run%step%prescribed%from
+         if (allocated(run%step%rigid_prescribed%from)) state%from_of_motions = run%step%rigid_prescribed%from
+      end if
       if (allocated(run%data%released)) state%released = run%data%released
       call put_memory(run%memory, state)
       state%last = run%last
@@ -243,8 +250,9 @@ contains
          call begin_memory(model, run%data%points%n, run%memory)
          call note_method(run%data)
       else
-         call list_prescribed(model%steps(k)%prescribed, model%mesh%n_nodes, held, value)
-         if (all(held .eqv. run%data%held) .and. .not. changes_form(model, k)) then
+         call list_held(model, model%steps(k), held, value)
+         if (all(held .eqv. run%data%held) .and. .not. changes_form(model, k) &
+             .and. hold_the_same(model, run%data%rigid_prescribed, model%steps(k)%rigid_prescribed)) then
             run%data%step => model%steps(k)
             if (allocated(run%data%released)) deallocate (run%data%released)
             if (allocated(run%data%bases)) deallocate (run%data%bases)
@@ -254,7 +262,8 @@ contains
          before = run%data%held
          run%step = model%steps(k)
          call begin_from(before, run%last%u, run%step)
-         released = merge(run%last%reaction, 0.0_wp, before .and. .not. held)
+         call begin_motions_from(model, run%data%rigid_prescribed, run%last%rigid, run%step%rigid_prescribed)
+         released = released_forces(run%data, run%last, held, model%steps(k)%rigid_prescribed)
          call begin_scene(model, run%options, store, .false., run%data, run%scene, status, run%step)
          if (.not. is_ok(status)) return
          call move_alloc(released, run%data%released)
@@ -437,6 +446,7 @@ contains
       if (run%last%step /= k) return                 ! the end of a step is a frame
       call set_time(run%data, moment_t(run%last%step_time, run%last%time))
       call complete_results(run%data, run%last)
+      call leave_mesh_alone(run%data, run%last)
       run%last%ends_step = .true.
       call add_frame(run%last, run%n_frames, history%frames)
    end subroutine end_early

@@ -20,6 +20,7 @@ module atrito_increment
    use atrito_recovery, only: contact_forces, add_rigid_motions, recover_contact, recover_stress, estimate_error
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t, scene_t, pair_scene_t
+   use atrito_rigid_results, only: take_rigid_results
    use atrito_row_forces, only: share_out_rows, clear_balance
    use atrito_scene_data, only: scene_data_t
    use atrito_sparse_form, only: solve_sparse_form
@@ -141,6 +142,7 @@ contains
                      growth_of_bodies(data, results%scene))
       call judge_failed_check(data, results, status)
       call stop_phase('check')
+      call take_rigid_results(data, solution, results)
    end subroutine solve_one_form
 
    !> By how much round-off grows in the displacements of each body, as far as its factorisation tells.

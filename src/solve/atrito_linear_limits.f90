@@ -100,7 +100,8 @@ contains
       do j = 1, contact%n
          if (.not. contact%pressure(j) > 0.0_wp .or. abs(contact%slip(j)) <= largest%value) cycle
          if (abs(contact%slip(j)) <= min(bound, master_length(model%points(i), j, longest))) cycle
-         largest = extreme_t(abs(contact%slip(j)), model%mesh%node_id(model%points(i)%node(j)), contact%x(:, j))
+         largest = extreme_t(abs(contact%slip(j)), model%mesh%node_id(model%points(i)%node(j)), contact%x(:, j), &
+                             is_node=.true.)
       end do
    end subroutine find_large_slip
 
@@ -146,25 +147,24 @@ contains
       type(results_t), intent(in) :: results
 
       if (results%large_strain%value > 0.0_wp) call add_warning('W-LARGE', 'the largest strain is '// &
-               value_text(results%large_strain, 'element')//': above '//to_text(LARGE_STRAIN)//' lengths and areas change so much' &
+               value_text(results%large_strain)//': above '//to_text(LARGE_STRAIN)//' lengths and areas change so much' &
                         //' that the linear theory, which takes them as they are without loads, does not know the true equilibrium')
       if (results%large_rotation%value > 0.0_wp) call add_warning('W-LARGE', 'the largest rotation is '// &
-            value_text(results%large_rotation, 'element')//': above '//to_text(LARGE_ROTATION)//' rad the linear theory, in which' &
+            value_text(results%large_rotation)//': above '//to_text(LARGE_ROTATION)//' rad the linear theory, in which' &
                                //' forces and normals keep their directions and a rotation makes strains, does not know the motion')
       if (results%large_slip%value > 0.0_wp) call add_warning('W-LARGE', 'the largest slip of a closed point is '// &
-                                 value_text(results%large_slip, 'node')//': beyond a face of the master, or '//to_text(LARGE_SLIP) &
+                                 value_text(results%large_slip)//': beyond a face of the master, or '//to_text(LARGE_SLIP) &
                         //' of the slave''s body, the linear theory, in which a point faces what it faced without loads, does not' &
                                                               //' know what it has come to')
    end subroutine warn_of_large
 
    !> `0.12 at element 7 (1.5, 0)`
-   pure function value_text(extreme, what) result(text)
+   pure function value_text(extreme) result(text)
       type(extreme_t), intent(in) :: extreme
-      character(len=*), intent(in) :: what               !< element or node
       character(len=:), allocatable :: text
 
-      text = to_text(extreme%value, 3)//' at '//what//' '//to_text(extreme%id)//' ('//to_text(extreme%x(1), 5)//', '// &
-             to_text(extreme%x(2), 5)//')'
+      text = to_text(extreme%value, 3)//trim(merge(' at node   ', ' at element', extreme%is_node))//' '//to_text(extreme%id) &
+             //' ('//to_text(extreme%x(1), 5)//', '//to_text(extreme%x(2), 5)//')'
    end function value_text
 
 end module atrito_linear_limits

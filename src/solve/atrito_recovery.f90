@@ -77,6 +77,7 @@ contains
       real(wp), allocatable :: x(:, :)
       integer(ip) :: i, dof, k, first
 
+      if (fem%bodies%list(i_body)%is_rigid) return
       associate (body => fem%bodies%list(i_body))
          first = body%n - body%n_retained
          x = condensed%load(first + 1:, :)
@@ -130,7 +131,7 @@ contains
       integer(ip) :: dof
 
       do dof = 1, 2
-         if (fem%bodies%equation(dof, node) > 0) u(dof) = u(dof) + mode_at(body, mode, fem%mesh%x(:, node), dof)
+         if (fem%bodies%equation(dof, node) /= 0) u(dof) = u(dof) + mode_at(body, mode, fem%mesh%x(:, node), dof)
       end do
    end subroutine move_node
 

@@ -82,7 +82,7 @@ contains
          node = rows%node(k)
          vector = direction_of_entry(rows, line%point(i), k, direction)
          do dof = 1, 2
-            if (vector(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) == 0) cycle
+            if (vector(dof) == 0.0_wp .or. fem%bodies%equation(dof, node) <= 0) cycle
             n = n + 1
             column(n) = before(fem%bodies%of_node(node)) + fem%bodies%equation(dof, node)
             value(n) = rows%coefficient(k)*vector(dof)

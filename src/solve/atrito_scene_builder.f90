@@ -11,10 +11,11 @@ module atrito_scene_builder
    use atrito_pairing, only: pair_all
    use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
+   use atrito_rigid_bodies, only: append_rigid_bodies, attach_points, has_moving_surfaces, hold_carriers
    use atrito_solver_choice, only: needs_profile
    implicit none (type, external)
    private
-   public :: build_scene, build_bodies, list_prescribed
+   public :: build_scene, build_bodies, list_held
 
 contains
 
@@ -29,6 +30,7 @@ contains
       integer(ip) :: i
 
       fem%mesh => model%mesh
+      if (has_moving_surfaces(model)) fem%mesh => model%solver_mesh
       fem%grain = grain_of(model%mesh%x(:, :model%mesh%n_nodes))
       fem%section_of = model%section_of
       allocate (fem%sections(size(model%sections)))
@@ -39,12 +41,13 @@ contains
          end associate
       end do
       if (allocated(step%heating)) fem%heating = step%heating
-      call list_prescribed(step%prescribed, model%mesh%n_nodes, held, value)
+      call list_held(model, step, held, value)
       if (allocated(model%points)) then
          points = model%points
       else
          call pair_all(model, points)     ! no deck was checked
       end if
+      if (has_moving_surfaces(model)) call attach_points(model, points)
    end subroutine build_scene
 
    !> Bodies, equations (contact nodes last) and rigid motions.
@@ -66,6 +69,7 @@ contains
                                                                            model%bilateral%n > 0), needs_profile(asked, n_free))
          call find_rigid_modes(fem%mesh, fem%bodies%list(i), held)
       end do
+      if (has_moving_surfaces(model)) call append_rigid_bodies(model, points, fem%bodies)
    end subroutine build_bodies
 
    !> A body that hangs on one node alone could turn about it while the others are eliminated: the one farthest from it stays, too.
@@ -82,6 +86,21 @@ contains
          kept = [nodes, own(maxloc([(norm2(x(:, own(i)) - x(:, nodes(1))), i=1, size(own, kind=ip))], dim=1))]
       end associate
    end function enough_nodes
+
+   !> Prescribed dofs and their displacements, those of the nodes that carry motions of rigid surfaces, too.
+   pure subroutine list_held(model, step, held, value)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: step
+      logical, allocatable, intent(out) :: held(:, :)          !< (2, nodes of the solver's mesh)
+      real(wp), allocatable, intent(out) :: value(:, :)        !< [L]
+
+      if (has_moving_surfaces(model)) then
+         call list_prescribed(step%prescribed, model%solver_mesh%n_nodes, held, value)
+         call hold_carriers(model, step%rigid_prescribed, held, value)
+      else
+         call list_prescribed(step%prescribed, model%mesh%n_nodes, held, value)
+      end if
+   end subroutine list_held
 
    !> Prescribed dofs and their displacements.
    pure subroutine list_prescribed(prescribed, n_nodes, held, value)

@@ -13,11 +13,12 @@ module atrito_scene_data
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
-   use atrito_model, only: model_t, step_t, METHOD_ANDERSON
+   use atrito_model, only: model_t, nodal_values_t, step_t, METHOD_ANDERSON
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t
-   use atrito_scene_builder, only: build_scene, build_bodies, list_prescribed
+   use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
+   use atrito_scene_builder, only: build_scene, build_bodies, list_held
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
@@ -35,6 +36,7 @@ module atrito_scene_data
       type(fem_t) :: fem
       logical, allocatable :: held(:, :)                    !< (2, n_nodes)
       real(wp), allocatable :: value(:, :)                  !< (2, n_nodes) prescribed displacements [L]
+      type(nodal_values_t) :: rigid_prescribed              !< of reference nodes, at the same time as value
       type(contact_points_t), allocatable :: points(:)
       type(contact_rows_t) :: rows
       type(contact_line_t) :: line
@@ -80,12 +82,14 @@ contains
       data%step => model%steps(1)
       if (present(step)) data%step => step
       call build_scene(model, data%step, data%fem, data%held, data%value, data%points)
+      data%rigid_prescribed = data%step%rigid_prescribed
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
+      if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
       call build_rows(data%points, data%rows, model%bilateral)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
@@ -109,6 +113,7 @@ contains
       type(step_t), intent(in) :: acting                    !< with the values of a time
 
       call nodal_loads(data%model, acting, data%f)
+      if (has_moving_surfaces(data%model)) call add_rigid_loads(data%model, acting%rigid_loads, data%f)
       if (allocated(data%thermal)) deallocate (data%thermal)
       if (.not. allocated(data%fem%heating)) return
       allocate (data%thermal, mold=data%f)
@@ -125,7 +130,8 @@ contains
 
       share = share_at(data%step, moment)
       call act_at(data%model, data%step, moment, now)
-      call list_prescribed(now%prescribed, data%model%mesh%n_nodes, data%held, data%value)
+      call list_held(data%model, now, data%held, data%value)
+      data%rigid_prescribed = now%rigid_prescribed
       call move_alloc(now%heating, data%fem%heating)        ! which only some steps have
       call take_forces(data, now)
       if (allocated(data%released) .and. share < 1.0_wp) data%f = data%f + (1.0_wp - share)*data%released
@@ -171,7 +177,7 @@ contains
    subroutine choose_form(asked, data)
       type(asked_t), intent(in) :: asked
       type(scene_data_t), intent(inout) :: data
-      logical :: seen(data%model%mesh%n_nodes)
+      logical :: seen(data%fem%mesh%n_nodes)
       integer(ip) :: i, n, n_points
 
       n = data%model%bilateral%n

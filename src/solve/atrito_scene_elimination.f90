@@ -17,7 +17,8 @@ module atrito_scene_elimination
       integer(ip), allocatable :: before(:)      !< (bodies) unknowns of the bodies before
       integer(ip), allocatable :: first_motion(:) !< (bodies) unknown of the first motion
       integer(ip), allocatable :: n_motions(:)   !< (bodies)
-      integer(ip), allocatable :: spring(:)      !< (k) displacement at which a motion is held, so that u_e has no part in it
+      integer(ip), allocatable :: spring(:)      !< (k) displacement at which a motion is held, so that u_e has no part in it;
+      !< 0: of a rigid body, which has no u_e
       integer(ip), allocatable :: body(:)        !< (n)
    end type scene_numbering_t
 
@@ -68,6 +69,8 @@ contains
       real(wp) :: direction(size(spring))
       integer(ip) :: i, dof, m, at
 
+      spring = 0
+      if (body%is_rigid) return
       allocate (z(size(spring), body%n))
       do i = 1, size(body%nodes, kind=ip)
          do dof = 1, 2
@@ -131,6 +134,9 @@ contains
       n_elements = fem%mesh%n_elements
       n_points = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
       crowded = find_crowded(fem%mesh%n_nodes, rows)
+      do b = fem%bodies%n - fem%bodies%n_rigid + 1, fem%bodies%n ! a rigid body is everywhere, too
+         crowded(fem%bodies%list(b)%nodes) = .true.
+      end do
       most = max(CORNERS, rows%longest) + rows%longest
       if (any(crowded)) most = most + CORNERS
       most = max(most, size(fem%mesh%nodes, 1, kind=ip))
@@ -150,8 +156,12 @@ contains
          if (seen(b) .or. numbering%n_motions(b) == 0) cycle
          e = e + 1
          n_nodes_of(e) = CORNERS + 1
-         j = fem%bodies%list(b)%elements(1)
-         nodes(:CORNERS, e) = fem%mesh%nodes([1_ip, 2_ip, 3_ip, side_count(fem%mesh, j)], j)
+         if (fem%bodies%list(b)%is_rigid) then
+            nodes(:CORNERS, e) = fem%bodies%list(b)%nodes([1, 2, 3, 3])
+         else
+            j = fem%bodies%list(b)%elements(1)
+            nodes(:CORNERS, e) = fem%mesh%nodes([1_ip, 2_ip, 3_ip, side_count(fem%mesh, j)], j)
+         end if
          nodes(CORNERS + 1, e) = fem%mesh%n_nodes + b
       end do
       nodes = nodes(:, :e)
@@ -275,7 +285,7 @@ contains
          b = fem%bodies%of_node(nodes(i))
          do dof = 1, 2
             equation = fem%bodies%equation(dof, nodes(i))
-            if (equation == 0) cycle
+            if (equation <= 0) cycle
             n = n + 1
             place(numbering%before(b) + equation) = n
          end do

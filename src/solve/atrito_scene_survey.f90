@@ -71,7 +71,11 @@ contains
          result%n_contact_equations = body%n_retained
          result%n_free_motions = size(body%modes, 2, kind=ip)
       end associate
-      if (data%contact_form == CONTACT_SPARSE) then
+      if (data%fem%bodies%list(b)%is_rigid) then
+         result%n_nodes = 1                                ! its reference node
+         result%solver = 'none'
+         result%reason = 'rigid'
+      else if (data%contact_form == CONTACT_SPARSE) then
          result%solver = 'scene'
       else
          call body_profile(data%fem, b, profile)

@@ -91,7 +91,7 @@ contains
             b = bodies%of_node(node)
             if (b == 0) cycle
             do dof = 1, 2
-               if (bodies%equation(dof, node) == 0) cycle
+               if (bodies%equation(dof, node) <= 0) cycle
                if (data%assembled%numbering%before(b) + bodies%equation(dof, node) /= failed) cycle
                call set_status(status, STATUS_SINGULAR, 'body '//bodies%list(b)%name//': '//status%text//', node ' &
                                //to_text(data%fem%mesh%node_id(node))//' dof '//to_text(dof) &

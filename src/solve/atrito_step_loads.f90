@@ -29,7 +29,8 @@ contains
 
       is_end = (moment%step_time >= step%increments%period .or. step%at_once) &
                .and. .not. (follows(step%prescribed%amplitude) .or. follows(step%node_loads%amplitude) &
-                            .or. follows(step%element_loads%amplitude))
+                            .or. follows(step%element_loads%amplitude) &
+                            .or. follows(step%rigid_prescribed%amplitude) .or. follows(step%rigid_loads%amplitude))
    end function is_end
 
    pure logical function follows(amplitude)
@@ -59,6 +60,8 @@ contains
       share = share_at(step, moment)
       call values_at(model, step%prescribed, moment, share, now%prescribed)
       call values_at(model, step%node_loads, moment, share, now%node_loads)
+      call values_at(model, step%rigid_prescribed, moment, share, now%rigid_prescribed)
+      call values_at(model, step%rigid_loads, moment, share, now%rigid_loads)
       call element_loads_at(model, step%element_loads, moment, share, now%element_loads)
       if (.not. allocated(step%heating)) return
       now%heating = step%heating

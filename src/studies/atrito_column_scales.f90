@@ -13,6 +13,7 @@ module atrito_column_scales
                                                                                     ' loads_moment supports_moment contact_moment ']
    character(len=36), parameter :: FAMILIES_OF_HISTORY(2) = [character(len=36) :: ' normal_resultant shear_resultant ', &
                                                                                                           ' contact_length centre ']
+   character(len=7), parameter :: FAMILIES_OF_RIGID(2) = [' u1 u2 ', ' r1 r2 ']
    character(len=20), parameter :: FAMILIES_OF_JOINTS(3) = [character(len=20) :: ' n t ', ' x y ', ' opening sliding ']
 
    real(wp), parameter :: MOST_GROUPS = 100000.0_wp  !< pairs and steps that even a table of few rows can have
@@ -29,6 +30,7 @@ contains
       if (find_column(table, 'outer') > 0 .and. find_column(table, 'inner') > 0) kind = 'iterations'
       if (find_column(table, 'phase') > 0 .and. find_column(table, 'wall') > 0) kind = 'timing'
       if (find_column(table, 'rotation') > 0 .and. find_column(table, 'loads_moment') > 0) kind = 'bodies'
+      if (find_column(table, 'ur') > 0 .and. find_column(table, 'moment') > 0) kind = 'rigid'
       if (find_column(table, 'body_1') > 0 .and. find_column(table, 'opening') > 0) kind = 'joints'
       if (find_column(table, 'dissipation') > 0 .and. find_column(table, 'elastic_energy') > 0) kind = 'history'
    end function kind_of
@@ -43,6 +45,8 @@ contains
       select case (kind_of(table))
       case ('bodies')
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_BODIES, i), i=1, table%n_columns)])
+      case ('rigid')
+         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_RIGID, i), i=1, table%n_columns)])
       case ('joints')
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_JOINTS, i), i=1, table%n_columns)])
       case ('history')

@@ -1,0 +1,155 @@
+!> *RIGID BODY: rigid surfaces, and those that move with a reference node.
+module atrito_build_rigid_bodies
+   use atrito_build_context, only: build_context_t
+   use atrito_deck, only: card_t, token_t, keyword_name
+   use atrito_diagnostics, only: report_error
+   use atrito_items, only: option_text
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t, rigid_body_t, surface_t, SURFACE_SEGMENTS
+   use atrito_name_list, only: find_name
+   use atrito_references, only: find_nodes, report_unknown
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: build_rigid_bodies, is_reference, make_solver_mesh, ROTATION_DOF, CARRIERS
+
+   integer(ip), parameter :: ROTATION_DOF = 6_ip
+   !> Nodes whose displacements give those of any place of a rigid body: itself, and one along each axis.
+   integer(ip), parameter :: CARRIERS = 3_ip
+
+contains
+
+   !> All *RIGID BODY cards; surfaces are there, and which nodes have elements.
+   subroutine build_rigid_bodies(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      allocate (context%model%rigid_bodies(0))
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'RIGID BODY') call read_card(context%deck%cards(i), context)
+      end do
+   end subroutine build_rigid_bodies
+
+   subroutine read_card(card, context)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(inout) :: context
+      type(token_t) :: place
+      character(len=:), allocatable :: name
+      integer(ip) :: i
+      logical :: found
+
+      call option_text(context%deck, card, 'ANALYTICAL SURFACE', name, found, place)
+      if (.not. found) return
+      i = find_name(context%surface_names, name)
+      if (i == 0) then
+         call report_unknown(context, place, 'surface', 'E-SURFACE', context%surface_names, 'RIGID BODY')
+      else if (context%model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
+         call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
+                           expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
+      else
+         context%model%surfaces(i)%is_rigid_body = .true.
+         call read_reference(card, i, context)
+         return
+      end if
+      context%rigid_undetermined = .true.
+   end subroutine read_card
+
+   !> REF NODE=: one node of no element, of one surface alone.
+   subroutine read_reference(card, surface, context)
+      type(card_t), intent(in) :: card
+      integer(ip), intent(in) :: surface
+      type(build_context_t), intent(inout) :: context
+      type(token_t) :: place
+      character(len=:), allocatable :: name, wrong
+      integer(ip), allocatable :: nodes(:)
+      logical :: ok
+
+      call option_text(context%deck, card, 'REF NODE', name, ok, place)
+      if (.not. ok .or. .not. card%ok) return
+      call find_nodes(context, place, nodes, ok, 'RIGID BODY')
+      if (.not. ok) return
+      if (size(nodes) /= 1) then
+         wrong = 'set '//name//' has '//to_text(size(nodes, kind=ip))//' nodes'
+      else
+         wrong = what_is_wrong(context, surface, nodes(1))
+      end if
+      if (len(wrong) > 0) then
+         call report_error(context%deck, place, 'E-NODE', wrong, &
+                           expected='a node of no element that is the reference of this surface alone', keyword='RIGID BODY')
+      else
+         context%model%rigid_bodies = [context%model%rigid_bodies, &
+                                       rigid_body_t(surface, nodes(1), &
+                                                    reach_of(context%model%surfaces(surface), context%model%mesh%x(:, nodes(1))))]
+      end if
+   end subroutine read_reference
+
+   !> Why a node cannot be the reference of a surface; '' where it can.
+   function what_is_wrong(context, surface, node) result(wrong)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: surface, node
+      character(len=:), allocatable :: wrong
+
+      wrong = ''
+      associate (id => 'node '//to_text(context%model%mesh%node_id(node)), others => context%model%rigid_bodies)
+         if (context%around%first(node + 1) > context%around%first(node)) then
+            wrong = id//' belongs to an element'
+         else if (any(others%node == node)) then
+            wrong = id//' is the reference node of surface ' &
+                    //context%model%surfaces(others(findloc(others%node, node, dim=1))%surface)%name
+         else if (any(others%surface == surface)) then
+            wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
+                    //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
+         end if
+      end associate
+   end function what_is_wrong
+
+   !> Largest distance of a surface from a place: by this the nodes that carry its motion stand apart.
+   pure real(wp) function reach_of(surface, x) result(reach)
+      type(surface_t), intent(in) :: surface
+      real(wp), intent(in) :: x(2)
+      integer(ip) :: i
+
+      reach = 0.0_wp
+      do i = 1, size(surface%points, 2, kind=ip)
+         reach = max(reach, norm2(surface%points(:, i) - x))
+      end do
+   end function reach_of
+
+   !> Which nodes are reference nodes.
+   pure elemental logical function is_reference(context, node)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node
+
+      is_reference = .false.
+      if (allocated(context%model%rigid_bodies)) is_reference = any(context%model%rigid_bodies%node == node)
+   end function is_reference
+
+   !> The mesh with three more nodes for each rigid surface that moves, of which the displacement of any place of it is the sum by
+   !> its barycentric coordinates: so a contact point sees a rigid master as it sees a face of elements.
+   pure subroutine make_solver_mesh(model)
+      type(model_t), intent(inout) :: model
+      real(wp), allocatable :: x(:, :)
+      integer(ip), allocatable :: id(:)
+      integer(ip) :: i, first, n
+
+      n = size(model%rigid_bodies, kind=ip)
+      if (n == 0) return
+      allocate (x(2, model%mesh%n_nodes + CARRIERS*n), id(model%mesh%n_nodes + CARRIERS*n))
+      x(:, :model%mesh%n_nodes) = model%mesh%x(:, :model%mesh%n_nodes)
+      id(:model%mesh%n_nodes) = model%mesh%node_id(:model%mesh%n_nodes)
+      do i = 1, n
+         first = model%mesh%n_nodes + CARRIERS*(i - 1) + 1
+         associate (body => model%rigid_bodies(i))
+            x(:, first:first + CARRIERS - 1) = spread(x(:, body%node), 2, CARRIERS)
+            x(1, first + 1) = x(1, first + 1) + body%size
+            x(2, first + 2) = x(2, first + 2) + body%size
+            id(first:first + CARRIERS - 1) = id(body%node)
+         end associate
+      end do
+      model%solver_mesh = model%mesh
+      model%solver_mesh%n_nodes = size(id, kind=ip)
+      call move_alloc(x, model%solver_mesh%x)
+      call move_alloc(id, model%solver_mesh%node_id)
+   end subroutine make_solver_mesh
+
+end module atrito_build_rigid_bodies

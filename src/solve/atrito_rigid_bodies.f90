@@ -1,0 +1,235 @@
+!> Rigid surfaces that move, as bodies of a scene: without elements and equations, with up to three motions about their reference
+!> node.
+!>
+!> Three nodes carry the motion of such a body (model%solver_mesh). With its barycentric coordinates in their triangle a place x
+!> moves by u(x) = sum N_i(x) u_i, exactly so for a rigid motion, so a contact point that faces the body has these nodes among its
+!> entries like those of a face of elements: what is prescribed comes in with their values, what is free with the motions.
+module atrito_rigid_bodies
+   use atrito_bodies, only: bodies_t, body_t, mode_at, MOVES_RIGIDLY
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_model, only: model_t, rigid_body_t, nodal_values_t
+   use atrito_plane_state, only: STATES
+   use atrito_points, only: contact_points_t
+   implicit none (type, external)
+   private
+   public :: attach_points, hold_carriers, append_rigid_bodies, set_rigid_motions, add_rigid_loads, carriers_of, &
+             prescribed_motion, hold_the_same, has_moving_surfaces, DOF_OF_MOTION
+
+   integer(ip), parameter :: CARRIERS = 3_ip, MOTIONS = 3_ip
+   integer(ip), parameter :: DOF_OF_MOTION(MOTIONS) = [1_ip, 2_ip, 6_ip]
+
+contains
+
+   pure logical function has_moving_surfaces(model)
+      type(model_t), intent(in) :: model
+
+      has_moving_surfaces = allocated(model%solver_mesh)
+   end function has_moving_surfaces
+
+   !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.
+   pure function carriers_of(model, i) result(nodes)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< of the rigid bodies
+      integer(ip) :: nodes(CARRIERS)
+
+      nodes = model%mesh%n_nodes + CARRIERS*(i - 1) + [1_ip, 2_ip, 3_ip]
+   end function carriers_of
+
+   !> Adds to the points of each pair whose master moves what that moves by where they meet it. In a rotation the places along a
+   !> normal move alike along it, so it does not matter which of them is taken for the gap.
+   pure subroutine attach_points(model, points)
+      type(model_t), intent(in) :: model
+      type(contact_points_t), intent(inout) :: points(:)   !< one a pair
+      integer(ip) :: i, body
+
+      do i = 1, size(points, kind=ip)
+         if (.not. points(i)%rigid) cycle
+         body = findloc(model%rigid_bodies%surface, model%pairs(i)%master, dim=1, kind=ip)
+         if (body > 0) call attach_to(model%rigid_bodies(body), model%mesh%x(:, model%rigid_bodies(body)%node), &
+                                      carriers_of(model, body), points(i))
+      end do
+   end subroutine attach_points
+
+   pure subroutine attach_to(body, reference, nodes, points)
+      type(rigid_body_t), intent(in) :: body
+      real(wp), intent(in) :: reference(2)             !< [L]
+      integer(ip), intent(in) :: nodes(CARRIERS)
+      type(contact_points_t), intent(inout) :: points
+      integer(ip) :: first(points%n + 1), entry(size(points%entry) + CARRIERS*points%n), j, n
+      real(wp) :: coefficient(size(entry)), arm(2), whole
+
+      first(1) = 1
+      do j = 1, points%n
+         associate (from => points%first(j), to => points%first(j + 1) - 1)
+            n = first(j) + to - from
+            entry(first(j):n) = points%entry(from:to)
+            coefficient(first(j):n) = points%coefficient(from:to)
+            whole = sum(points%coefficient(from:to))
+         end associate
+         arm = (points%x(:, j) + points%gap(j)*points%normal(:, j) - reference)/body%size
+         entry(n + 1:n + CARRIERS) = nodes
+         coefficient(n + 1:n + CARRIERS) = -whole*[1 - arm(1) - arm(2), arm(1), arm(2)]
+         first(j + 1) = n + CARRIERS + 1
+      end do
+      points%first = first
+      points%entry = entry
+      points%coefficient = coefficient
+   end subroutine attach_to
+
+   !> The nodes of moving surfaces have no free displacements, and those of what is prescribed. The reference nodes have theirs.
+   pure subroutine hold_carriers(model, prescribed, held, value)
+      type(model_t), intent(in) :: model
+      type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
+      logical, intent(inout) :: held(:, :)             !< (2, nodes of the solver's mesh)
+      real(wp), intent(inout) :: value(:, :)           !< (2, nodes of the solver's mesh) [L]
+      logical :: is_prescribed(MOTIONS)
+      real(wp) :: motion(MOTIONS), arm(2)
+      integer(ip) :: i, k, nodes(CARRIERS)
+
+      do i = 1, size(model%rigid_bodies, kind=ip)
+         nodes = carriers_of(model, i)
+         call prescribed_motion(model, prescribed, i, is_prescribed, motion)
+         held(:, nodes) = .true.
+         held(:, model%rigid_bodies(i)%node) = is_prescribed(:2)
+         do k = 1, CARRIERS
+            arm = model%solver_mesh%x(:, nodes(k)) - model%solver_mesh%x(:, nodes(1))
+            value(:, nodes(k)) = motion(:2) + motion(3)*[-arm(2), arm(1)]
+         end do
+      end do
+   end subroutine hold_carriers
+
+   !> Which of u1, u2 and the rotation of a rigid body are prescribed, and their values: 0 for those that are free.
+   pure subroutine prescribed_motion(model, prescribed, i, is_prescribed, motion)
+      type(model_t), intent(in) :: model
+      type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
+      integer(ip), intent(in) :: i                     !< of the rigid bodies
+      logical, intent(out) :: is_prescribed(MOTIONS)
+      real(wp), intent(out) :: motion(MOTIONS)         !< [L], rotation [-]
+      integer(ip) :: k, m
+
+      is_prescribed = .not. STATES(model%mesh%state(1))%moves ! what would strain the bodies of the scene is held
+      motion = 0.0_wp
+      do k = 1, prescribed%n
+         if (prescribed%node(k) /= model%rigid_bodies(i)%node) cycle
+         m = findloc(DOF_OF_MOTION, prescribed%dof(k), dim=1, kind=ip)
+         is_prescribed(m) = .true.
+         motion(m) = prescribed%value(k)
+      end do
+   end subroutine prescribed_motion
+
+   !> Whether two lists leave the same motions free.
+   pure logical function hold_the_same(model, one, other) result(same)
+      type(model_t), intent(in) :: model
+      type(nodal_values_t), intent(in) :: one, other
+      logical :: is_prescribed(MOTIONS), is_in_other(MOTIONS)
+      real(wp) :: motion(MOTIONS)
+      integer(ip) :: i
+
+      same = .true.
+      do i = 1, size(model%rigid_bodies, kind=ip)
+         call prescribed_motion(model, one, i, is_prescribed, motion)
+         call prescribed_motion(model, other, i, is_in_other, motion)
+         same = same .and. all(is_prescribed .eqv. is_in_other)
+      end do
+   end function hold_the_same
+
+   !> The rigid bodies behind those of elements.
+   pure subroutine append_rigid_bodies(model, points, bodies)
+      type(model_t), intent(in) :: model
+      type(contact_points_t), intent(in) :: points(:)
+      type(bodies_t), intent(inout) :: bodies
+      type(body_t), allocatable :: list(:)
+      integer(ip) :: i, k, nodes(CARRIERS)
+
+      bodies%n_rigid = size(model%rigid_bodies, kind=ip)
+      allocate (list(bodies%n + bodies%n_rigid))
+      list(:bodies%n) = bodies%list
+      do i = 1, bodies%n_rigid
+         nodes = carriers_of(model, i)
+         associate (body => list(bodies%n + i))
+            body%name = model%surfaces(model%rigid_bodies(i)%surface)%name
+            body%is_rigid = .true.
+            body%nodes = nodes
+            allocate (body%elements(0), body%modes(MOTIONS, 0))
+            body%centre = model%mesh%x(:, model%rigid_bodies(i)%node)
+            body%size = model%rigid_bodies(i)%size
+            do k = 1, size(points, kind=ip)
+               if (model%pairs(k)%master == model%rigid_bodies(i)%surface .and. points(k)%n > 0) body%is_touched = .true.
+            end do
+         end associate
+         bodies%of_node(nodes) = bodies%n + i
+      end do
+      call move_alloc(list, bodies%list)
+      bodies%n = bodies%n + bodies%n_rigid
+   end subroutine append_rigid_bodies
+
+   !> What is left free of each rigid body: its modes, and where they move the nodes that carry it.
+   pure subroutine set_rigid_motions(model, prescribed, bodies)
+      type(model_t), intent(in) :: model
+      type(nodal_values_t), intent(in) :: prescribed   !< dofs of reference nodes
+      type(bodies_t), intent(inout) :: bodies
+      logical :: is_prescribed(MOTIONS)
+      real(wp) :: motion(MOTIONS)
+      integer(ip) :: i, m, n
+
+      do i = 1, bodies%n_rigid
+         call prescribed_motion(model, prescribed, i, is_prescribed, motion)
+         associate (body => bodies%list(bodies%n - bodies%n_rigid + i))
+            deallocate (body%modes)
+            allocate (body%modes(MOTIONS, count(.not. is_prescribed)), source=0.0_wp)
+            n = 0
+            do m = 1, MOTIONS
+               if (is_prescribed(m)) cycle
+               n = n + 1
+               body%modes(m, n) = 1.0_wp
+            end do
+            call mark_moving(model%solver_mesh, body, bodies%equation)
+         end associate
+      end do
+   end subroutine set_rigid_motions
+
+   pure subroutine mark_moving(mesh, body, equation)
+      type(mesh_t), intent(in) :: mesh
+      type(body_t), intent(in) :: body
+      integer(ip), intent(inout) :: equation(:, :)
+      integer(ip) :: k, dof, m
+
+      do k = 1, size(body%nodes, kind=ip)
+         do dof = 1, 2
+            equation(dof, body%nodes(k)) = 0
+            do m = 1, size(body%modes, 2, kind=ip)
+               if (abs(mode_at(body, body%modes(:, m), mesh%x(:, body%nodes(k)), dof)) > 0.0_wp) then
+                  equation(dof, body%nodes(k)) = MOVES_RIGIDLY
+               end if
+            end do
+         end do
+      end do
+   end subroutine mark_moving
+
+   !> The forces on reference nodes, moments as couples on the nodes that carry the motion.
+   pure subroutine add_rigid_loads(model, loads, f)
+      type(model_t), intent(in) :: model
+      type(nodal_values_t), intent(in) :: loads        !< at dofs of reference nodes
+      real(wp), allocatable, intent(inout) :: f(:, :)  !< (2, n_nodes) of the mesh in, of the solver's mesh out [F]
+      real(wp), allocatable :: all_forces(:, :)
+      integer(ip) :: i, k, nodes(CARRIERS)
+
+      allocate (all_forces(2, model%solver_mesh%n_nodes), source=0.0_wp)
+      all_forces(:, :size(f, 2)) = f
+      do k = 1, loads%n
+         i = findloc(model%rigid_bodies%node, loads%node(k), dim=1, kind=ip)
+         nodes = carriers_of(model, i)
+         associate (dof => loads%dof(k), value => loads%value(k))
+            if (dof <= 2) then
+               all_forces(dof, nodes(1)) = all_forces(dof, nodes(1)) + value
+            else
+               all_forces(2, nodes(1)) = all_forces(2, nodes(1)) - value/model%rigid_bodies(i)%size
+               all_forces(2, nodes(2)) = all_forces(2, nodes(2)) + value/model%rigid_bodies(i)%size
+            end if
+         end associate
+      end do
+      call move_alloc(all_forces, f)
+   end subroutine add_rigid_loads
+
+end module atrito_rigid_bodies

@@ -1,0 +1,121 @@
+!> The motions of rigid surfaces and the reactions at their reference nodes, and results without the nodes that carried them.
+module atrito_rigid_results
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: is_revolved
+   use atrito_linear_limits, only: LARGE_ROTATION
+   use atrito_results, only: extreme_t, results_t, rigid_result_t
+   use atrito_rigid_bodies, only: carriers_of, has_moving_surfaces, prescribed_motion
+   use atrito_scene_data, only: scene_data_t
+   implicit none (type, external)
+   private
+   public :: take_rigid_results, leave_mesh_alone
+
+contains
+
+   !> Fills results%rigid, gives the reference nodes their displacements and reactions, and leaves the nodes of the mesh alone.
+   subroutine take_rigid_results(data, solution, results)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      type(results_t), intent(inout) :: results
+      integer(ip) :: i
+
+      if (.not. has_moving_surfaces(data%model) .or. .not. allocated(results%u)) return
+      if (allocated(results%rigid)) deallocate (results%rigid)
+      allocate (results%rigid(size(data%model%rigid_bodies)))
+      do i = 1, size(results%rigid, kind=ip)
+         call take_body(data, i, solution%state%a, results, results%rigid(i))
+         associate (body => results%rigid(i), node => data%model%rigid_bodies(i)%node)
+            results%u(:, node) = body%u
+            results%reaction(:, node) = body%reaction
+            results%prescribed(:, node) = body%is_prescribed(:2)
+         end associate
+      end do
+      ! nothing but round-off goes to the ground where all rigid surfaces of pairs move
+      if (.not. has_fixed_surfaces(data)) results%balance%rigid = 0.0_wp
+      call leave_mesh_alone(data, results)
+   end subroutine take_rigid_results
+
+   !> The fields without the nodes that carry motions; rotations that are not small are those of rigid surfaces, too.
+   pure subroutine leave_mesh_alone(data, results)
+      type(scene_data_t), intent(in) :: data
+      type(results_t), intent(inout) :: results
+
+      if (.not. has_moving_surfaces(data%model)) return
+      associate (n => data%model%mesh%n_nodes)
+         results%u = results%u(:, :n)
+         results%reaction = results%reaction(:, :n)
+         results%prescribed = results%prescribed(:, :n)
+         if (allocated(results%nodal_stress)) results%nodal_stress = results%nodal_stress(:, :n)
+      end associate
+      if (allocated(results%rigid)) call find_large_rotation(data, results)
+   end subroutine leave_mesh_alone
+
+   !> A rigid surface may rotate more than any element.
+   pure subroutine find_large_rotation(data, results)
+      type(scene_data_t), intent(in) :: data
+      type(results_t), intent(inout) :: results
+      integer(ip) :: i
+
+      do i = 1, size(results%rigid, kind=ip)
+         associate (rotation => abs(results%rigid(i)%rotation))
+            if (rotation <= max(LARGE_ROTATION, results%large_rotation%value)) cycle
+            results%large_rotation = extreme_t(rotation, results%rigid(i)%node, &
+                                               data%model%mesh%x(:, data%model%rigid_bodies(i)%node), is_node=.true.)
+         end associate
+      end do
+   end subroutine find_large_rotation
+
+   !> Whether the master of a pair is a rigid surface that stays where it is.
+   pure logical function has_fixed_surfaces(data) result(has)
+      type(scene_data_t), intent(in) :: data
+      integer(ip) :: i
+
+      has = .false.
+      do i = 1, size(data%points, kind=ip)
+         has = has .or. (data%points(i)%rigid .and. .not. any(data%model%rigid_bodies%surface == data%model%pairs(i)%master))
+      end do
+   end function has_fixed_surfaces
+
+   !> The prescribed motion and the free one; the forces that hold the nodes that carry it, as one force and one moment.
+   subroutine take_body(data, i, a, results, body)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: i                     !< of the rigid bodies
+      real(wp), intent(in) :: a(:)                     !< amplitudes of all motions
+      type(results_t), intent(in) :: results
+      type(rigid_result_t), intent(out) :: body
+      real(wp) :: motion(3), mode(3), arm(2)
+      integer(ip) :: b, k, first, n, nodes(3)
+
+      associate (bodies => data%fem%bodies)
+         b = bodies%n - bodies%n_rigid + i
+         body%name = bodies%list(b)%name
+         body%size = bodies%list(b)%size
+         body%node = data%fem%mesh%node_id(data%model%rigid_bodies(i)%node)
+         call prescribed_motion(data%model, data%rigid_prescribed, i, body%is_prescribed, motion)
+         first = 1
+         do k = 1, b - 1
+            first = first + size(bodies%list(k)%modes, 2, kind=ip)
+         end do
+         n = size(bodies%list(b)%modes, 2, kind=ip)
+         mode = matmul(bodies%list(b)%modes, a(first:first + n - 1))
+      end associate
+      body%u = motion(:2) + mode(:2)
+      body%rotation = motion(3) + mode(3)/body%size
+      nodes = carriers_of(data%model, i)
+      do k = 1, size(nodes, kind=ip)
+         associate (r => results%reaction(:, nodes(k)))
+            arm = data%fem%mesh%x(:, nodes(k)) - data%fem%mesh%x(:, nodes(1))
+            body%reaction = body%reaction + r
+            body%moment = body%moment + (arm(1)*r(2) - arm(2)*r(1))
+         end associate
+      end do
+      if (is_revolved(data%fem%mesh)) then             ! on the full circle these balance in themselves
+         body%reaction(1) = 0.0_wp
+         body%moment = 0.0_wp
+      end if
+      where (.not. body%is_prescribed(:2)) body%reaction = 0.0_wp
+      if (.not. body%is_prescribed(3)) body%moment = 0.0_wp
+   end subroutine take_body
+
+end module atrito_rigid_results
