@@ -58,7 +58,7 @@ contains
                              //model%surfaces(pair%master)%name//' overlap before any load, by '//to_text(largest, 4) &
                              //' [L] at node '//to_text(model%mesh%node_id(points%node(j)))//' (' &
                              //to_text(points%x(1, j), 5)//', '//to_text(points%x(2, j), 5)//'), and contact pushes them apart' &
-         //others, expected= &
+                             //others, expected= &
                              'sides that touch or have a gap; ADJUST closes an overlap, *CLEARANCE with a negative value '// &
                              'means it, *CONTACT INTERFERENCE resolves it over a step', keyword='CONTACT PAIR')
       end associate
