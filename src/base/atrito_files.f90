@@ -53,8 +53,9 @@ contains
       integer(lp) :: length
 
       call judge_file(path, status)
-      if (is_ok(status) .and. c_file_length(path//c_null_char) > LARGEST_FILE) &
+      if (is_ok(status) .and. c_file_length(path//c_null_char) > LARGEST_FILE) then
          call set_status(status, STATUS_FILE, path//': is larger than 2 GB')
+      end if
       if (.not. is_ok(status)) return
       open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=ios, iomsg=reason)
       if (ios /= 0) then

@@ -23,7 +23,7 @@ module atrito_history
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
    use atrito_solution_warnings, only: warn
-   use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static
+   use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static, CONTACT_SPARSE
    use atrito_status, only: is_ok, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form
    use atrito_step_loads, only: moment_t
@@ -131,6 +131,7 @@ contains
       type(progress_t), intent(out) :: now
       type(status_t), intent(out) :: status
       type(solve_options_t) :: as_before
+      integer(ip) :: first
 
       history = run%recorder%found
       run%n_frames = size(history%frames, kind=ip)
@@ -148,7 +149,9 @@ contains
          run%scene%contact_reason = state%contact_reason
          if (.not. allocated(state%from)) run%data%step => model%steps(state%step)
          call begin_memory(model, run%data%points%n, run%memory)
-         call note_method(run%data)
+         ! a form that is asked for serves all steps so far, one that was chosen this one
+         first = merge(1_ip, state%step, run%options%contact_form == CONTACT_SPARSE)
+         call note_method(run%data, model%steps(first:state%step))
          run%data%keeps = .true.
          run%data%asks_for_bases = .true.
          if (allocated(state%released)) run%data%released = state%released
@@ -248,7 +251,7 @@ contains
          call begin_scene(model, run%options, store, .false., run%data, run%scene, status)
          if (.not. is_ok(status)) return
          call begin_memory(model, run%data%points%n, run%memory)
-         call note_method(run%data)
+         call note_method(run%data, model%steps(:1))
       else
          call list_held(model, model%steps(k), held, value)
          if (all(held .eqv. run%data%held) .and. .not. changes_form(model, k) &
@@ -266,6 +269,7 @@ contains
          released = released_forces(run%data, run%last, held, model%steps(k)%rigid_prescribed)
          call begin_scene(model, run%options, store, .false., run%data, run%scene, status, run%step)
          if (.not. is_ok(status)) return
+         if (changes_form(model, k)) call note_method(run%data, model%steps(k:k))
          call move_alloc(released, run%data%released)
          call put_rest(run%memory, run%data%line)
       end if

@@ -77,7 +77,7 @@ contains
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (.not. is_ok(status)) return
       data%reporter = reporter
-      call note_method(data)
+      call note_method(data, model%steps(1:1))
       call solve_increment(data, options%contact_form, store, results, solution, status)
       if (.not. is_ok(status)) return
       ! with the fronts that the bodies have in place of those that were expected
@@ -86,10 +86,12 @@ contains
       call warn(data, solution, results)
    end subroutine solve_static
 
-   subroutine note_method(data)
+   !> Methods that the form of the scene does not have.
+   subroutine note_method(data, steps)
       type(scene_data_t), intent(in) :: data
+      type(step_t), intent(in) :: steps(:)                  !< that the scene serves
 
-      if (data%contact_form /= CONTACT_SPARSE .or. all(data%model%steps%controls%method == METHOD_ANDERSON)) return
+      if (data%contact_form /= CONTACT_SPARSE .or. all(steps%controls%method == METHOD_ANDERSON)) return
       call add_note('N-METHOD', 'METHOD is one of the dense form of the contact system; the sparse one, which was taken, has' &
                     //' its own')
    end subroutine note_method

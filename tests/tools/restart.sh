@@ -195,9 +195,9 @@ expect() {
    [ -z "$text" ] || grep -qF -- "$text" said || { fail "$*: nothing of: $text"; cat said; }
 }
 
-# without_times: a listing without its times and bytes, and the folder of a deck
+# without_times: a listing without its times, bytes and factorisations, which are of the run, and the folder of a deck
 without_times() {
-   sed -e '/^atrito /d; /memory/d; /MiB/d' -e 's#plain/##; /^8  /,/^9  /{/  [0-9]*\.[0-9]\{4\} /d;}' "$1"
+   sed -e '/^atrito /d; /memory/d; /MiB/d; /factorisations/d' -e 's#plain/##; /^8  /,/^9  /{/  [0-9]*\.[0-9]\{4\} /d;}' "$1"
 }
 
 # same A B: all tables but the times, the fields and the listing but its times are equal byte by byte

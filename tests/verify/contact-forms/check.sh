@@ -229,4 +229,13 @@ form_in picard.checked 'dense, the method' || complain 'a method of the dense fo
 near 'exit code of a wrong form' $? 1 0
 says 'a wrong form' wrong.err 'auto, dense or sparse'
 absent wrong
+# a history that changes to a method of the other form, and back
+run 0 "$here/methods.inp" methods --quiet --digits 17
+form_in methods/methods.lst 'sparse, predicted cost' || complain 'the third step: not sparse by its cost'
+sed '/^\*\* then back/,$d' "$here/methods.inp" >two-steps.inp
+run 0 two-steps.inp two-steps --quiet --digits 17
+form_in two-steps/two-steps.lst 'dense, the method' || complain 'the second step: not dense by its method'
+grep -q 'N-METHOD' methods/methods.lst two-steps/two-steps.lst && complain 'a method that was taken is said not to be'
+run 0 two-steps.inp asked --quiet --contact sparse
+[ "$(grep -c 'N-METHOD' asked/two-steps.lst)" -eq 1 ] || complain 'a method that is not taken is not told once'
 finish
