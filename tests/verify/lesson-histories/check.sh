@@ -48,6 +48,25 @@ near 'points that stick, halfway back' "$(at cylinders stick 3 8)" 17 0
 run 0 "$input/lessons/press-and-push.inp" far --set way=0.008 --digits 17 --quiet
 near 'all slides' "$(at far shear_resultant 2 8)" "$(value "-0.3*$normal")" 1e-8
 
+# pressed and pushed at once: with memory all sticks, q = T/N p
+together() { # FOLDER COUNT LENGTH STICK
+   run 0 "$input/lessons/press-and-push.inp" "$1" --set together=0.003 --set piece="$3" --digits 17 --quiet
+   near "$1: points that stick" "$(at "$1" stick 1 "$2")" "$4" 0
+   ratio=$(value "-($(middle "$1" 1 "$2"))/(0.3*$(at "$1" max_pressure 1 "$2"))")
+   told lesson-press-and-push.md "the shear in the middle, $2 increments at once" "$ratio" %.3f
+   whole=$(value "-($(at "$1" shear_resultant 1 "$2"))/(0.3*$normal)")
+   told lesson-press-and-push.md "T/(nu N), $2 increments at once" "$whole" %.3f
+}
+together once 1 1 15
+near 'at once: Cattaneo' "$ratio" "$(value "1 - sqrt(1 - $whole)")" 0.003
+together parts-10 10 0.1 19
+together parts-50 50 0.02 21
+together parts-500 500 0.002 21
+together parts-200 200 0.005 21
+near 'in 200 parts: the shear is T/N of the pressure' "$ratio" "$whole" "$(value "0.01*$whole")"
+near 'in 200 parts: what slips' "$(at parts-200 slip 1 200)" 0 0
+told lesson-press-and-push.md 'the shear force in 200 parts' "$(value "0.3*$normal*$whole")" %.4f
+
 # 2. A block there and back
 run 0 "$input/lessons/block-there-and-back.inp" block --digits 17 --quiet
 for increment in 10 20; do
@@ -61,8 +80,12 @@ told lesson-there-and-back.md 'the dissipation at time 1' "$(at block dissipatio
 told lesson-there-and-back.md 'the dissipation at time 5' "$(at block dissipation 2 100)" %.4f
 told lesson-there-and-back.md 'the dissipation of the loop' "$(value "$(at block dissipation 2 100) - $(at block dissipation 2 20)")" %.4f
 told lesson-there-and-back.md 'the first force' "$(value "-($(at block shear_resultant 2 1))")" %.2f
-run 0 "$input/lessons/block-there-and-back.inp" short --set way=0.004 --digits 17 --quiet
+run 0 "$input/lessons/block-there-and-back.inp" short --set way=0.007 --digits 17 --quiet
+run 0 "$input/lessons/block-there-and-back.inp" shorter --set way=0.004 --digits 17 --quiet
 for increment in 20 60 100; do
    [ "$(at short stick 2 $increment)" -gt 0 ] || complain "a short way: all slides in increment $increment"
+   [ "$(at short slip 2 $increment)" -gt 6 ] || complain "a short way: all sticks in increment $increment"
+   near "a shorter way: what slips in increment $increment" "$(at shorter slip 2 $increment)" 0 0
 done
+near 'a shorter way: dissipation' "$(at shorter dissipation 2 100)" 0 0
 finish
