@@ -20,7 +20,7 @@ module atrito_write_tables
 
    !> Every table that atrito can write.
    character(len=10), parameter :: TABLE_NAMES(14) = [character(len=10) :: 'contact', 'summary', 'history', 'nodes', 'reactions', &
-                                                                      'stress', 'bodies', 'rigid', 'joints', 'ties', 'equations', &
+                                                                       'stress', 'bodies', 'rigid', 'joints', 'ties', 'equations', &
                                                                                                   'springs', 'iterations', 'timing']
 
    !> The comment lines at the top: of one result, or of a history.

@@ -147,13 +147,13 @@ contains
       type(results_t), intent(in) :: results
 
       if (results%large_strain%value > 0.0_wp) call add_warning('W-LARGE', 'the largest strain is '// &
-               value_text(results%large_strain)//': above '//to_text(LARGE_STRAIN)//' lengths and areas change so much' &
+                          value_text(results%large_strain)//': above '//to_text(LARGE_STRAIN)//' lengths and areas change so much' &
                         //' that the linear theory, which takes them as they are without loads, does not know the true equilibrium')
       if (results%large_rotation%value > 0.0_wp) call add_warning('W-LARGE', 'the largest rotation is '// &
-            value_text(results%large_rotation)//': above '//to_text(LARGE_ROTATION)//' rad the linear theory, in which' &
+                       value_text(results%large_rotation)//': above '//to_text(LARGE_ROTATION)//' rad the linear theory, in which' &
                                //' forces and normals keep their directions and a rotation makes strains, does not know the motion')
       if (results%large_slip%value > 0.0_wp) call add_warning('W-LARGE', 'the largest slip of a closed point is '// &
-                                 value_text(results%large_slip)//': beyond a face of the master, or '//to_text(LARGE_SLIP) &
+                                         value_text(results%large_slip)//': beyond a face of the master, or '//to_text(LARGE_SLIP) &
                         //' of the slave''s body, the linear theory, in which a point faces what it faced without loads, does not' &
                                                               //' know what it has come to')
    end subroutine warn_of_large
