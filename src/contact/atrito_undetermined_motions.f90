@@ -25,14 +25,15 @@ module atrito_undetermined_motions
 contains
 
    !> Takes the least motion, unless points would penetrate. undetermined: one of the motions, (k); not allocated when there is
-   !> none.
-   subroutine settle_undetermined_motions(system, bounds, n_normal, multipliers, state, undetermined)
+   !> none. position: where the bodies were before, from where it counts.
+   subroutine settle_undetermined_motions(system, bounds, n_normal, multipliers, state, undetermined, position)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
       integer(ip), intent(in) :: n_normal
       type(multiplier_t), intent(inout) :: multipliers
       type(box_state_t), intent(inout) :: state
       real(wp), allocatable, intent(out) :: undetermined(:)
+      real(wp), intent(in), optional :: position(:) !< (k) [L]; not there: 0
       real(wp), allocatable :: basis(:, :)
       type(multiplier_t) :: least
       type(box_state_t) :: least_state
@@ -42,7 +43,11 @@ contains
       allocate (undetermined, source=simplest(basis(system%n - system%k + 1:, :)))
       least = multipliers
       least_state = state
-      call reduce_motion(system, basis, least%x)
+      associate (amplitudes => least%x(system%n - system%k + 1:))
+         if (present(position)) amplitudes = amplitudes - position
+         call reduce_motion(system, basis, least%x)
+         if (present(position)) amplitudes = amplitudes + position
+      end associate
       call set_forces(system, bounds, least, least_state)
       if (any(least_state%r(:n_normal) > least%noise(:n_normal)*(bounds%d(:n_normal) + least%r*system%flexibility(:n_normal)) &
               .and. state%state(:n_normal) /= FREE)) return

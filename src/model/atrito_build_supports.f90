@@ -74,6 +74,7 @@ contains
             if (entry > context%open%n_fixed) supports%from(entry) = before%from(i)
          end do
       end associate
+      call trim_nodal_values(context%open%supports)
    end subroutine begin_where_it_was
 
    !> OP=NEW leaves those of the model.

@@ -54,12 +54,26 @@ contains
             call solve_condensed(data, controls, store, results, problem, solution, u, status)
          end if
       end if
+      if (allocated(solution%state%a) .and. has_position(data, solution%state%a)) then
+         solution%state%a = solution%state%a + data%last%state%a
+      end if
       if (data%keeps) then
          call move_alloc(problem, data%flexibility)
       else
          call release_bodies(store)
       end if
    end subroutine solve_dense_form
+
+   !> Whether it is known where the bodies were in the increment before: amplitudes count from there, so that a motion that nothing
+   !> determines is none.
+   pure logical function has_position(data, a)
+      type(scene_data_t), intent(in) :: data
+      real(wp), intent(in) :: a(:)                   !< amplitudes of the rigid motions [L]
+
+      has_position = serves_as_start(data%last, CONTACT_DENSE)
+      if (has_position) has_position = allocated(data%last%state%a)
+      if (has_position) has_position = size(data%last%state%a) == size(a)
+   end function has_position
 
    !> Solves with the bodies as they are factored.
    subroutine solve_condensed(data, controls, store, results, problem, solution, u, status)
@@ -81,6 +95,7 @@ contains
          call build_flexibility(data%fem, store%bodies, data%rows, data%line, problem)
       end if
       call set_right_hand_sides(data%fem, store%bodies, data%rows, data%line, data%value, data%f, problem)
+      if (has_position(data, problem%h)) problem%g0 = problem%g0 + matmul(problem%g, data%last%state%a)
       problem%is_coarse = controls%is_coarse
       call solve_line(data, controls, problem, solution, status)
       if (is_ok(status) .and. data%is_printed) then
@@ -129,6 +144,7 @@ contains
 
       if (serves_as_start(data%last, CONTACT_DENSE) .and. controls%method == METHOD_ANDERSON) then
          solution = data%last
+         if (has_position(data, problem%h)) solution%state%a = 0.0_wp
          call restart_history(solution%history)
          call continue_contact_line(problem, data%line, controls, data%reporter, solution, status)
          if (is_ok(status) .and. solution%converged) return

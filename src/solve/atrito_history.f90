@@ -6,7 +6,7 @@
 module atrito_history
    use atrito_body_cache, only: body_cache_t, release_bodies
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_history_lists, only: add_frame, add_iterations, add_row, trim_lists
+   use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
    use atrito_history_rows, only: row_of_pair
    use atrito_increment, only: complete_results, is_solved, solve_increment
    use atrito_kinds, only: ip, wp
@@ -412,7 +412,7 @@ contains
          results%scene%memory = forecast_memory(model, run%data, results%scene)
          call add_frame(results, run%n_frames, history%frames)
       end if
-      run%last = results
+      call move_frame(results, run%last)
       run%has_last = .true.
    end subroutine keep_increment
 

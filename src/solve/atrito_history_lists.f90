@@ -4,7 +4,7 @@ module atrito_history_lists
    use atrito_results, only: history_row_t, history_t, iteration_t, results_t
    implicit none (type, external)
    private
-   public :: add_row, add_iterations, add_frame, trim_lists
+   public :: add_row, add_iterations, add_frame, move_frame, trim_lists
 
 contains
 
@@ -42,23 +42,58 @@ contains
       type(results_t), intent(in) :: frame
       integer(ip), intent(inout) :: n
       type(results_t), allocatable, intent(inout) :: frames(:)
-      type(results_t), allocatable :: longer(:)
 
-      if (n == size(frames)) then
-         allocate (longer(2*n + 1))
-         longer(:n) = frames
-         call move_alloc(longer, frames)
-      end if
+      if (n == size(frames)) call give_room(n, 2*n + 1, frames)
       n = n + 1
       frames(n) = frame
    end subroutine add_frame
+
+   !> Room for so many frames; the first n stay.
+   pure subroutine give_room(n, room, frames)
+      integer(ip), intent(in) :: n, room
+      type(results_t), allocatable, intent(inout) :: frames(:)
+      type(results_t), allocatable :: others(:)
+      integer(ip) :: i
+
+      allocate (others(room))
+      do i = 1, n
+         call move_frame(frames(i), others(i))
+      end do
+      call move_alloc(others, frames)
+   end subroutine give_room
+
+   !> Results go to another place; what is large is not copied.
+   pure subroutine move_frame(from, to)
+      type(results_t), intent(inout) :: from
+      type(results_t), intent(inout) :: to
+      type(results_t) :: large
+
+      call move_large(from, large)
+      to = from
+      call move_large(large, to)
+   end subroutine move_frame
+
+   pure subroutine move_large(from, to)
+      type(results_t), intent(inout) :: from, to
+
+      call move_alloc(from%u, to%u)
+      call move_alloc(from%prescribed, to%prescribed)
+      call move_alloc(from%reaction, to%reaction)
+      call move_alloc(from%contact, to%contact)
+      call move_alloc(from%stress_element, to%stress_element)
+      call move_alloc(from%stress_point, to%stress_point)
+      call move_alloc(from%stress_x, to%stress_x)
+      call move_alloc(from%stress, to%stress)
+      call move_alloc(from%nodal_stress, to%nodal_stress)
+      call move_alloc(from%iterations, to%iterations)
+   end subroutine move_large
 
    !> No room for more than there is.
    pure subroutine trim_lists(n_frames, n_rows, n_iterations, history)
       integer(ip), intent(in) :: n_frames, n_rows, n_iterations
       type(history_t), intent(inout) :: history
 
-      if (size(history%frames) > n_frames) history%frames = history%frames(:n_frames)
+      if (size(history%frames) > n_frames) call give_room(n_frames, n_frames, history%frames)
       if (size(history%rows) > n_rows) history%rows = history%rows(:n_rows)
       if (size(history%iterations) > n_iterations) history%iterations = history%iterations(:n_iterations)
    end subroutine trim_lists

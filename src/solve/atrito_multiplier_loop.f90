@@ -60,7 +60,7 @@ contains
 
    !> Solves. x: the unknowns of the system. status: STATUS_SINGULAR with FREE_MOTION when a body moves under every step; that of
    !> system%factor. A solution whose multipliers are allocated keeps them; where they hold an increment before, of the same system
-   !> with other loads and gaps, it is where the loop starts.
+   !> with other loads and gaps, it is where the loop starts. Motions that nothing determines are least from its amplitudes on.
    subroutine solve_by_multipliers(system, rows, line, controls, reporter, solution, x, status)
       class(contact_system_t), intent(inout) :: system
       type(constraint_rows_t), intent(in) :: rows !< over displacements alone
@@ -112,7 +112,7 @@ contains
          call choose_steps(outer, multipliers, loop)
          call next_bound(image, loop, anderson, tau)
       end do
-      call finish(system, line, shape, loop%distance, multipliers, solution)
+      call finish(system, line, shape, loop%distance, before%state, multipliers, solution)
       if (solution%converged) x = multipliers%x
       if (allocated(before%multipliers)) solution%multipliers = multipliers
    end subroutine solve_by_multipliers
@@ -247,11 +247,12 @@ contains
 
    !> Forces that are round-off are none, motions that nothing holds are least, and slipping points have the friction of the
    !> pressure that is there; or why there is no solution.
-   subroutine finish(system, line, shape, distance, multipliers, solution)
+   subroutine finish(system, line, shape, distance, before, multipliers, solution)
       class(contact_system_t), intent(in) :: system
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: shape
       type(distance_t), intent(in) :: distance
+      type(box_state_t), intent(in) :: before    !< of the increment before; its amplitudes are not allocated where there is none
       type(multiplier_t), intent(inout) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
 
@@ -262,7 +263,7 @@ contains
       end if
       call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
       if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
-                                                         solution%inner%undetermined)
+                                                         solution%inner%undetermined, before%a)
       solution%p = pressure_of(line, solution%state%q)
       solution%tau = bound_of_state(line, solution)
       call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
@@ -274,6 +275,8 @@ contains
          where (state%state(n + 1:) /= FREE) state%r(n + 1:) = multipliers%e(n + 1:) - solution%bounds%d(n + 1:)*state%q(n + 1:)
       end associate
       solution%t = shear_force_of(line, solution%state%q, solution%tau)
+      ! nothing acts any more: what is left of the deformation of the increment before is round-off
+      if (all(system%load == 0.0_wp) .and. all(solution%state%q == 0.0_wp)) multipliers%x(:system%n - system%k) = 0.0_wp
    end subroutine finish
 
    !> Before the first solution is taken: where its forces are not unique, the loop goes on with the least ones.

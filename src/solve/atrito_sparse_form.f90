@@ -75,6 +75,7 @@ contains
          if (is_ok(status) .and. solution%converged) return
          call report_progress(data%reporter, 'not from the increment before; from the usual start')
          status = fine
+         fresh%state%a = data%last%state%a
       end if
       solution = fresh
       call solve_by_multipliers(data%assembled, rows, data%line, controls, data%reporter, solution, x, status)

@@ -473,7 +473,7 @@ def pair_fields(pair, number, contact, verdict):
     field['bound'] = pair.law.nu*(pair.average @ field['pressure'])
     # slip that the law feels, and how uncertain where it counts from is
     field['elastic'], field['drift'] = field['slip'], np.zeros(len(pair.nodes))
-    field['zero'] = 0.0  # what is printed as 0 because of other increments
+    field['zero'] = field['no_shear'] = 0.0  # what is printed as 0 because of other increments: lengths, shears
     return field
 
 
@@ -510,7 +510,7 @@ def check_pair(pair, field, number, owner, verdict):
     largest = max(np.abs(body.u).max() for body in pair.bodies)
     places = PLACE*size + GROWTH*EPS*largest + printed + field['zero'] + 1e-300
     bound = field['bound']
-    law_scale = LAW*bound.max()
+    law_scale = LAW*bound.max() + field['no_shear']
     for j in range(len(p)):
         where = f'pair {number} point {j + 1}'
         place, distance = places[j], places[j] + 16*EPS*np.abs(pair.x).max()

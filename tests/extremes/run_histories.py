@@ -209,7 +209,8 @@ def judge_frame(scene, bodies, owner, pairs, memories, frames, step, increment, 
     for i, (pair, field, memory) in enumerate(zip(pairs, fields, memories), 1):
         if pair.law.is_incremental:
             field['elastic'], field['drift'] = field['slip'] - memory.rest, memory.drift
-        field['zero'] = frames.zero('contact', 'gap', 'slip') if frames.tables['contact']['gap'].size else 0.0
+        if len(pair.nodes):
+            field['zero'], field['no_shear'] = frames.zero('contact', 'gap', 'slip'), frames.zero('contact', 'shear')
         judge.check_pair(pair, field, i, owner, verdict)
         if len(pair.nodes):
             remember(pair, field, memory, frames.zero('contact', 'slip', 'slip_increment'), i, verdict)
