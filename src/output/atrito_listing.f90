@@ -70,7 +70,7 @@ contains
          call add_heading(page, '2  WHAT THE SCENE NEEDS')
          call describe_needs(page, last%scene)
          call add_heading(page, '3  ORDER, STORAGE AND SOLVER')
-         call add_solver(page, last)
+         call add_solver(page, history, last)
          call add_heading(page, '4  ITERATIONS')
          if (has_history(model, history)) call add_increments(page, history)
          call add_iterations(page, last)
@@ -85,9 +85,10 @@ contains
    end subroutine compose_listing
 
    !> How the bodies were factored, and by which libraries.
-   subroutine add_solver(page, results)
+   subroutine add_solver(page, history, results)
       type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results
+      type(history_t), intent(in) :: history
+      type(results_t), intent(in) :: results        !< the last of it
 
       call describe_bodies(page, results%scene, factored=.true., some=.false.)
       if (uses(results%scene, 'skyline') .or. uses(results%scene, 'banded')) then
@@ -96,7 +97,7 @@ contains
       if (uses(results%scene, 'sparse') .or. uses(results%scene, 'mumps')) then
          call add_entry(page, 'order of sparse bodies', 'nested dissection, contact nodes last')
       end if
-      call add_entry(page, 'factorisations', to_text(int(results%factorisations, ip)))
+      call add_entry(page, 'factorisations', to_text(max(history%factorisations, int(results%factorisations, ip))))
       call add_entry(page, 'linear solves of the line', to_text(int(results%linear_solves, ip)))
       call add_libraries(page, results%scene)
    end subroutine add_solver

@@ -12,6 +12,7 @@ results_t          output/atrito_exchange_results.f90 exchange_results results
 contact_result_t   output/atrito_exchange_results.f90 exchange_contact contact
 unsettled_t        output/atrito_exchange_results.f90 exchange_unsettled point
 body_motion_t      output/atrito_exchange_results.f90 exchange_motion body
+rigid_result_t     output/atrito_exchange_results.f90 exchange_rigid body
 joint_t            output/atrito_exchange_results.f90 exchange_joint joint
 iteration_t        output/atrito_exchange_results.f90 exchange_iterations list
 extreme_t          output/atrito_exchange_results.f90 exchange_extreme extreme
@@ -20,7 +21,7 @@ scene_t            output/atrito_exchange_scene.f90 exchange_scene scene
 body_result_t      output/atrito_exchange_scene.f90 exchange_body body
 pair_scene_t       output/atrito_exchange_scene.f90 exchange_pair pair
 string_t           output/atrito_exchange_scene.f90 exchange_strings list
-history_t          output/atrito_restart_file.f90 exchange_findings history ending
+history_t          output/atrito_restart_file.f90 exchange_findings history ending,factorisations
 history_row_t      output/atrito_restart_file.f90 exchange_rows list
 restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findings state
 warm_start_t       output/atrito_restart_file.f90 exchange_start start
@@ -35,14 +36,14 @@ slip_memory_t      solve/atrito_slip_memory.f90 take_memory memory is_incrementa
 run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last
 run_t              solve/atrito_history.f90 resume run reporter
 progress_t         solve/atrito_history.f90 record now cuts
-model_t            model/atrito_fingerprint.f90 * model deck_path,deck_name,heading,parameters,levels,node_sets,element_sets,springs,ties,equations,restart_every
+model_t            model/atrito_fingerprint.f90 * model deck_path,deck_name,heading,parameters,levels,node_sets,element_sets,springs,ties,equations,restart_every,solver_mesh
 mesh_t             model/atrito_fingerprint.f90 digest_of_mesh mesh node_map,element_map
 material_t         model/atrito_fingerprint.f90 digest_of_materials material name
 section_t          model/atrito_fingerprint.f90 digest_of_materials sections elset
 surface_t          model/atrito_fingerprint.f90 digest_of_surfaces surface
 face_list_t        model/atrito_fingerprint.f90 digest_of_surfaces faces
 interaction_t      model/atrito_fingerprint.f90 digest_of_interactions law
-pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set
+pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set,is_resolved
 contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,faces,coarseness,coarse_node
 bilateral_rows_t   model/atrito_fingerprint.f90 digest_of_rows rows n_groups
 step_t             model/atrito_fingerprint.f90 * step title
@@ -50,7 +51,7 @@ nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values
 element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line
 amplitude_t        model/atrito_fingerprint.f90 add_amplitude amplitude name
 increments_t       model/atrito_fingerprint.f90 add_way way
-controls_t         model/atrito_fingerprint.f90 add_way controls
+controls_t         model/atrito_fingerprint.f90 add_way controls is_brief
 requests_t         model/atrito_fingerprint.f90 add_requests requests
 frequencies_t      model/atrito_fingerprint.f90 add_requests every
 requested_t        model/atrito_fingerprint.f90 add_requested requested
