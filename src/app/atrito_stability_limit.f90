@@ -157,9 +157,9 @@ contains
       if (answer == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine ask_balance
 
-   !> A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved before. Of a history 4 is one, too,
-   !> once something has been solved: it ends at a time that the balance was not asked about (supports that go, smooth amplitudes),
-   !> and neither bound is narrowed.
+   !> A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved before. Of a history 4 is one,
+   !> too, once something has been solved: it ends at a time that the balance was not asked about (supports that go, smooth
+   !> amplitudes), and neither bound is narrowed.
    subroutine ask_solution(command, limit, store, search, one, code)
       type(command_t), intent(in) :: command
       type(stability_t), intent(in) :: limit

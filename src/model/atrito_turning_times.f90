@@ -1,7 +1,7 @@
 !> The times of a step at which its loads can be the hardest to balance.
 !>
-!> The loads that contact can balance are a convex set: between two that can be balanced all can. So where loads go linearly from one
-!> time to the next only these times need to be asked about: the end of a step, and the points of the amplitudes that it uses.
+!> The loads that contact can balance are a convex set: between two that can be balanced all can. So where loads go linearly from
+!> one time to the next only these times need to be asked about: the end of a step, and the points of the amplitudes that it uses.
 module atrito_turning_times
    use atrito_amplitudes, only: time_before
    use atrito_kinds, only: ip, wp
