@@ -34,9 +34,9 @@ contains
 
       call begin_drawing(model, .true., drawing)
       call displace(drawing, model%mesh, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size))
+      drawing%rigid = rigid_motions(model, limit%collapse, drawing)
       call write_lines(set, MECHANISM_PLOT, '# outlines of the bodies as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
-                       'the largest u is 1', ['', ''], model, limit%collapse%u, drawing, status, &
-                       rigid_motions(model, limit%collapse, drawing))
+                       'the largest u is 1', ['', ''], model, limit%collapse%u, drawing, status)
       if (is_ok(status)) call write_script(set, model, limit, title, drawing, status)
    end subroutine write_mechanism_plot
 

@@ -50,6 +50,7 @@ module atrito_mesh_lines
       real(wp) :: size = 0.0_wp                         !< diagonal of the undisplaced bodies [L]
       real(wp) :: largest = 0.0_wp                      !< displacement [L]
       real(wp) :: scale = 1.0_wp                        !< of the displacements
+      type(rigid_result_t), allocatable :: rigid(:)     !< motions of the model's rigid bodies; without them they stay
    end type drawing_t
 
 contains
@@ -175,7 +176,7 @@ contains
    end function displacement_scale
 
    !> Writes <name>.dat: a block a run of edges, then a block a rigid surface of the pairs.
-   subroutine write_lines(set, name, heading, of_kind, model, u, drawing, status, rigid)
+   subroutine write_lines(set, name, heading, of_kind, model, u, drawing, status)
       type(file_set_t), intent(inout) :: set
       character(len=*), intent(in) :: name, heading
       character(len=*), intent(in) :: of_kind(:)    !< what is said of inner edges and of outlines
@@ -183,13 +184,12 @@ contains
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(drawing_t), intent(in) :: drawing
       type(status_t), intent(out) :: status
-      type(rigid_result_t), intent(in), optional :: rigid(:) !< motions of the model's rigid bodies; without them they stay
       type(text_file_t) :: file
 
       call open_text(set, name//'.dat', file)
       call put_line(file, heading)
       call put_lines(file, of_kind, model, u, drawing)
-      call put_rigid_lines(file, model, rigid)
+      call put_rigid_lines(file, model, drawing%rigid)
       call close_text(file, status)
    end subroutine write_lines
 

@@ -50,9 +50,10 @@ contains
       type(drawing_t) :: drawing
 
       call draw_mesh(model, results, drawing)
+      if (allocated(results%rigid)) drawing%rigid = results%rigid
       call write_lines(set, MESH_PLOT, '# edges of the elements as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L]', &
                        [character(len=40) :: ', edges inside', ', outline and lines between sections'], model, results%u, &
-                       drawing, status, results%rigid)
+                       drawing, status)
       if (is_ok(status)) call write_script(set, model, results, drawing, status)
    end subroutine write_mesh_plot
 

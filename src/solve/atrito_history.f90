@@ -9,8 +9,9 @@ module atrito_history
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
    use atrito_history_rows, only: row_of_pair
    use atrito_increment, only: complete_results, is_solved, solve_increment
+   use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: increments_t, is_due, model_t, requests_t, step_t
+   use atrito_model, only: is_due, model_t, requests_t, step_t
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_state, only: restart_state_t
@@ -33,9 +34,6 @@ module atrito_history
    private
    public :: solve_history
 
-   real(wp), parameter :: CUT = 0.5_wp, RECOVER = 2.0_wp, GROW = 1.5_wp !< lengths after a failure, and after a success
-   real(wp), parameter :: SLIVER = 1.0e-6_wp       !< of an increment: what is left of a step by round-off
-
    !> A history that is being solved.
    type :: run_t
       type(solve_options_t) :: options
@@ -51,14 +49,6 @@ module atrito_history
       integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
       class(recorder_t), pointer :: recorder => null()
    end type run_t
-
-   !> Where a step is.
-   type :: progress_t
-      integer(ip) :: increment = 0                  !< that is tried, or was last
-      real(wp) :: time = 0.0_wp                     !< of the step, that it has come to
-      real(wp) :: length = 0.0_wp                   !< of the next increment
-      integer(ip) :: cuts = 0                       !< of the increment that is tried
-   end type progress_t
 
 contains
 
@@ -300,7 +290,7 @@ contains
                call end_early(k, now, run, history, status)
                return
             end if
-            run%data%may_cut = min(now%length, to - now%time) > (1.0_wp + SLIVER)*control%least
+            run%data%may_cut = is_longer_than_least(control, min(now%length, to - now%time))
             call try_increment(k, now%increment, to, store, run, results, solution, status)
             history%factorisations = history%factorisations + results%factorisations
             if (is_solved(results, status)) then
@@ -311,42 +301,18 @@ contains
                call record(now, run, history)
             else
                now%length = min(now%length, to - now%time)
-               if (.not. may_be_cut(status) .or. now%length <= (1.0_wp + SLIVER)*control%least) then
+               if (.not. (may_be_cut(status) .and. is_longer_than_least(control, now%length))) then
                   call explain(results, status)
                   call end_early(k, now, run, history, status)
                   return
                end if
                call report_progress(run%reporter, 'increment '//to_text(now%increment)//' of step '//to_text(k) &
                                     //' has no solution; cut')
-               now%length = max(CUT*now%length, control%least)
-               now%cuts = now%cuts + 1
-               now%increment = now%increment - 1
+               call cut_increment(control, now)
             end if
          end do
       end associate
    end subroutine go_through_step
-
-   !> The end of the next increment. What round-off would leave of the step goes with it.
-   pure real(wp) function next_time(now, period) result(to)
-      type(progress_t), intent(in) :: now
-      real(wp), intent(in) :: period
-
-      to = now%time + now%length
-      if (period - to <= SLIVER*now%length) to = period
-   end function next_time
-
-   !> The length after a success: back to what it was before it was cut; beyond it where the deck lets it grow.
-   pure subroutine lengthen(control, now)
-      type(increments_t), intent(in) :: control
-      type(progress_t), intent(inout) :: now
-
-      now%cuts = 0
-      if (now%length < control%initial) then
-         now%length = min(RECOVER*now%length, control%initial)
-      else
-         now%length = max(min(GROW*now%length, control%greatest), control%initial)
-      end if
-   end subroutine lengthen
 
    !> Shorter increments are of use where there is no solution, not where memory or the deck fail.
    pure logical function may_be_cut(status)
