@@ -28,7 +28,7 @@ module atrito_run
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
                            SOLVER_MUMPS
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
+   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
    use atrito_threads, only: set_threads
@@ -125,7 +125,7 @@ contains
       is_early = .false.
       if (present(ends_early)) is_early = ends_early
       if (is_early) then
-         if (allocated(status%text)) call set_status(status, status%code, status%text//'; what converged before is written')
+         if (allocated(status%text)) call reword_status(status, status%text//'; what converged before is written')
          return
       end if
       if (is_ok(status) .and. results%converged .and. results%law_holds) return

@@ -4,7 +4,7 @@
 module atrito_status
    implicit none (type, external)
    private
-   public :: status_t, set_status, is_ok
+   public :: status_t, set_status, reword_status, is_ok
    public :: STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED, STATUS_SINGULAR, STATUS_FILE, STATUS_INTERNAL
 
    !> Exit codes of the program (docs/user/running.md).
@@ -32,6 +32,14 @@ contains
       status%code = code
       status%text = text
    end subroutine set_status
+
+   !> Says the same in other words.
+   pure subroutine reword_status(status, text)
+      type(status_t), intent(inout) :: status
+      character(len=*), intent(in) :: text
+
+      status%text = text
+   end subroutine reword_status
 
    pure logical function is_ok(status)
       type(status_t), intent(in) :: status

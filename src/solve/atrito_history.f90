@@ -25,7 +25,7 @@ module atrito_history
    use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
    use atrito_solution_warnings, only: warn
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static, CONTACT_SPARSE
-   use atrito_status, only: is_ok, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
+   use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
@@ -404,7 +404,7 @@ contains
       reason = 'no reason is known'
       if (allocated(status%text)) reason = status%text
       history%ending = ending_t(.true., k, max(now%increment, 1_ip), run%began + now%time + now%length, reason)
-      if (allocated(status%text)) call set_status(status, status%code, ending_text(history%ending)//reason)
+      if (allocated(status%text)) call reword_status(status, ending_text(history%ending)//reason)
       if (.not. run%has_last .or. now%increment == 0) return
       if (run%data%is_printed .and. run%last%ends_step) return
       if (run%n_frames > 0) then

@@ -127,6 +127,7 @@ contains
       integer(ip) :: i
 
       same = .true.
+      if (.not. allocated(model%rigid_bodies)) return
       do i = 1, size(model%rigid_bodies, kind=ip)
          call prescribed_motion(model, one, i, is_prescribed, motion)
          call prescribed_motion(model, other, i, is_in_other, motion)
