@@ -8,24 +8,19 @@ module atrito_command_line
    use atrito_files, only: file_exists
    use atrito_messages, only: message_t, SEVERITY_ERROR
    use atrito_number_text, only: LEAST_DIGITS, MOST_DIGITS, DEFAULT_DIGITS
-   use atrito_option_table, only: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, &
-                                  TASK_LIMIT, TASK_OPTIONS, TASK_VERSION, OPTIONS, SOLVERS, CONTACT_FORMS, &
-                                  MOST_THREADS, MOST_LEVELS, find_option, option_names, string_list, value_text, task_text
+   use atrito_option_table, only: OPTIONS, MOST_THREADS, MOST_LEVELS, find_option, has_value, option_names, option_words, &
+                                  place_of_word, value_text
+   use atrito_task_table, only: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, &
+                                TASK_OPTIONS, TASK_VERSION, task_named, command_names, task_form, task_text
+   use atrito_plot_view, only: plot_view_t, read_box
    use atrito_compare, only: DEFAULT_RTOL, DEFAULT_ATOL
    implicit none (type, external)
    private
-   public :: command_t, parse_command, wrong, fetch_arguments, output_folder
+   public :: command_t, parse_command, wrong, wants_json, fetch_arguments, output_folder
    public :: TASK_USAGE, TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, &
              TASK_VERSION
-   public :: SOLVERS
 
-   character(len=7), parameter :: COMMANDS(6) = ['check  ', 'compare', 'study  ', 'sweep  ', 'limit  ', 'help   ']
-   integer, parameter :: TASK_OF(0:6) = [TASK_RUN, TASK_CHECK, TASK_COMPARE, TASK_STUDY, TASK_SWEEP, TASK_LIMIT, TASK_HELP]
-   !> Of the tasks that have one deck.
-   character(len=90), parameter :: FORMS(TASK_LIMIT) = [character(len=90) :: 'atrito DECK.inp [options]', 'atrito check DECK.inp', &
-                                                                  '', '', 'atrito sweep DECK.inp --vary NAME=v1,v2,... [options]', &
-                                           'atrito study DECK.inp --levels N [--elements cpe4,cpe9] [--reference QUANTITY=VALUE]', &
-                                                         'atrito limit DECK.inp --vary NAME=a:b [--tolerance T] [--watch NODE,DOF]']
+   real(wp), parameter :: MOST_SCALE = 1.0e30_wp
    real(wp), parameter :: LEAST_TOLERANCE = 1.0e-8_wp, MOST_TOLERANCE = 0.1_wp   !< the proof is good for 1e-9
 
    !> What the user asks for.
@@ -35,8 +30,9 @@ module atrito_command_line
       character(len=:), allocatable :: folder       !< -o; not allocated: the default
       character(len=:), allocatable :: restart      !< file of --restart; not allocated: from the beginning
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
-      character(len=7) :: solver = 'auto'           !< one of SOLVERS
-      character(len=6) :: contact = 'auto'          !< one of CONTACT_FORMS
+      character(len=7) :: solver = 'auto'           !< one of the words of --solver
+      character(len=6) :: contact = 'auto'          !< one of the words of --contact
+      type(string_t), allocatable :: observe(:)     !< NAME=EXPRESSION of --observe, in their order
       type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order; of a limit NAME=a:b
       real(wp) :: limit_tolerance = 1.0e-6_wp       !< of a limit
       integer(ip) :: watched(2) = 0                 !< of a limit: node and dof; 0: the largest displacement
@@ -49,8 +45,12 @@ module atrito_command_line
       type(string_t), allocatable :: elements(:)    !< of a study: cpe4, ...
       type(string_t), allocatable :: references(:)  !< of a study: QUANTITY or QUANTITY=VALUE
       integer(ip) :: digits = DEFAULT_DIGITS        !< of the tables
+      logical :: is_csv = .false.                   !< of the tables: comma-separated values
       logical :: quiet = .false.
       logical :: plot = .false.                     !< pictures by gnuplot
+      type(plot_view_t) :: view                     !< what is asked of those of bodies
+      logical :: report = .false.                   !< a page of HTML with everything, pictures too
+      logical :: json = .false.                     !< messages as JSON
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
    end type command_t
 
@@ -85,7 +85,8 @@ contains
       type(string_t), allocatable :: names(:)
       integer :: i
 
-      allocate (command%settings(0), command%vary(0), command%names(0), command%elements(0), command%references(0))
+      allocate (command%settings(0), command%observe(0), command%vary(0), command%names(0), command%elements(0))
+      allocate (command%references(0))
       call sort_arguments(arguments, names, given, ok, error)
       if (.not. ok) return
       if (any(OPTIONS(given%option)%name == '--help')) command%task = TASK_OPTIONS
@@ -98,15 +99,31 @@ contains
       if (.not. ok) return
       ok = .false.
       if (command%task == TASK_SWEEP .and. size(command%vary) == 0) then
-         error = wrong('a sweep needs the parameter that it varies', expected=trim(FORMS(TASK_SWEEP)))
+         error = wrong('a sweep needs the parameter that it varies', expected=task_form(TASK_SWEEP))
       else if (command%task == TASK_STUDY .and. command%levels == 0) then
-         error = wrong('a study needs the number of its levels', expected=trim(FORMS(TASK_STUDY)))
+         error = wrong('a study needs the number of its levels', expected=task_form(TASK_STUDY))
+      else if ((allocated(command%view%scale) .or. allocated(command%view%box)) .and. .not. command%plot) then
+         error = wrong('--plot-scale and --plot-box are of pictures', expected='--plot besides')
       else if (command%task == TASK_LIMIT .and. size(command%vary) /= 1) then
-         error = wrong('a limit needs the one parameter that it varies', expected=trim(FORMS(TASK_LIMIT)))
+         error = wrong('a limit needs the one parameter that it varies', expected=task_form(TASK_LIMIT))
+      else if (command%task == TASK_CHECK .and. allocated(command%folder) .and. .not. command%plot) then
+         error = wrong('-o is no option of atrito check without --plot', expected='atrito check DECK.inp --plot -o DIR')
       else
          ok = .true.
       end if
    end subroutine parse_command
+
+   !> The messages are to be JSON, also one about the command line itself.
+   pure logical function wants_json(arguments)
+      type(string_t), intent(in) :: arguments(:)
+      integer :: i
+
+      wants_json = .false.
+      do i = 1, size(arguments)
+         if (arguments(i)%s == '--messages=json') wants_json = .true.
+         if (arguments(i)%s == 'json' .and. i > 1) wants_json = wants_json .or. arguments(max(i - 1, 1))%s == '--messages'
+      end do
+   end function wants_json
 
    !> Sorts arguments into names and options with their values.
    subroutine sort_arguments(arguments, names, given, ok, error)
@@ -151,12 +168,11 @@ contains
       equals = index(arguments(i)%s, '=')
       name = arguments(i)%s
       if (equals > 0) name = arguments(i)%s(:equals - 1)
-      if (name == '-h') name = '--help'
       given%option = find_option(name)
       ok = given%option > 0
       if (.not. ok) then
          error = wrong('unknown option '//name, nearest=nearest_names(name, option_names(), 3))
-      else if (.not. OPTIONS(given%option)%has_value) then
+      else if (.not. has_value(given%option)) then
          ok = equals == 0
          if (.not. ok) error = wrong(name//' takes no value')
       else if (equals > 0) then
@@ -164,7 +180,7 @@ contains
       else
          ok = i < size(arguments)
          if (ok) ok = index(arguments(i + 1)%s, '--') /= 1
-         if (.not. ok) error = wrong(name//' needs a value', expected=value_text(name))
+         if (.not. ok) error = wrong(name//' needs a value', expected=value_text(given%option))
          if (ok) given%value = arguments(i + 1)%s
          i = i + 1
       end if
@@ -195,46 +211,47 @@ contains
 
       ok = .false.
       if (size(names) == 0) then
-         error = wrong('there is no deck', expected=trim(FORMS(TASK_RUN)))
+         error = wrong('there is no deck', expected=task_form(TASK_RUN))
          return
       end if
-      task = TASK_OF(findloc(COMMANDS == names(1)%s, .true., dim=1))
+      task = task_named(names(1)%s)
       command%task = task
       command%names = names(merge(1, 2, task == TASK_RUN):)
       select case (task)
       case (TASK_COMPARE)
          ok = size(command%names) == 2
          if (.not. ok) error = wrong('compare takes two names, not '//to_text(size(command%names, kind=ip)), &
-                                     expected='atrito compare A B [--rtol R] [--atol A]')
+                                     expected=task_form(task))
       case (TASK_HELP)
          ok = .true.
       case default
-         call check_deck(command%names, trim(FORMS(task)), ok, error)
+         call check_deck(command%names, task, ok, error)
       end select
    end subroutine find_task
 
    !> One deck; a word that is no file but nearly a command is a misspelt command.
-   subroutine check_deck(names, expected, ok, error)
+   subroutine check_deck(names, task, ok, error)
       type(string_t), intent(in) :: names(:)
-      character(len=*), intent(in) :: expected
+      integer, intent(in) :: task
       logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
       type(string_t), allocatable :: near(:)
-      logical :: is_file
 
       ok = .false.
       if (size(names) == 0) then
-         error = wrong('there is no deck', expected=expected)
+         error = wrong('there is no deck', expected=task_form(task))
          return
       end if
-      near = nearest_names(names(1)%s, string_list(COMMANDS), 2)
-      is_file = file_exists(names(1)%s)
-      if (scan(names(1)%s, './') == 0 .and. size(near) > 0 .and. .not. is_file) then
+      allocate (near(0))
+      if (scan(names(1)%s, './') == 0) then
+         if (.not. file_exists(names(1)%s)) near = nearest_names(names(1)%s, command_names(), 2)
+      end if
+      if (size(near) > 0) then
          error = wrong('unknown command '//names(1)%s, nearest=near)
       else if (size(names) > 1) then
-         error = wrong('one deck at a time; '//names(2)%s//' is too much', expected=expected)
+         error = wrong('one deck at a time; '//names(2)%s//' is too much', expected=task_form(task))
       else if (len_trim(names(1)%s) == 0) then
-         error = wrong('the name of the deck is empty', expected=expected)
+         error = wrong('the name of the deck is empty', expected=task_form(task))
       else
          ok = .true.
       end if
@@ -264,6 +281,9 @@ contains
       case ('--set')
          call append_string(command%settings, given%value)
          ok = index(given%value, '=') > 1
+      case ('--observe')
+         call append_string(command%observe, given%value)
+         ok = index(given%value, '=') > 1
       case ('--vary')
          call append_string(command%vary, given%value)
          ok = index(given%value, '=') > 1
@@ -278,16 +298,27 @@ contains
          call take_solver(given%value, command, ok, error)
          if (.not. ok) return
       case ('--contact')
-         ok = any(CONTACT_FORMS == given%value)
+         ok = place_of_word(name, given%value) > 0
          if (ok) command%contact = given%value
+      case ('--format')
+         command%is_csv = given%value == 'csv'
+         ok = place_of_word(name, given%value) > 0
+      case ('--messages')
+         command%json = given%value == 'json'
+         ok = place_of_word(name, given%value) > 0
       case ('--plot')
+         command%plot = .true.
+      case ('--plot-box')
+         call read_box(given%value, command%view%box, ok)
+      case ('--report')
+         command%report = .true.
          command%plot = .true.
       case ('--quiet')
          command%quiet = .true.
       case default
          call take_number(name, given%value, command, ok)
       end select
-      if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(name))
+      if (.not. ok) error = wrong(name//' '//given%value//' is not possible', expected=value_text(given%option))
    end subroutine take_option
 
    !> The options whose value is a number.
@@ -307,6 +338,9 @@ contains
          call take_integer(value, LEAST_DIGITS, MOST_DIGITS, command%digits, ok)
       case ('--tolerance')
          call take_real(value, LEAST_TOLERANCE, MOST_TOLERANCE, command%limit_tolerance, ok)
+      case ('--plot-scale')
+         command%view%scale = 0.0_wp
+         call take_real(value, 0.0_wp, MOST_SCALE, command%view%scale, ok)
       case ('--rtol')
          call take_real(value, 0.0_wp, 1.0_wp, command%rtol, ok)
       case ('--atol')
@@ -356,14 +390,15 @@ contains
       type(command_t), intent(inout) :: command
       logical, intent(out) :: ok
       type(message_t), intent(inout) :: error
+      integer :: option
       logical :: is_there
 
       ok = .false.
       is_there = .true.
       if (value == 'mumps') is_there = has_mumps()   ! a library, which is looked for when it is asked for
-      if (.not. any(SOLVERS == value)) then
-         error = wrong('unknown solver '//value, expected=value_text('--solver'), &
-                       nearest=nearest_names(value, string_list(SOLVERS), 2))
+      if (place_of_word('--solver', value) == 0) then
+         option = find_option('--solver')
+         error = wrong('unknown solver '//value, expected=value_text(option), nearest=nearest_names(value, option_words(option), 2))
       else if (.not. is_there) then
          error = wrong('--solver mumps needs MUMPS, and '//mumps_trouble(), expected='auto, skyline, banded or sparse')
       else
@@ -398,7 +433,8 @@ contains
       if (ok) value = found
    end subroutine take_real
 
-   !> Where the tables go: -o, or output/ and the name of the deck without folder and .inp; a limit has a folder apart.
+   !> Where the tables go: -o, or output/ and the name of the deck without folder and .inp; what is no run has a folder apart, so
+   !> that none finds the files of another.
    pure function output_folder(command) result(folder)
       type(command_t), intent(in) :: command
       character(len=:), allocatable :: folder
@@ -407,7 +443,10 @@ contains
          folder = command%folder
       else
          folder = 'output/'//deck_name(command%names(1)%s)
+         if (command%task == TASK_SWEEP) folder = folder//'-sweep'
+         if (command%task == TASK_STUDY) folder = folder//'-study'
          if (command%task == TASK_LIMIT) folder = folder//'-limit'
+         if (command%task == TASK_CHECK) folder = folder//'-check'
       end if
    end function output_folder
 

@@ -1,7 +1,9 @@
 !> What goes to the terminal: messages, failures, lines.
 module atrito_console
    use, intrinsic :: iso_fortran_env, only: error_unit
+   use atrito_colours, only: wants_colours, paint_message
    use atrito_kinds, only: ip
+   use atrito_message_json, only: json_of_message
    use atrito_messages, only: message_t, count_messages, get_message, format_message, &
                               SEVERITY_ERROR, SEVERITY_NOTE, MOST_ERRORS
    use atrito_status, only: status_t, STATUS_USAGE, STATUS_FILE
@@ -9,14 +11,16 @@ module atrito_console
    use atrito_version, only: PROGRAM_NAME
    implicit none (type, external)
    private
-   public :: print_messages, print_status, print_lines
+   public :: print_messages, print_status, print_message, print_lines
 
 contains
 
-   !> Prints the messages from number `first` on: the first errors, warnings and notes, and the count of the others.
-   subroutine print_messages(quiet, first)
+   !> Prints the messages from number `first` on: the first errors, warnings and notes, and the count of the others; as JSON all
+   !> that are kept.
+   subroutine print_messages(quiet, first, json)
       logical, intent(in) :: quiet                  !< no notes
       integer(ip), intent(in) :: first
+      logical, intent(in) :: json                   !< one object a line
       type(message_t) :: message
       integer(ip) :: i, printed(SEVERITY_NOTE), n(SEVERITY_NOTE)
       character(len=8), parameter :: WORD(SEVERITY_NOTE) = ['errors  ', 'warnings', 'notes   ']
@@ -26,8 +30,12 @@ contains
          message = get_message(i)
          if (quiet .and. message%severity == SEVERITY_NOTE) cycle
          n(message%severity) = n(message%severity) + 1
-         if (n(message%severity) <= MOST_ERRORS) call print_lines(format_message(message), error_unit)
+         if (json .or. n(message%severity) <= MOST_ERRORS) call print_message(message, json)
       end do
+      if (json) then
+         if (first == 1) call print_rest(quiet)
+         return
+      end if
       printed = min(n, int(MOST_ERRORS, ip))
       do i = 1, SEVERITY_NOTE
          if (n(i) > printed(i)) call print_lines([string_t('... the first '//to_text(printed(i))//' of '//to_text(n(i))// &
@@ -38,10 +46,45 @@ contains
                                                   error_unit)
    end subroutine print_messages
 
+   !> One message, as text, for a terminal with colours, or as JSON.
+   subroutine print_message(message, json)
+      type(message_t), intent(in) :: message
+      logical, intent(in) :: json
+      type(string_t), allocatable :: lines(:)
+
+      if (json) then
+         call print_lines([string_t(json_of_message(message))], error_unit)
+      else
+         lines = format_message(message)
+         if (wants_colours()) lines(1)%s = paint_message(message, lines(1)%s)
+         call print_lines(lines, error_unit)
+      end if
+   end subroutine print_message
+
+   !> JSON: how many messages were counted only.
+   subroutine print_rest(quiet)
+      logical, intent(in) :: quiet
+      type(message_t) :: message
+      integer(ip) :: i, rest(SEVERITY_NOTE)
+      character(len=8), parameter :: WORD(SEVERITY_NOTE) = ['errors  ', 'warnings', 'notes   ']
+
+      rest = [(count_messages(int(i)), i=1, SEVERITY_NOTE)]
+      do i = 1, count_messages()
+         message = get_message(i)
+         rest(message%severity) = rest(message%severity) - 1
+      end do
+      do i = 1, merge(SEVERITY_NOTE - 1, SEVERITY_NOTE, quiet)
+         if (rest(i) == 0) cycle
+         message = message_t(severity=int(i), id='N-MORE', text=to_text(rest(i))//' more '//trim(WORD(i))//' are not told')
+         call print_message(message, .true.)
+      end do
+   end subroutine print_rest
+
    !> Tells a failure that belongs to no place in the deck.
-   subroutine print_status(status, file)
+   subroutine print_status(status, file, json)
       type(status_t), intent(in) :: status
       character(len=*), intent(in) :: file          !< the deck, as the user wrote it
+      logical, intent(in) :: json
       type(message_t) :: message
       character(len=15), parameter :: IDS(STATUS_FILE) = [character(len=15) :: 'E-COMMAND', 'E-DECK', 'E-NOT-CONVERGED', &
                                                                                                              'E-SINGULAR', 'E-FILE']
@@ -52,7 +95,7 @@ contains
       message%file = file
       if (status%code == STATUS_FILE .or. status%code == STATUS_USAGE) message%file = PROGRAM_NAME
       message%text = status%text
-      call print_lines(format_message(message), error_unit)
+      call print_message(message, json)
    end subroutine print_status
 
    !> A failure to print is nobody's error.

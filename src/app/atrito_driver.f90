@@ -4,20 +4,25 @@ module atrito_driver
    use atrito_blas_info, only: set_blas_threads
    use atrito_body_cache, only: body_cache_t
    use atrito_screen, only: compose_check
-   use atrito_command_line, only: command_t, parse_command, wrong, fetch_arguments, TASK_USAGE, TASK_RUN, TASK_CHECK, &
+   use atrito_check_plots, only: write_check_plots
+   use atrito_command_line, only: command_t, output_folder, parse_command, wrong, wants_json, fetch_arguments, TASK_USAGE, &
+                                  TASK_RUN, TASK_CHECK, &
                                   TASK_COMPARE, TASK_HELP, TASK_SWEEP, TASK_STUDY, TASK_LIMIT, TASK_OPTIONS, TASK_VERSION
    use atrito_compare, only: comparison_t, begin_comparison, compare_paths
-   use atrito_console, only: print_lines, print_messages, print_status
-   use atrito_help, only: help_overview, help_keyword, help_manual
+   use atrito_console, only: print_lines, print_message, print_messages, print_status
+   use atrito_help_pages, only: compose_help
+   use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
    use atrito_keyword_table, only: keyword_table, keyword_names
    use atrito_kinds, only: ip
    use atrito_libraries, only: version_lines
-   use atrito_messages, only: message_t, format_message, clear_messages
+   use atrito_messages, only: message_t, add_warning, clear_messages
    use atrito_model, only: model_t
-   use atrito_page, only: page_t, print_page
+   use atrito_page, only: page_t, add_item, print_page
+   use atrito_plot_files, only: plot_folder
    use atrito_reporter, only: reporter_t
    use atrito_results, only: scene_t
-   use atrito_run, only: run_deck, load_model, solve_options
+   use atrito_observations, only: observations_t
+   use atrito_run, only: run_deck, load_model, prepare_observations, solve_options
    use atrito_solve, only: survey_scene
    use atrito_stability_limit, only: run_limit
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_USAGE, STATUS_FILE, STATUS_INTERNAL
@@ -50,7 +55,7 @@ contains
       call parse_command(arguments, command, ok, error)
       code = STATUS_USAGE
       if (.not. ok) then
-         call print_wrong(error, 'atrito --help')
+         call print_wrong(error, 'atrito --help', wants_json(arguments))
          return
       end if
       select case (command%task)
@@ -91,31 +96,56 @@ contains
       call reset_timers()
    end subroutine begin_program
 
-   !> Tells what a deck needs; solves nothing, writes no file.
+   !> Tells what a deck needs, and draws it where that is asked for; solves nothing, writes nothing else.
    subroutine check_deck(command, code)
       type(command_t), intent(in) :: command
       integer, intent(out) :: code
       type(model_t) :: model
       type(scene_t) :: scene
+      type(observations_t) :: observations
       type(reporter_t) :: reporter
       type(status_t) :: status
       type(page_t) :: page
+      type(string_t), allocatable :: pictures(:)
       integer(ip) :: told
 
       reporter%quiet = .true.
       call set_threads(command%threads)             ! each has a place for fronts
       call load_model(command, reporter, model, told, code)
+      if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code /= STATUS_OK) return
       call survey_scene(model, solve_options(command), scene, status)
-      call print_messages(command%quiet, told + 1)
+      if (command%plot) call draw_scene(command, model, pictures)
+      call print_messages(command%quiet, told + 1, command%json)
       code = status%code
       if (.not. is_ok(status)) then
-         call print_status(status, model%deck_path)
+         call print_status(status, model%deck_path, command%json)
       else if (.not. command%quiet) then
          call compose_check(model, scene, page)
+         if (command%plot) then
+            if (size(pictures) > 0) call add_item(page, 'plots in', plot_folder(output_folder(command))//': '//join(pictures, ' '))
+         end if
          call print_page(page, output_unit)
       end if
    end subroutine check_deck
+
+   !> The pictures of a scene, into a folder that is claimed as that of a run; a failure is a warning.
+   subroutine draw_scene(command, model, pictures)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(string_t), allocatable, intent(out) :: pictures(:)   !< that were drawn, without ending
+      type(folder_claim_t) :: claim
+      type(status_t) :: status
+
+      call claim_folder(output_folder(command), claim, status, silent=command%json)
+      if (is_ok(status)) then
+         call write_check_plots(model, output_folder(command), pictures)
+      else
+         allocate (pictures(0))
+         call add_warning('W-PLOT', 'no plots are written: '//status%text)
+      end if
+      call release_folder(claim)
+   end subroutine draw_scene
 
    subroutine compare_tables(command, code)
       type(command_t), intent(in) :: command
@@ -127,8 +157,8 @@ contains
       call compare_paths(command%names(1)%s, command%names(2)%s, comparison, status)
       if (.not. command%quiet) call print_page(comparison%page, output_unit)
       ! tables that differ are told on standard output; anything else is an error
-      if (.not. is_ok(status) .and. comparison%n_differences == 0) call print_status(status, PROGRAM_NAME)
-      if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME)
+      if (.not. is_ok(status) .and. comparison%n_differences == 0) call print_status(status, PROGRAM_NAME, command%json)
+      if (status%code == STATUS_FILE .and. comparison%n_differences > 0) call print_status(status, PROGRAM_NAME, command%json)
       code = status%code
    end subroutine compare_tables
 
@@ -148,30 +178,25 @@ contains
       logical :: known
 
       keyword = upper_case(join(command%names, ' '))
-      known = .true.
-      if (len(keyword) == 0) then
-         call help_overview(lines)
-      else if (keyword == 'ALL') then
-         call help_manual(lines)
-      else
-         call help_keyword(keyword, lines, known)
-      end if
+      call compose_help(keyword, lines, known)
       code = STATUS_OK
       if (known) then
          call print_lines(lines, output_unit)
       else
          code = STATUS_USAGE
-         call print_wrong(wrong('there is no keyword '//keyword, nearest=nearest_names(keyword, &
-                                                                                 keyword_names(keyword_table()), 3)), 'atrito help')
+         call print_wrong(wrong('there is no keyword '//keyword, nearest=nearest_names(keyword, keyword_names(keyword_table()), &
+                                                                                       3)), 'atrito help', command%json)
       end if
    end subroutine print_help
 
    !> Tells what is wrong with the command line, and which command tells more.
-   subroutine print_wrong(error, see)
+   subroutine print_wrong(error, see, json)
       type(message_t), intent(in) :: error
       character(len=*), intent(in) :: see
+      logical, intent(in) :: json
 
-      call print_lines([format_message(error), string_t('    see:      '//see)], error_unit)
+      call print_message(error, json)
+      if (.not. json) call print_lines([string_t('    see:      '//see)], error_unit)
    end subroutine print_wrong
 
 end module atrito_driver

@@ -10,6 +10,7 @@ module atrito_restart_recorder
    use atrito_restart_state, only: restart_state_t
    use atrito_results, only: history_t
    use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: join
    implicit none (type, external)
    private
    public :: restart_recorder_t, begin_recorder
@@ -32,6 +33,7 @@ contains
       type(model_t), intent(in) :: model
       type(restart_recorder_t), intent(out) :: recorder
       type(status_t), intent(out) :: status
+      character(len=:), allocatable :: options
 
       recorder%resumes = allocated(command%restart)
       recorder%every = model%restart_every
@@ -40,7 +42,12 @@ contains
       recorder%name = restart_name(model)
       recorder%deck_path = model%deck_path
       ! what is solved by another form or another solver differs in the last digits
-      call take_fingerprint(model, '--contact '//trim(command%contact)//', --solver '//trim(command%solver), recorder%fingerprint)
+      options = '--contact '//trim(command%contact)//', --solver '//trim(command%solver)
+      ! what was observed in increments that are not printed is in the file alone
+      if (allocated(command%observe)) then
+         if (size(command%observe) > 0) options = options//', --observe '//join(command%observe, ', --observe ')
+      end if
+      call take_fingerprint(model, options, recorder%fingerprint)
       if (recorder%resumes) call read_restart(command%restart, model, recorder%fingerprint, recorder%found, recorder%state, status)
    end subroutine begin_recorder
 

@@ -5,22 +5,28 @@ module atrito_run
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_messages, print_status
+   use atrito_console, only: print_message, print_messages, print_status
    use atrito_deck, only: deck_t
+   use atrito_deck_as_run, only: take_deck_as_run
    use atrito_element_table, only: DEGREE_OF, KINDS, kind_named
-   use atrito_files, only: check_folder
+   use atrito_files, only: check_folder, file_exists, true_path
    use atrito_folder_claim, only: folder_claim_t, claim_folder, release_folder
+   use atrito_given_options, only: options_of_run
    use atrito_hdf5, only: has_hdf5
    use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: signed_area
-   use atrito_messages, only: count_messages, sort_messages, SEVERITY_ERROR
+   use atrito_messages, only: message_t, count_messages, sort_messages, SEVERITY_ERROR
    use atrito_model, only: model_t
-   use atrito_option_table, only: SOLVERS, CONTACT_FORMS
+   use atrito_observations, only: observations_t, read_observations
+   use atrito_option_table, only: place_of_word
    use atrito_page, only: page_t, print_page
+   use atrito_parameter_text, only: list_parameters
+   use atrito_patched_text, only: digest_of_texts
    use atrito_plane_state, only: FULL_STATE
    use atrito_plot_files, only: plot_folder
    use atrito_reader, only: read_deck
+   use atrito_report_maker, only: make_run_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
@@ -28,7 +34,8 @@ module atrito_run
    use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
                            SOLVER_MUMPS
-   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_NOT_CONVERGED
+   use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_FILE, &
+                            STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
    use atrito_threads, only: set_threads
@@ -37,7 +44,7 @@ module atrito_run
    use atrito_write_results, only: write_results
    implicit none (type, external)
    private
-   public :: run_deck, load_model, solve_options, agree_on_outcome
+   public :: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
 
 contains
 
@@ -50,26 +57,28 @@ contains
       type(model_t) :: model
       type(history_t) :: history
       type(restart_recorder_t) :: recorder
+      type(observations_t) :: observations
       type(reporter_t) :: reporter
       type(status_t) :: status
       integer(ip) :: told
 
       call set_threads(command%threads)
-      reporter%quiet = command%quiet
-      call load_model(command, reporter, model, told, code)
+      reporter%quiet = command%quiet .or. command%json
+      call load_model(command, reporter, model, told, code, keeps_deck=.true.)
+      if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
       if (code /= STATUS_OK) return
       call check_folder(output_folder(command), status)
       if (is_ok(status)) call begin_recorder(command, model, recorder, status)
       if (.not. is_ok(status)) then                 ! better now than after an hour
-         call print_status(status, model%deck_path)
+         call print_status(status, model%deck_path, command%json)
          code = status%code
          return
       end if
-      call solve_history(model, solve_options(command), reporter, history, status, store, recorder)
-      call print_messages(command%quiet, told + 1)
+      call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations)
+      call print_messages(command%quiet, told + 1, command%json)
       associate (n => last_frame(history))
          if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-         if (.not. is_ok(status)) call print_status(status, model%deck_path)
+         if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
          code = status%code
          if (n == 0) return
          call write_run(command, reporter, model, history, code)
@@ -157,33 +166,36 @@ contains
       told = count_messages()
       ! not allocated: an optional argument that is not there
       if (command%plot) pictures = plot_names(model, history)
-      call claim_folder(folder, claim, status)
-      if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures)
+      call claim_folder(folder, claim, status, silent=command%json)
+      if (is_ok(status)) call write_results(model, history, int(command%digits), folder, written, status, pictures, &
+                                            command%is_csv)
       if (.not. is_ok(status)) then
          call release_folder(claim)
-         call print_status(status, model%deck_path)
+         call print_status(status, model%deck_path, command%json)
          code = status%code
          return
       end if
       if (command%plot) then
          call report_progress(reporter, 'plot  '//plot_folder(folder))
-         call write_plots(model, history, folder, pictures)
+         call write_plots(model, history, folder, command%view, pictures)
       end if
+      if (command%report) call make_run_report(command, model, history, written, pictures)
       call release_folder(claim)
-      call print_messages(command%quiet, told + 1)
+      call print_messages(command%quiet, told + 1, command%json)
       if (command%quiet) return
       call compose_summary(model, history, folder, written, page, pictures)
       call print_page(page, output_unit)
    end subroutine write_run
 
    !> Reads a deck and builds its model. All messages are told; errors of the deck give STATUS_DECK.
-   subroutine load_model(command, reporter, model, told, code, only_errors)
+   subroutine load_model(command, reporter, model, told, code, only_errors, keeps_deck)
       type(command_t), intent(in) :: command
       type(reporter_t), intent(in) :: reporter
       type(model_t), intent(out) :: model
       integer(ip), intent(out) :: told              !< messages printed so far
       integer, intent(out) :: code
       logical, intent(in), optional :: only_errors  !< the others of this deck have been told
+      logical, intent(in), optional :: keeps_deck   !< as it is run, in the model; left out: .false.
       type(deck_t) :: deck
       type(status_t) :: status
       logical :: silent
@@ -202,7 +214,7 @@ contains
          call sort_messages()
          silent = .false.
          if (present(only_errors)) silent = only_errors .and. count_messages(SEVERITY_ERROR) == 0
-         if (.not. silent) call print_messages(command%quiet, 1_ip)
+         if (.not. silent) call print_messages(command%quiet, 1_ip, command%json)
          told = count_messages()
          if (count_messages(SEVERITY_ERROR) > 0) return
          if (is_ok(status) .and. .not. has_state(model, command%element)) then
@@ -210,9 +222,50 @@ contains
                             ': the deck has elements of the other plane state')
          end if
       end if
+      call list_parameters(deck, [string_t ::], model%provenance%parameters)
+      call options_of_run(command, model%provenance%options)
+      if (present(keeps_deck) .and. is_ok(status)) call keep_deck(command, deck, model, status)
       code = status%code
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine load_model
+
+   !> Reads the expressions of --observe. code: STATUS_USAGE for one that is wrong, which is told.
+   subroutine prepare_observations(command, model, observations, code)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(observations_t), intent(out) :: observations
+      integer, intent(out) :: code
+      type(message_t) :: error
+      logical :: ok
+
+      code = STATUS_OK
+      if (.not. allocated(command%observe)) return
+      call read_observations(command%observe, model, observations, ok, error)
+      code = merge(STATUS_OK, STATUS_USAGE, ok)
+      if (.not. ok) call print_message(error, command%json)
+   end subroutine prepare_observations
+
+   !> The deck as it is run, and its digest. status: STATUS_FILE where it would replace a file of the deck.
+   subroutine keep_deck(command, deck, model, status)
+      type(command_t), intent(in) :: command
+      type(deck_t), intent(inout) :: deck
+      type(model_t), intent(inout) :: model
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: path
+      integer :: i, k
+
+      call take_deck_as_run(deck, model%as_run)
+      model%provenance%digest = digest_of_texts(model%as_run)
+      do i = 1, size(model%as_run)
+         path = output_folder(command)//'/'//model%as_run(i)%name
+         if (.not. file_exists(path)) cycle
+         do k = 1, deck%n_sources
+            if (true_path(path) /= true_path(deck%sources(k)%name)) cycle
+            call set_status(status, STATUS_FILE, path//': is a file of the deck, which a file of the run would replace; -o names ' &
+                            //'another folder')
+         end do
+      end do
+   end subroutine keep_deck
 
    !> Whether all elements of the deck have the plane state of a kind; nothing asked is always there.
    pure logical function has_state(model, element)
@@ -227,11 +280,12 @@ contains
    pure function solve_options(command) result(options)
       type(command_t), intent(in) :: command
       type(solve_options_t) :: options
-      integer, parameter :: KINDS(size(SOLVERS)) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS]
-      integer, parameter :: FORMS(size(CONTACT_FORMS)) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
+      integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS]
+      integer, parameter :: FORMS(*) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
 
-      options%solver_kind = KINDS(findloc(SOLVERS == command%solver, .true., dim=1))
-      options%contact_form = FORMS(findloc(CONTACT_FORMS == command%contact, .true., dim=1))
+      options%solver_kind = KINDS(place_of_word('--solver', command%solver))
+      options%contact_form = FORMS(place_of_word('--contact', command%contact))
+      options%element_errors = command%plot
    end function solve_options
 
 end module atrito_run

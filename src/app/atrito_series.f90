@@ -1,20 +1,29 @@
 !> What sweeps, studies and limits have in common: they claim their folder for all of their runs, write tables, draw, and tell it.
 module atrito_series
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use atrito_command_line, only: command_t, output_folder
+   use atrito_command_line, only: command_t, output_folder, TASK_SWEEP, TASK_STUDY, TASK_LIMIT
    use atrito_console, only: print_messages, print_status
+   use atrito_deck, only: deck_t
+   use atrito_deck_as_run, only: take_deck_as_run
    use atrito_files, only: check_folder
    use atrito_folder_claim, only: folder_claim_t, claim_folder
+   use atrito_given_options, only: options_of_series
    use atrito_kinds, only: ip, lp, wp
-   use atrito_messages, only: clear_messages
-   use atrito_page, only: page_t, print_page
-   use atrito_plot_files, only: remove_plots
+   use atrito_messages, only: clear_messages, count_messages, SEVERITY_ERROR
+   use atrito_page, only: page_t, print_page, add_above_rule
+   use atrito_patched_text, only: named_text_t, digest_of_texts
+   use atrito_parameter_text, only: list_parameters
+   use atrito_plot_files, only: remove_plots, PLOTS_OF_SWEEP, PLOTS_OF_STUDY, PLOTS_OF_LIMIT
+   use atrito_provenance, only: provenance_t
+   use atrito_reader, only: read_deck
+   use atrito_report_file, only: REPORT_NAME, remove_report
    use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: string_t, append_string
    use atrito_table, only: origin_t
    use atrito_system, only: processor_seconds
    implicit none (type, external)
    private
-   public :: claim_output, series_origin, begin_pictures, tell_series, seconds_since
+   public :: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
 
 contains
 
@@ -25,35 +34,75 @@ contains
       type(status_t), intent(inout) :: status       !< of what came before; STATUS_FILE
 
       if (is_ok(status)) call check_folder(output_folder(command), status)
-      if (is_ok(status)) call claim_folder(output_folder(command), claim, status)
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      if (is_ok(status)) call claim_folder(output_folder(command), claim, status, silent=command%json)
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine claim_output
 
-   !> The comment lines at the top of the tables.
-   pure function series_origin(command, not_converged) result(origin)
+   !> What the heads of the tables tell of the deck, with its own values where a parameter varies. What is wrong with the deck its
+   !> runs will tell.
+   subroutine find_provenance(command, provenance)
       type(command_t), intent(in) :: command
+      type(provenance_t), intent(out) :: provenance
+      type(string_t), allocatable :: varied(:)
+      type(named_text_t), allocatable :: files(:)
+      type(deck_t) :: deck
+      type(status_t) :: status
+      logical :: has_errors
+      integer :: i
+
+      call clear_messages()
+      allocate (varied(0))
+      do i = 1, size(command%vary)
+         call append_string(varied, trim(adjustl(command%vary(i)%s(:index(command%vary(i)%s, '=') - 1))))
+      end do
+      call options_of_series(command, provenance%options)
+      call read_deck(command%names(1)%s, command%settings, deck, status)
+      has_errors = count_messages(SEVERITY_ERROR) > 0
+      call clear_messages()
+      if (.not. is_ok(status)) return
+      call list_parameters(deck, varied, provenance%parameters)
+      if (has_errors) return
+      call take_deck_as_run(deck, files)
+      provenance%digest = digest_of_texts(files)
+   end subroutine find_provenance
+
+   !> The comment lines at the top of the tables.
+   pure function series_origin(command, provenance, not_converged) result(origin)
+      type(command_t), intent(in) :: command
+      type(provenance_t), intent(in) :: provenance
       logical, intent(in) :: not_converged
       type(origin_t) :: origin
 
+      origin%provenance_t = provenance
       origin%deck = command%names(1)%s(index(command%names(1)%s, '/', back=.true.) + 1:)
       origin%not_converged = not_converged
       allocate (origin%heading(0))
    end function series_origin
 
-   !> The pictures of an earlier time go, drawn anew or not, for the tables are new.
+   !> The command's pictures and report of an earlier time go, made anew or not, for its tables are new.
    subroutine begin_pictures(command)
       type(command_t), intent(in) :: command
 
       call clear_messages()
-      call remove_plots(output_folder(command))
+      select case (command%task)
+      case (TASK_SWEEP)
+         call remove_plots(output_folder(command), PLOTS_OF_SWEEP)
+      case (TASK_STUDY)
+         call remove_plots(output_folder(command), PLOTS_OF_STUDY)
+      case (TASK_LIMIT)
+         call remove_plots(output_folder(command), PLOTS_OF_LIMIT)
+      end select
+      call remove_report(output_folder(command))
    end subroutine begin_pictures
 
    !> Prints the closing lines.
-   subroutine tell_series(command, page)
+   subroutine tell_series(command, page, has_report)
       type(command_t), intent(in) :: command
-      type(page_t), intent(in) :: page
+      type(page_t), intent(inout) :: page
+      logical, intent(in) :: has_report             !< one was written
 
-      call print_messages(command%quiet, 1_ip)
+      if (has_report) call add_above_rule(page, 'report', output_folder(command)//'/'//REPORT_NAME)
+      call print_messages(command%quiet, 1_ip, command%json)
       if (.not. command%quiet) call print_page(page, output_unit)
    end subroutine tell_series
 

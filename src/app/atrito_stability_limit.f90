@@ -16,10 +16,14 @@ module atrito_stability_limit
    use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t
+   use atrito_provenance, only: provenance_t
+   use atrito_report, only: report_t
+   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: history_t, results_t
    use atrito_run, only: load_model, solve_options, agree_on_outcome
-   use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series, seconds_since
+   use atrito_series_reports, only: begin_series, report_of_limit
+   use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
@@ -67,11 +71,13 @@ contains
       type(search_t) :: search
       type(status_t) :: status
       type(model_t) :: model
+      type(provenance_t) :: provenance
       integer(lp) :: began
       integer :: answer
       real(wp) :: excess
 
       call system_clock(began)
+      call find_provenance(command, provenance)
       limit%watched = 'largest displacement'
       if (command%watched(1) > 0) limit%watched = 'u'//to_text(command%watched(2))//' of node '//to_text(command%watched(1))
       allocate (limit%values(0))
@@ -84,8 +90,8 @@ contains
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
-      if (is_ok(status)) call finish(command, model, limit, seconds_since(began), status)
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      if (is_ok(status)) call finish(command, provenance, model, limit, seconds_since(began), status)
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
       if (is_ok(status) .and. .not. limit%is_close) code = STATUS_NOT_CONVERGED
    end subroutine find_limit
@@ -102,7 +108,7 @@ contains
       real(wp) :: x
       integer :: step
 
-      reporter%quiet = command%quiet
+      reporter%quiet = command%quiet .or. command%json
       store%keeps = .true.
       do
          call next_step(search, x, step)
@@ -188,12 +194,12 @@ contains
          call print_failure(command, limit, one%value, status)
          return
       end if
-      if (first) call print_messages(command%quiet, told + 1)
+      if (first) call print_messages(command%quiet, told + 1, command%json)
       if (n > 0) then
          call watch(model, history%frames(n), command%watched, one%displacement, error)
          code = error%code
          if (code /= STATUS_OK) then
-            call print_status(error, model%deck_path)
+            call print_status(error, model%deck_path, command%json)
             return
          end if
          call count_work(history, one)
@@ -265,10 +271,10 @@ contains
       type(status_t), intent(in) :: status
       type(status_t) :: longer
 
-      call print_messages(command%quiet, 1_ip)
+      call print_messages(command%quiet, 1_ip, command%json)
       if (.not. allocated(status%text)) return
       call set_status(longer, status%code, 'at '//limit%parameter//' = '//to_text(x, ALL_DIGITS)//': '//status%text)
-      call print_status(longer, command%names(1)%s)
+      call print_status(longer, command%names(1)%s, command%json)
    end subroutine print_failure
 
    !> What is known of a value so far.
@@ -339,24 +345,35 @@ contains
    end function end_text
 
    !> Tables, pictures and closing lines.
-   subroutine finish(command, model, limit, seconds, status)
+   subroutine finish(command, provenance, model, limit, seconds, status)
       type(command_t), intent(in) :: command
+      type(provenance_t), intent(in) :: provenance
       type(model_t), intent(in) :: model            !< at the value that falls
       type(stability_t), intent(in) :: limit
       real(wp), intent(in) :: seconds(2)             !< wall clock and processor
       type(status_t), intent(out) :: status
       type(origin_t) :: origin
       type(page_t) :: page
+      type(report_t) :: report
       type(string_t), allocatable :: pictures(:)
+      logical :: has_report
 
-      origin = series_origin(command,.not. limit%is_close)
-      call write_stability(output_folder(command), origin, limit, int(command%digits), status)
+      origin = series_origin(command, provenance,.not. limit%is_close)
+      call write_stability(output_folder(command), origin, limit, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
       allocate (pictures(0))
-      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, pictures)
+      if (command%plot) call write_stability_plots(output_folder(command), origin%deck, model, limit, command%view, &
+                                                   pictures)
       call compose_stability(command%names(1)%s, output_folder(command), limit, seconds, page, pictures)
-      call tell_series(command, page)
+      has_report = .false.
+      if (command%report) then
+         call begin_series('limit', command%names(1)%s, output_folder(command), ['limit    ', 'mechanism'], pictures, report)
+         report%heading = model%heading
+         call report_of_limit(limit, seconds, report)
+         call make_report(command, report, has_report)
+      end if
+      call tell_series(command, page, has_report)
    end subroutine finish
 
 end module atrito_stability_limit

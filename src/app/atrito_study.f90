@@ -10,13 +10,18 @@ module atrito_study
    use atrito_kinds, only: ip, wp
    use atrito_messages, only: clear_messages
    use atrito_numbers, only: read_real, NUMBER_OK
+   use atrito_observations, only: observation_names, observations_t
    use atrito_page, only: page_t
    use atrito_read_table, only: table_file_t, find_column
+   use atrito_provenance, only: provenance_t
+   use atrito_report, only: report_t
+   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_run, only: run_deck, load_model, solve_options, agree_on_outcome
-   use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series
+   use atrito_run, only: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
+   use atrito_series_reports, only: begin_series, take_heading, report_of_study
+   use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, join, nearest_names, to_text, upper_case
+   use atrito_strings, only: string_t, append_string, join, nearest_names, to_text, upper_case
    use atrito_summary, only: quantity_t, scales_t, quantity_names, pair_quantities, step_quantities, summarise_pair
    use atrito_study_errors, only: run_facts_t, study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
    use atrito_study_plot, only: write_study_plot
@@ -65,9 +70,11 @@ contains
       integer, intent(out) :: code
       type(status_t) :: status
       type(reporter_t) :: reporter
+      type(provenance_t) :: provenance
       integer :: k
 
-      reporter%quiet = command%quiet
+      reporter%quiet = command%quiet .or. command%json
+      call find_provenance(command, provenance)
       call list_runs(command, study)
       code = STATUS_OK
       do k = 1, size(study%rows)
@@ -83,9 +90,9 @@ contains
       end do
       if (is_ok(status) .and. k > size(study%rows)) then
          call make_probes(command, study, reporter)
-         call finish(command, study, status)
+         call finish(command, provenance, study, status)
       end if
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = max(code, status%code)
    end subroutine make_runs
 
@@ -140,6 +147,7 @@ contains
       type(body_cache_t) :: store
       type(model_t) :: model
       type(history_t) :: history
+      type(observations_t) :: observations
       type(reporter_t) :: reporter
       type(status_t) :: status
       integer(ip) :: told
@@ -151,9 +159,10 @@ contains
       call make_command(command, study%rows(k), one)
       call clear_messages()
       call load_model(one, reporter, model, told, code)
+      if (code == STATUS_OK) call prepare_observations(one, model, observations, code)
       if (code == STATUS_OK) then
          call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, is_penalty), merge(1.0_wp, 0.5_wp, is_penalty))
-         call solve_history(model, solve_options(one), reporter, history, status, store)
+         call solve_history(model, solve_options(one), reporter, history, status, store, observer=observations)
          associate (n => size(history%frames))
             if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
             if (is_ok(status)) call find_values(history%frames(n), study, probe%values)
@@ -185,7 +194,8 @@ contains
       has_failed = row%code /= STATUS_OK .and. row%code /= STATUS_NOT_CONVERGED
    end function has_failed
 
-   !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair.
+   !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair. What is observed is studied in any
+   !> case.
    subroutine choose_quantities(command, study, status)
       type(command_t), intent(in) :: command
       type(study_t), intent(inout) :: study
@@ -193,15 +203,13 @@ contains
       type(string_t), allocatable :: list(:)
       integer :: i, equals, outcome
 
-      list = command%references
-      if (size(list) == 0) list = [string_t('strain_energy'), string_t('normal_resultant')]
+      call list_references(command, list)
       allocate (study%quantities(size(list)))
       do i = 1, size(list)
          associate (quantity => study%quantities(i))
             equals = index(list(i)%s, '=')
-            quantity%name = list(i)%s
-            if (equals > 0) quantity%name = list(i)%s(:equals - 1)
-            call check_name(quantity%name, status)
+            quantity%name = quantity_of(list(i)%s)
+            call check_name(quantity%name, observation_names(command%observe), status)
             if (.not. is_ok(status)) return
             if (equals == 0) cycle
             quantity%is_given = .true.
@@ -214,14 +222,47 @@ contains
       end do
    end subroutine choose_quantities
 
-   subroutine check_name(name, status)
+   !> The references, then what is observed and not among them; without any reference the energy and the resultants last.
+   subroutine list_references(command, list)
+      type(command_t), intent(in) :: command
+      type(string_t), allocatable, intent(out) :: list(:)
+      type(string_t), allocatable :: observed(:)
+      integer :: i, k
+
+      list = command%references
+      observed = observation_names(command%observe)
+      do i = 1, size(observed)
+         do k = 1, size(command%references)
+            if (quantity_of(command%references(k)%s) == observed(i)%s) exit
+         end do
+         if (k > size(command%references)) call append_string(list, observed(i)%s)
+      end do
+      if (size(command%references) > 0) return
+      call append_string(list, 'strain_energy')
+      call append_string(list, 'normal_resultant')
+   end subroutine list_references
+
+   !> QUANTITY of `QUANTITY=VALUE` or of itself.
+   pure function quantity_of(reference) result(name)
+      character(len=*), intent(in) :: reference
+      character(len=:), allocatable :: name
+
+      name = reference
+      if (index(reference, '=') > 0) name = reference(:index(reference, '=') - 1)
+   end function quantity_of
+
+   subroutine check_name(name, observed, status)
       character(len=*), intent(in) :: name
+      type(string_t), intent(in) :: observed(:)     !< names of --observe
       type(status_t), intent(inout) :: status
       type(string_t), allocatable :: names(:), near(:)
       character(len=:), allocatable :: text
       integer :: i
 
       names = quantity_names()
+      do i = 1, size(observed)
+         call append_string(names, observed(i)%s)
+      end do
       do i = 1, size(names)
          if (names(i)%s == name) return
       end do
@@ -269,6 +310,7 @@ contains
       one = command
       one%quiet = .true.
       one%plot = .false.
+      one%report = .false.
       one%refine = command%refine + row%level
       if (row%element /= DECK_ELEMENTS) one%element = row%element
       one%shape = shape_of(one%element)
@@ -304,26 +346,38 @@ contains
       if (row > 0) amount = summary%value(find_column(summary, 'value'), row)
    end function amount
 
-   subroutine finish(command, study, status)
+   subroutine finish(command, provenance, study, status)
       type(command_t), intent(in) :: command
+      type(provenance_t), intent(in) :: provenance
       type(study_t), intent(inout) :: study
       type(status_t), intent(out) :: status
       type(origin_t) :: origin
       type(page_t) :: page
+      type(report_t) :: report
+      type(command_t) :: one
       type(string_t), allocatable :: drawn(:)
+      logical :: has_report
       character(len=:), allocatable :: title       !< the deck and what --set changed of it
 
       study%rounding = max(study%rounding, 10.0_wp**(1 - command%digits))
       call judge_study(study)
-      origin = series_origin(command, any(study%rows%code == STATUS_NOT_CONVERGED))
-      call write_study(output_folder(command), origin, study, int(command%digits), status)
+      origin = series_origin(command, provenance, any(study%rows%code == STATUS_NOT_CONVERGED))
+      call write_study(output_folder(command), origin, study, int(command%digits), status, command%is_csv)
       if (.not. is_ok(status)) return
       call begin_pictures(command)
       title = origin%deck
       if (size(command%settings) > 0) title = title//', '//join(command%settings, ', ')
       if (command%plot) call write_study_plot(output_folder(command), title, study, drawn)
       call compose_study(command%names(1)%s, output_folder(command), study, page)
-      call tell_series(command, page)
+      has_report = .false.
+      if (command%report) then
+         call begin_series('study', command%names(1)%s, output_folder(command), ['study'], drawn, report)
+         call make_command(command, study%rows(1), one)
+         call take_heading(one%folder, report)
+         call report_of_study(study, report)
+         call make_report(command, report, has_report)
+      end if
+      call tell_series(command, page, has_report)
    end subroutine finish
 
    pure elemental subroutine scale_laws(law, delta_factor, eps_factor)

@@ -11,12 +11,17 @@ module atrito_sweep
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: clear_messages
    use atrito_overlay_plots, only: write_overlay_plots
+   use atrito_observations, only: observation_names
    use atrito_page, only: page_t
    use atrito_plot_files, only: plot_folder
    use atrito_processes, only: begin_worker, end_worker, share_integers
+   use atrito_provenance, only: provenance_t
+   use atrito_report, only: report_t
+   use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
-   use atrito_series, only: claim_output, series_origin, begin_pictures, tell_series, seconds_since
+   use atrito_series_reports, only: begin_series, report_of_sweep
+   use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
@@ -35,6 +40,7 @@ module atrito_sweep
    type :: sweep_t
       type(command_t) :: command
       type(sweep_plan_t) :: plan
+      type(provenance_t) :: provenance
       integer(c_int), pointer :: shared(:) => null()   !< (3 n_runs)
       type(body_cache_t) :: store
    end type sweep_t
@@ -71,14 +77,15 @@ contains
       integer(lp) :: began
 
       call system_clock(began)
+      call find_provenance(sweep%command, sweep%provenance)
       sweep%shared = 0
       sweep%shared(:sweep%plan%n_runs) = NOT_DONE
       call make_runs(sweep)
       code = STATUS_USAGE
       if (sweep%shared(1) == STATUS_USAGE) return         ! the deck has no such parameter: told by the first run
       call collect(sweep, runs, status)
-      if (is_ok(status)) call finish(sweep%command, sweep%plan, runs, seconds_since(began), status)
-      if (.not. is_ok(status)) call print_status(status, sweep%command%names(1)%s)
+      if (is_ok(status)) call finish(sweep, runs, seconds_since(began), status)
+      if (.not. is_ok(status)) call print_status(status, sweep%command%names(1)%s, sweep%command%json)
       code = max(maxval(runs%code), status%code)
    end subroutine make_and_collect
 
@@ -113,9 +120,10 @@ contains
       integer :: i, code
 
       one = sweep%command
-      reporter%quiet = one%quiet
+      reporter%quiet = one%quiet .or. one%json
       call report_progress(reporter, 'run '//to_text(run)//' of '//to_text(sweep%plan%n_runs)//'  '//sweep%plan%labels(run)%s)
       one%quiet = .true.
+      one%report = .false.
       one%plot = .false.                            ! the pictures of a sweep lay its runs over one another
       one%threads = 1
       one%folder = run_folder(sweep, run)
@@ -162,53 +170,69 @@ contains
    end subroutine collect
 
    !> The tables of the sweep and the closing lines. A sweep of which no run wrote anything writes nothing.
-   subroutine finish(command, plan, runs, seconds, status)
-      type(command_t), intent(in) :: command
-      type(sweep_plan_t), intent(in) :: plan
+   subroutine finish(sweep, runs, seconds, status)
+      type(sweep_t), intent(in) :: sweep
       type(sweep_run_t), intent(in) :: runs(:)
       real(wp), intent(in) :: seconds(2)            !< wall clock and processor
       type(status_t), intent(out) :: status
       type(page_t) :: page
+      type(report_t) :: report
+      type(origin_t) :: origin
       type(string_t), allocatable :: pictures(:)
+      logical :: has_report
 
       if (.not. any(runs%is_written)) return
-      call write_sweep(output_folder(command), series_origin(command, any(runs%code == STATUS_NOT_CONVERGED .or. &
-                                                                          (runs%is_written .and. .not. runs%is_whole))), &
-                       plan%names, runs, int(command%digits), status)
-      if (.not. is_ok(status)) return
-      call begin_pictures(command)
-      allocate (pictures(0))
-      if (command%plot) call plot_sweep(command, plan, runs, pictures)
-      call compose_sweep(command%names(1)%s, plan%names, runs, output_folder(command), seconds, page, pictures)
-      call tell_series(command, page)
+      associate (command => sweep%command, plan => sweep%plan)
+         origin = series_origin(command, sweep%provenance, any(runs%code == STATUS_NOT_CONVERGED .or. &
+                                                               (runs%is_written .and. .not. runs%is_whole)))
+         call write_sweep(output_folder(command), origin, plan%names, observation_names(command%observe), runs, &
+                          int(command%digits), status, command%is_csv)
+         if (.not. is_ok(status)) return
+         call begin_pictures(command)
+         allocate (pictures(0))
+         if (command%plot) call plot_sweep(command, plan, runs, origin%deck, pictures)
+         call compose_sweep(command%names(1)%s, plan%names, observation_names(command%observe), runs, &
+                            output_folder(command), seconds, page, pictures)
+         has_report = .false.
+         if (command%report) then
+            call begin_series('sweep', command%names(1)%s, output_folder(command), ['sweep', 'runs '], pictures, report)
+            call report_of_sweep(plan%names, runs, seconds, report)
+            call make_report(command, report, has_report)
+         end if
+         call tell_series(command, page, has_report)
+      end associate
    end subroutine finish
 
    !> Lays the runs that came to their end over one another.
-   subroutine plot_sweep(command, plan, runs, drawn)
+   subroutine plot_sweep(command, plan, runs, deck, drawn)
       type(command_t), intent(in) :: command
       type(sweep_plan_t), intent(in) :: plan
       type(sweep_run_t), intent(in) :: runs(:)
+      character(len=*), intent(in) :: deck          !< its name
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(reporter_t) :: reporter
-      type(origin_t) :: origin
+      type(string_t), allocatable :: labels(:)
       real(wp), allocatable :: values(:)
       character(len=:), allocatable :: name
       integer, allocatable :: order(:)
       integer :: i
 
-      reporter%quiet = command%quiet
+      reporter%quiet = command%quiet .or. command%json
       call report_progress(reporter, 'plot  '//plot_folder(output_folder(command)))
       order = pack([(i, i=1, size(runs))], runs%is_whole)
       allocate (drawn(0))
       if (size(order) == 0) return
+      labels = plan%labels(order)
+      do i = 1, size(order)                         ! comma-separated values have no head that tells it
+         if (command%is_csv .and. runs(order(i))%code == STATUS_NOT_CONVERGED) labels(i)%s = labels(i)%s//' NOT CONVERGED'
+      end do
       name = ''
       allocate (values(0))
       if (size(plan%names) == 1) then
          name = plan%names(1)%s
          values = plan%values(1, order)
       end if
-      origin = series_origin(command, .false.)
-      call write_overlay_plots(output_folder(command), origin%deck, plan%labels(order), plan%folders(order), name, values, drawn)
+      call write_overlay_plots(output_folder(command), deck, labels, plan%folders(order), name, values, drawn)
    end subroutine plot_sweep
 
 end module atrito_sweep

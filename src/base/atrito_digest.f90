@@ -8,6 +8,7 @@ module atrito_digest
    implicit none (type, external)
    private
    public :: digest_t, add_to, add_allocated, digest_text
+   public :: text_digest_t, add_characters, hexadecimal
 
    integer(lp), parameter :: PRIME = 2147483647_lp
    integer(lp), parameter :: PLACE(2) = [1103515245_lp, 805306457_lp]
@@ -15,6 +16,17 @@ module atrito_digest
    type :: digest_t
       integer(lp) :: value(2) = [1_lp, 1_lp]
    end type digest_t
+
+   !> That of a text which comes in parts: how it is cut does not matter. Four characters are a word.
+   type, extends(digest_t) :: text_digest_t
+      integer(lp), private :: word = 0_lp          !< the characters of the last one that is not full
+      integer, private :: n = 0                    !< how many they are, 0..3
+      integer(lp), private :: length = 0_lp        !< of the text so far
+   end type text_digest_t
+
+   integer, parameter :: WORD_LENGTH = 4
+   integer(lp), parameter :: BYTE = 256_lp
+   integer, parameter :: PRIME_BITS = 31
 
    !> Takes a value, or a list with its length, into a digest.
    interface add_to
@@ -166,6 +178,70 @@ contains
       call add_logical(digest, allocated(text))
       if (allocated(text)) call add_text(digest, text)
    end subroutine add_allocated_text
+
+   !> Takes the next part of a text.
+   pure subroutine add_characters(digest, text)
+      type(text_digest_t), intent(inout) :: digest
+      character(len=*), intent(in) :: text
+      integer(lp) :: value(2), word
+      integer :: i, first
+
+      first = 1
+      do while (first <= len(text) .and. digest%n > 0)
+         call add_character(digest, text(first:first))
+         first = first + 1
+      end do
+      value = digest%value
+      do i = first, len(text) - WORD_LENGTH + 1, WORD_LENGTH
+         word = ichar(text(i:i), lp) + BYTE*(ichar(text(i + 1:i + 1), lp) + BYTE*(ichar(text(i + 2:i + 2), lp) + &
+                                                                                  BYTE*ichar(text(i + 3:i + 3), lp)))
+         value = folded(folded(value*PLACE + word))
+         digest%length = digest%length + WORD_LENGTH
+      end do
+      digest%value = modulo(value, PRIME)
+      do i = i, len(text)
+         call add_character(digest, text(i:i))
+      end do
+   end subroutine add_characters
+
+   pure subroutine add_character(digest, symbol)
+      type(text_digest_t), intent(inout) :: digest
+      character(len=1), intent(in) :: symbol
+
+      digest%word = digest%word + BYTE**digest%n*ichar(symbol, lp)
+      digest%n = digest%n + 1
+      digest%length = digest%length + 1
+      if (digest%n < WORD_LENGTH) return
+      call add_word(digest%digest_t, digest%word)
+      digest%word = 0_lp
+      digest%n = 0
+   end subroutine add_character
+
+   !> The same modulo the prime, below 2**31 + 2**(b - 31) of a number of b bits: 2**31 is 1.
+   elemental integer(lp) function folded(x)
+      integer(lp), intent(in) :: x
+
+      folded = iand(x, PRIME) + shiftr(x, PRIME_BITS)
+   end function folded
+
+   !> Sixteen hexadecimal digits of a text.
+   pure function hexadecimal(digest) result(text)
+      type(text_digest_t), intent(in) :: digest
+      character(len=16) :: text
+      character(len=16), parameter :: DIGITS = '0123456789abcdef'
+      type(digest_t) :: whole
+      integer :: i, k
+
+      whole = digest%digest_t
+      call add_word(whole, digest%word)
+      call add_word(whole, ibits(digest%length, 0, 32))
+      do i = 1, len(text)
+         associate (value => whole%value(1 + (i - 1)/8))
+            k = int(ibits(value, 4*(7 - mod(i - 1, 8)), 4))
+            text(i:i) = DIGITS(k + 1:k + 1)
+         end associate
+      end do
+   end function hexadecimal
 
    pure function digest_text(digest) result(text)
       type(digest_t), intent(in) :: digest

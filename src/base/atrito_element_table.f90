@@ -6,12 +6,12 @@
 module atrito_element_table
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: elastic_t, STATES, PLANE_STRAIN, PLANE_STRESS, AXISYMMETRIC, PLANE_STRAIN_REDUCED, &
-                                 PLANE_STRESS_REDUCED, AXISYMMETRIC_REDUCED, IS_REDUCED, FORMULATION_BBAR
+                                 PLANE_STRESS_REDUCED, AXISYMMETRIC_REDUCED, IS_REDUCED, PLAIN_STATE, FORMULATION_BBAR
    implicit none (type, external)
    private
    public :: element_shape_t, element_kind_t, SHAPES, KINDS
    public :: CORNERS_OF, DEGREE_OF, BEST_OF, POINTS_OF, ERROR_POINTS_OF
-   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, kind_of, can_average, has_mean_dilatation, POINT_COUNT
+   public :: MOST_NODES, MOST_SIDES, MOST_CORNERS, kind_named, is_membrane, kind_of, can_average, has_mean_dilatation, POINT_COUNT
 
    integer(ip), parameter :: MOST_NODES = 9, MOST_CORNERS = 4, MOST_SIDES = 4
 
@@ -79,18 +79,28 @@ module atrito_element_table
 
 contains
 
-   !> Place in KINDS of a name in capitals; 0: there is none.
+   !> Place in KINDS of a name in capitals; 0: there is none. A membrane (M3D4) of the plane is in plane stress (CPS4).
    pure integer(ip) function kind_named(name)
       character(len=*), intent(in) :: name
 
-      kind_named = findloc(KINDS%name, name, dim=1, kind=ip)
+      if (is_membrane(name)) then
+         kind_named = findloc(KINDS%name, 'CPS'//name(4:), dim=1, kind=ip)
+      else
+         kind_named = findloc(KINDS%name, name, dim=1, kind=ip)
+      end if
    end function kind_named
+
+   pure logical function is_membrane(name)
+      character(len=*), intent(in) :: name
+
+      is_membrane = index(name, 'M3D') == 1
+   end function is_membrane
 
    !> Place in KINDS of a shape in a plane state.
    pure integer(ip) function kind_of(shape, state)
       integer(ip), intent(in) :: shape, state
 
-      kind_of = findloc(KINDS%shape == shape .and. KINDS%state == state, .true., dim=1, kind=ip)
+      kind_of = findloc(KINDS%shape == shape .and. KINDS%state == PLAIN_STATE(state), .true., dim=1, kind=ip)
    end function kind_of
 
    !> Whether the strains of an element may have one dilatation, its mean (B-bar): four nodes without strain across the plane.

@@ -13,9 +13,10 @@ module atrito_files
                             hold_interrupts, release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
-   public :: read_file, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
+   public :: read_file, read_bytes, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
              remove_empty_folder, check_folder
-   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, close_text, NEW_LINE_CHARACTER
+   public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, put_text, close_text, &
+             NEW_LINE_CHARACTER
    public :: end_files, commit_files, commit_over, discard_files, judge_file
 
    !> A set of files that appear together or not at all.
@@ -48,6 +49,25 @@ contains
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: text
       type(status_t), intent(out) :: status
+
+      call read_plain(path, FIRST_BYTES, text, status)
+   end subroutine read_file
+
+   !> Reads a whole file, whatever its bytes are, one a character. status: STATUS_FILE when it cannot be read.
+   subroutine read_bytes(path, bytes, status)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable, intent(out) :: bytes
+      type(status_t), intent(out) :: status
+
+      call read_plain(path, int(LARGEST_FILE), bytes, status)
+   end subroutine read_bytes
+
+   !> Reads a file: its first bytes, and where there is no zero among them the others, too.
+   subroutine read_plain(path, peek, text, status)
+      character(len=*), intent(in) :: path
+      integer, intent(in) :: peek
+      character(len=:), allocatable, intent(out) :: text
+      type(status_t), intent(out) :: status
       character(len=256) :: reason
       integer :: unit, ios
       integer(lp) :: length
@@ -63,10 +83,10 @@ contains
          return
       end if
       inquire (unit=unit, size=length)
-      call read_text(unit, int(max(0_lp, min(length, LARGEST_FILE))), text, ios, reason)
+      call read_text(unit, int(max(0_lp, min(length, LARGEST_FILE))), peek, text, ios, reason)
       close (unit)
       if (ios /= 0) call set_status(status, STATUS_FILE, path//': cannot be read: '//trim(reason))
-   end subroutine read_file
+   end subroutine read_plain
 
    !> What is read must be a plain file: a folder has no text, and a pipe that nobody writes into would never end.
    subroutine judge_file(path, status)
@@ -80,14 +100,15 @@ contains
       end if
    end subroutine judge_file
 
-   subroutine read_text(unit, length, text, ios, reason)
+   subroutine read_text(unit, length, peek, text, ios, reason)
       integer, intent(in) :: unit, length
+      integer, intent(in) :: peek            !< of a file that turns out to be no text no more are read
       character(len=:), allocatable, intent(out) :: text
       integer, intent(out) :: ios
       character(len=*), intent(inout) :: reason
       integer :: first
 
-      first = min(length, FIRST_BYTES)
+      first = min(length, peek)
       allocate (character(len=first) :: text)
       ios = 0
       if (length == 0) return
@@ -183,9 +204,26 @@ contains
       type(text_file_t), intent(inout) :: file
       character(len=*), contiguous, intent(in) :: lines(:)
 
-      if (.not. is_ok(file%status)) return
-      if (c_write_text(file%stream, lines, len(lines, kind=c_size_t)*size(lines, kind=c_size_t)) == 0) call fail_to_write(file)
+      call put_characters(file, lines, len(lines, kind=c_size_t)*size(lines, kind=c_size_t))
    end subroutine put_lines
+
+   !> Writes a part of a line, or of many.
+   subroutine put_text(file, text)
+      type(text_file_t), intent(inout) :: file
+      character(len=*), intent(in) :: text
+
+      call put_characters(file, text, len(text, kind=c_size_t))
+   end subroutine put_text
+
+   !> The one call of c_write_text: where a text and an array of them go to it, gfortran 12 forgets what is passed by value.
+   subroutine put_characters(file, text, length)
+      type(text_file_t), intent(inout) :: file
+      character(len=1), intent(in) :: text(*)
+      integer(c_size_t), intent(in) :: length
+
+      if (.not. is_ok(file%status)) return
+      if (c_write_text(file%stream, text, length) == 0) call fail_to_write(file)
+   end subroutine put_characters
 
    subroutine fail_to_write(file)
       type(text_file_t), intent(inout) :: file

@@ -28,22 +28,26 @@ contains
    !> Makes a folder where it is missing and claims it; waits, and says so, while another run has it.
    !>
    !> status: STATUS_FILE when the folder cannot be made, or another run keeps it too long. Then nothing is claimed.
-   subroutine claim_folder(folder, claim, status, patience)
+   subroutine claim_folder(folder, claim, status, patience, silent)
       character(len=*), intent(in) :: folder
       type(folder_claim_t), intent(out) :: claim
       type(status_t), intent(out) :: status
       real(wp), intent(in), optional :: patience     !< [s] to wait for another run; default an hour
+      logical, intent(in), optional :: silent        !< not a word about the wait
       integer :: i
       real(wp) :: seconds
+      logical :: tells
 
       seconds = LONGEST_WAIT
       if (present(patience)) seconds = patience
+      tells = .true.
+      if (present(silent)) tells = .not. silent
       do i = 1, MOST_TRIES
          call make_folder(folder, status, claim%made)
          if (is_ok(status)) then
             claim%descriptor = c_open_folder(folder//c_null_char)
             if (claim%descriptor < 0) cycle
-            call await_lock(claim%descriptor, folder, seconds, status)
+            call await_lock(claim%descriptor, folder, seconds, tells, status)
          end if
          if (.not. is_ok(status)) then
             call release_folder(claim)
@@ -56,15 +60,16 @@ contains
       end do
    end subroutine claim_folder
 
-   subroutine await_lock(descriptor, folder, seconds, status)
+   subroutine await_lock(descriptor, folder, seconds, tells, status)
       integer, intent(in) :: descriptor
       character(len=*), intent(in) :: folder
       real(wp), intent(in) :: seconds
+      logical, intent(in) :: tells
       type(status_t), intent(inout) :: status
       integer :: ios
 
       if (c_lock_folder(descriptor, 0.0_wp) == 1) return
-      write (error_unit, '(a)', iostat=ios) 'wait  another run writes into '//folder
+      if (tells) write (error_unit, '(a)', iostat=ios) 'wait  another run writes into '//folder
       flush (error_unit, iostat=ios)
       if (c_lock_folder(descriptor, seconds) == 1) return
       call set_status(status, STATUS_FILE, folder//': another run has had this folder for '//to_text(seconds/60.0_wp, 3)// &

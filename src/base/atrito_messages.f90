@@ -9,12 +9,13 @@ module atrito_messages
    private
    public :: message_t, add_message, add_warning, add_note, has_room, count_messages, get_message, clear_messages, sort_messages
    public :: message_mark_t, mark_messages, forget_messages
-   public :: format_message
-   public :: SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE, MOST_ERRORS, WIDEST_SOURCE
+   public :: format_message, place_of_message, severity_word
+   public :: SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE, MOST_ERRORS, WIDEST_SOURCE, ID_OUTSIDE
 
    integer, parameter :: SEVERITY_ERROR = 1, SEVERITY_WARNING = 2, SEVERITY_NOTE = 3
    integer, parameter :: MOST_ERRORS = 50       !< errors printed; the rest is counted
    integer(ip), parameter :: MOST_KEPT = 1000   !< messages of a severity kept; the rest is counted
+   character(len=*), parameter :: ID_OUTSIDE = 'E-OUTSIDE'
    integer(ip), parameter :: WIDEST_SOURCE = 100 !< characters shown of a longer line of the deck
 
    type :: message_t
@@ -30,7 +31,9 @@ module atrito_messages
       type(string_t), allocatable :: nearest(:) !< nearest valid names
       type(string_t), allocatable :: known(:)   !< all valid names, when they are few
       character(len=:), allocatable :: keyword  !< for `atrito help KEYWORD`
+      logical :: is_of_place = .false.          !< told once of a place, whatever its text
       integer(ip) :: order = huge(1_ip)         !< place in reading order: messages are told in it
+      integer(ip) :: more = 0                   !< how many lines more it is true of
    end type message_t
 
    !> How many messages there were at some time.
@@ -45,7 +48,8 @@ module atrito_messages
 
 contains
 
-   !> Keeps a message. One that says the same of the same place is kept once; when a thousand of its severity are kept, it is
+   !> Keeps a message. One that says the same of the same place is kept once, a name that is unknown where it stands first,
+   !> and a note or a refusal that says the same of another line with a count. When a thousand of its severity are kept, it is
    !> counted only (a large deck can be wrong in every line).
    subroutine add_message(message)
       type(message_t), intent(in) :: message
@@ -57,7 +61,13 @@ contains
       end if
       if (.not. allocated(store)) allocate (store(16))
       do i = 1, stored
-         if (is_same(store(i), message)) return
+         if (is_same(store(i), message)) then
+            if (message%order < store(i)%order) store(i) = message
+            return
+         end if
+         if (.not. is_same_kind(store(i), message)) cycle
+         store(i)%more = store(i)%more + 1
+         return
       end do
       if (stored == size(store)) store = [store, store]    ! doubled
       stored = stored + 1
@@ -76,8 +86,37 @@ contains
       type(message_t), intent(in) :: a, b
 
       is_same = a%severity == b%severity .and. a%line == b%line .and. a%column == b%column .and. a%order == b%order
+      if (is_same .and. b%is_of_place .and. b%line > 0) then
+         is_same = a%id == b%id
+         return
+      end if
+      if (.not. is_same) is_same = a%severity == b%severity .and. tells_a_name(a)
       if (is_same) is_same = a%text == b%text
    end function is_same
+
+   !> Of other lines the same need not be told again: what has no effect, and what is refused by its name.
+   pure logical function is_same_kind(a, b)
+      type(message_t), intent(in) :: a, b
+
+      is_same_kind = a%severity == b%severity .and. min(a%line, b%line) > 0
+      if (.not. is_same_kind) return
+      is_same_kind = a%severity == SEVERITY_NOTE .or. a%id == ID_OUTSIDE
+      if (is_same_kind) is_same_kind = a%id == b%id .and. a%text == b%text
+   end function is_same_kind
+
+   !> The message is about a name or number that does not exist, not about the place where it stands: it is missing once.
+   pure logical function tells_a_name(message)
+      type(message_t), intent(in) :: message
+      character(len=*), parameter :: IDS = ' E-NODE E-ELEMENT E-SET E-SURFACE E-MATERIAL E-INTERACTION E-AMPLITUDE E-PARAMETER '// &
+                                     'E-EXPRESSION E-PART '
+      character(len=*), parameter :: UNKNOWN = 'unknown ', MISSING = ' does not exist'
+
+      tells_a_name = .false.
+      if (.not. (allocated(message%id) .and. allocated(message%text))) return
+      if (index(IDS, ' '//message%id//' ') == 0) return
+      tells_a_name = index(message%text, UNKNOWN) == 1 .or. &
+                     index(message%text, MISSING, back=.true.) == len(message%text) - len(MISSING) + 1
+   end function tells_a_name
 
    !> A warning without a place.
    subroutine add_warning(id, text)
@@ -183,16 +222,31 @@ contains
    function first_line(message) result(text)
       type(message_t), intent(in) :: message
       character(len=:), allocatable :: text
-      character(len=7), parameter :: WORD(3) = ['error  ', 'warning', 'note   ']
+
+      text = place_of_message(message)//severity_word(message%severity)//' ['//message%id//'] '//message%text
+      if (message%more > 0) text = text//' (and '//to_text(message%more)//' more '// &
+                                   trim(merge('line ', 'lines', message%more == 1))//')'
+   end function first_line
+
+   !> `FILE:LINE:COLUMN: `, what stands before the word of the severity; empty where there is no place at all.
+   pure function place_of_message(message) result(text)
+      type(message_t), intent(in) :: message
+      character(len=:), allocatable :: text
 
       text = ''
-      if (allocated(message%file)) then
-         text = message%file//':'
-         if (message%line > 0) text = text//to_text(message%line)//':'//to_text(max(message%column, 1_ip))//':'
-         text = text//' '
-      end if
-      text = text//trim(WORD(message%severity))//' ['//message%id//'] '//message%text
-   end function first_line
+      if (.not. allocated(message%file)) return
+      text = message%file//':'
+      if (message%line > 0) text = text//to_text(message%line)//':'//to_text(max(message%column, 1_ip))//':'
+      text = text//' '
+   end function place_of_message
+
+   pure function severity_word(severity) result(word)
+      integer, intent(in) :: severity               !< SEVERITY_...
+      character(len=:), allocatable :: word
+      character(len=7), parameter :: WORDS(SEVERITY_NOTE) = ['error  ', 'warning', 'note   ']
+
+      word = trim(WORDS(severity))
+   end function severity_word
 
    !> The deck's line and the marker below it; of a long line the part round the marker.
    subroutine append_source(lines, message)

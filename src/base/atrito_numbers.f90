@@ -5,9 +5,10 @@
 module atrito_numbers
    use atrito_kinds, only: ip, lp, wp
    use atrito_powers_of_ten, only: POWER, POWER_SHIFT, MOST_POWER, POWER_BITS, XP
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_real, read_integer, NUMBER_OK, NUMBER_MALFORMED, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
+   public :: read_real, read_integer, exact_text, NUMBER_OK, NUMBER_MALFORMED, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
 
    integer, parameter :: NUMBER_OK = 0
    integer, parameter :: NUMBER_MALFORMED = 1      !< not of the form above
@@ -199,6 +200,55 @@ contains
       end if
       if (outcome /= NUMBER_OK) value = 0.0_wp
    end subroutine read_long_real
+
+   !> The shortest text of a real that gives the same double back: 0.1, not 0.10000000000000001.
+   pure function exact_text(x) result(text)
+      real(wp), intent(in) :: x                          !< finite
+      character(len=:), allocatable :: text
+      integer, parameter :: ALL_DIGITS = 17              !< so many always do
+      real(wp) :: again
+      integer :: n, outcome
+      logical :: found
+
+      call find_decimal(x, text, found)
+      if (found) return
+      do n = EXACT_DIGITS + 1, ALL_DIGITS
+         text = to_text(x, n)
+         call read_real(text, again, outcome)
+         if (outcome == NUMBER_OK .and. abs(again - x) <= 0.0_wp) return
+      end do
+   end function exact_text
+
+   !> |x| as an integer of few digits over a power of ten, which read_real divides in the same way.
+   pure subroutine find_decimal(x, text, found)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable, intent(out) :: text
+      logical, intent(out) :: found
+      real(wp), parameter :: LEAST_FIXED = 1.0e-3_wp     !< smaller ones have an exponent
+      real(wp) :: mantissa
+      integer :: places, n
+
+      found = .false.
+      mantissa = 0.0_wp
+      do places = 0, EXACT_POWERS
+         mantissa = abs(x)*EXACT_POWER(places)
+         if (mantissa >= EXACT_POWER(EXACT_DIGITS)) return
+         mantissa = anint(mantissa)
+         found = abs(mantissa/EXACT_POWER(places) - abs(x)) <= 0.0_wp
+         if (found) exit
+      end do
+      if (.not. found) return
+      text = to_text(int(mantissa, lp))
+      n = len(text)
+      if (places > 0 .and. abs(x) < LEAST_FIXED) then
+         if (n > 1) text = text(1:1)//'.'//text(2:)
+         text = text//'e-'//to_text(places + 1 - n)
+      else if (places > 0) then
+         if (n <= places) text = repeat('0', places + 1 - n)//text
+         text = text(:len(text) - places)//'.'//text(len(text) - places + 1:)
+      end if
+      if (x < 0.0_wp) text = '-'//text
+   end subroutine find_decimal
 
    !> Reads an integer; `outcome` is one of NUMBER_*.
    pure subroutine read_integer(text, value, outcome)

@@ -83,13 +83,26 @@ contains
       text = long_to_text(int(i, lp))
    end function integer_to_text
 
+   !> By digits: a formatted write takes thirty times as long, and a listing is full of numbers.
    pure function long_to_text(i) result(text)
       integer(lp), intent(in) :: i
       character(len=:), allocatable :: text
       character(len=24) :: buffer
+      integer(lp) :: rest
+      integer :: first
 
-      write (buffer, '(i0)') i
-      text = trim(buffer)
+      rest = i                                      ! not positive: the least integer has no opposite
+      if (i > 0) rest = -i
+      first = len(buffer)
+      buffer(first:first) = achar(iachar('0') - int(mod(rest, 10_lp)))
+      do while (rest <= -10_lp)
+         rest = rest/10_lp
+         first = first - 1
+         buffer(first:first) = achar(iachar('0') - int(mod(rest, 10_lp)))
+      end do
+      if (i < 0) first = first - 1
+      if (i < 0) buffer(first:first) = '-'
+      text = buffer(first:)
    end function long_to_text
 
    !> Real to text for messages: shortest of fixed and exponent form with `digits` significant digits (default 6).

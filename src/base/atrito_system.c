@@ -89,6 +89,8 @@ int64_t atrito_file_length(const char *path) {
    return length < 0 ? -2 : length;
 }
 
+int atrito_is_terminal(int file) { return isatty(file); }
+
 void *atrito_create_file(const char *path) { return fopen(path, "wb"); }
 
 /* 1: all of it is written, as far as is known by now. */

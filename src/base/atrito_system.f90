@@ -6,7 +6,7 @@ module atrito_system
    implicit none (type, external)
    private
    public :: c_is_folder, c_may_write, c_judge_folder, c_make_folder, c_remove_file, c_remove_folder, c_rename, c_true_path
-   public :: c_file_length, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file
+   public :: c_is_terminal, c_file_length, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file
    public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit, terminate
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
@@ -70,6 +70,10 @@ module atrito_system
    procedure(ask_bytes), bind(C, name='atrito_reusable_memory') :: reusable_memory
 
    interface
+      integer(c_int) function c_is_terminal(file) bind(C, name='atrito_is_terminal')
+         import :: c_int
+         integer(c_int), value :: file              !< 1: standard output, 2: standard error
+      end function c_is_terminal
       integer(c_int) function c_make_folder(path, is_noted) bind(C, name='atrito_make_folder')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)

@@ -10,7 +10,7 @@ module atrito_master
    use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
    private
-   public :: master_t, sight_t, master_of_faces, master_of_segments, smooth_normal, is_out_of_sight, &
+   public :: master_t, sight_t, master_of_faces, master_of_segments, turn_master, smooth_normal, is_out_of_sight, &
              look_along, look_at_end, nearest_end
 
    !> Faces of elements, or rigid segments and arcs.
@@ -59,6 +59,16 @@ contains
       call smooth_surface(mesh, faces, master%ends, master%curvature, master%bend)
       call plant(master%pieces_t, master%tree)
    end subroutine master_of_faces
+
+   !> The same pieces with their outside on the other side.
+   pure subroutine turn_master(master)
+      type(master_t), intent(inout) :: master
+
+      master%side = -master%side
+      master%ends = -master%ends
+      master%bend = -master%bend
+      call plant(master%pieces_t, master%tree)
+   end subroutine turn_master
 
    !> Rigid segments: the outward normal is the direction of travel turned by +90 degrees.
    pure subroutine master_of_segments(ends, master, is_arc, centre)

@@ -16,7 +16,7 @@ module atrito_mortar_points
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, smooth_normal
-   use atrito_mesh, only: mesh_t, face_nodes, is_revolved
+   use atrito_mesh, only: mesh_t, face_nodes, is_revolved, depth_places
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
    use atrito_pieces, only: cross_piece, place_at
@@ -103,6 +103,7 @@ contains
          else
             face%state = mesh%state(slave%element(i))
             face%thickness = thickness(slave%element(i))
+            face%places(:face%n) = depth_places(mesh, face%state, face%node(:face%n))
             call integrate_face(mesh, face, i, segments, master_faces, master, integrals)
             call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
@@ -161,7 +162,7 @@ contains
          psi = weighting(n, t, integrals)
          ds = weight*norm2(face_direction(face%x(:, :n), t))
          integrals%length = integrals%length + ds*psi
-         ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%x(1, :n)))
+         ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
          call look_at_piece(face, t, master, piece, on_master, normal, gap)
          if (size(nodes) == 2) gap = gap + 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
          if (n == 2) gap = gap - 0.125_wp*curvature*(1 - t**2)*face%length**2

@@ -11,7 +11,7 @@ module atrito_nodal_points
    use atrito_master, only: master_t, sight_t, smooth_normal, is_out_of_sight, look_along, look_at_end, &
                             nearest_end
    use atrito_pieces, only: place_at
-   use atrito_plane_state, only: depth_at, STATES
+   use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_revolved_faces, only: revolved_face_t, mixed_rows_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
@@ -49,6 +49,7 @@ contains
       points%n_faces = slave%n
       used = [(finds_master(mesh, slave, i, master), i=1, slave%n)]
       points%n_left_out = count(.not. used, kind=ip)
+      if (points%n_left_out == slave%n) points%n_seeing = count([(sees_master(mesh, slave, i, master), i=1, slave%n)], kind=ip)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], used)
       call allocate_points(3*slave%n, 3*slave%n*NODAL_ENTRIES, points)
       call place_points(mesh, thickness, slave, used, points, curvature, mixed)
@@ -66,22 +67,51 @@ contains
       integer(ip), intent(in) :: i
       type(master_t), intent(in) :: master
       type(nodal_rule_t) :: rule
-      type(sight_t) :: sight
       integer(ip) :: k
 
       rule = nodal_rule(mesh, slave%element(i), slave%face(i))
       finds = .true.
       do k = 1, rule%n
-         associate (x => mesh%x(:, rule%node(k)), normal => rule%normal(:, k), reach => rule%s(rule%n))
-            finds = .not. is_out_of_sight(x, normal, CORNER, master)
-            if (.not. finds) return
-            sight = look_along(x, normal, reach, master)
-            if (sight%piece == 0) sight = look_at_end(x, normal, reach, turn_at(mesh, slave, i, rule), master)
-         end associate
-         finds = sight%piece > 0
+         finds = node_finds(mesh, slave, i, rule, k, master)
          if (.not. finds) return
       end do
    end function finds_master
+
+   !> A node of the face finds the master, or the middle of a straight one does.
+   pure logical function sees_master(mesh, slave, i, master) result(sees)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      type(master_t), intent(in) :: master
+      type(nodal_rule_t) :: rule
+      type(sight_t) :: sight
+      integer(ip) :: k
+
+      rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+      sight = look_along(0.5_wp*(mesh%x(:, rule%node(1)) + mesh%x(:, rule%node(rule%n))), rule%normal(:, 1), rule%s(rule%n), master)
+      sees = sight%piece > 0
+      do k = 1, rule%n
+         sees = sees .or. node_finds(mesh, slave, i, rule, k, master)
+      end do
+   end function sees_master
+
+   pure logical function node_finds(mesh, slave, i, rule, k, master) result(finds)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      integer(ip), intent(in) :: i
+      type(nodal_rule_t), intent(in) :: rule           !< of face i
+      integer(ip), intent(in) :: k
+      type(master_t), intent(in) :: master
+      type(sight_t) :: sight
+
+      associate (x => mesh%x(:, rule%node(k)), normal => rule%normal(:, k), reach => rule%s(rule%n))
+         finds = .not. is_out_of_sight(x, normal, CORNER, master)
+         if (.not. finds) return
+         sight = look_along(x, normal, reach, master)
+         if (sight%piece == 0) sight = look_at_end(x, normal, reach, turn_at(mesh, slave, i, rule), master)
+      end associate
+      finds = sight%piece > 0
+   end function node_finds
 
    !> One point a slave node; weights and normals of the faces that share it are summed.
    pure subroutine place_points(mesh, thickness, slave, used, points, curvature, mixed)
@@ -104,7 +134,7 @@ contains
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-         if (STATES(mesh%state(slave%element(i)))%has_hoop) then
+         if (STATES(mesh%state(slave%element(i)))%has_hoop .or. IS_TAPERED(mesh%state(slave%element(i)))) then
             face = revolve_face(mesh, mesh%state(slave%element(i)), thickness(slave%element(i)), rule)
          end if
          do k = 1, merge(rule%n, 0_ip, used(i))

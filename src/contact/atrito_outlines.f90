@@ -44,15 +44,17 @@ module atrito_outlines
 
 contains
 
-   !> The outer faces of all elements in the order of these.
-   subroutine list_outlines(mesh, around, body_of_element, outlines)
+   !> The outer faces of all elements in the order of these, without those of cuts.
+   subroutine list_outlines(mesh, around, body_of_element, outlines, cut)
       type(mesh_t), intent(in) :: mesh
       type(node_elements_t), intent(in) :: around
       integer(ip), intent(in) :: body_of_element(:)
       type(outlines_t), intent(out) :: outlines
+      type(face_list_t), intent(in), optional :: cut !< faces that hold together with others
       integer(ip) :: i
 
       outlines%faces = outer_faces(mesh, around, [(i, i=1, mesh%n_elements)])
+      if (present(cut)) call leave_out(cut, outlines%faces)
       associate (faces => outlines%faces)
          outlines%body = body_of_element(faces%element(:faces%n))
          allocate (outlines%length(faces%n), outlines%next(faces%n))
@@ -64,6 +66,22 @@ contains
       end associate
       call join_faces(mesh, outlines)
    end subroutine list_outlines
+
+   pure subroutine leave_out(some, faces)
+      type(face_list_t), intent(in) :: some
+      type(face_list_t), intent(inout) :: faces
+      integer(ip) :: i, n
+
+      if (some%n == 0) return
+      n = 0
+      do i = 1, faces%n
+         if (any(some%element(:some%n) == faces%element(i) .and. some%face(:some%n) == faces%face(i))) cycle
+         n = n + 1
+         faces%element(n) = faces%element(i)
+         faces%face(n) = faces%face(i)
+      end do
+      faces%n = n
+   end subroutine leave_out
 
    !> Where a face ends another one begins; two of them where corners of a body meet, and then neither goes on.
    subroutine join_faces(mesh, outlines)

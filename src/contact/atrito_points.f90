@@ -23,6 +23,7 @@ module atrito_points
       integer(ip), allocatable :: entry(:)          !< nodes
       real(wp), allocatable :: coefficient(:)
       integer(ip) :: n_faces = 0, n_left_out = 0    !< slave faces; those of them that find no master
+      integer(ip) :: n_seeing = 0                   !< NODAL, where all are left out: those that see it with a part of them
       integer(lp), allocatable :: faces(:)          !< a number of its own for each of the slave's faces that are not left out
       logical :: matching = .false.                 !< every point faces a master node and the orders are equal
       logical :: rigid = .false.

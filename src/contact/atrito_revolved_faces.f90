@@ -1,4 +1,5 @@
-!> Faces of an axisymmetric slave: what their points weigh on the full circle, and what is done at the axis.
+!> Faces of an axisymmetric slave: what their points weigh on the full circle, and what is done at the axis. Those of tapered
+!> elements go the same way, with their thickness in the place of 2 pi r.
 !>
 !> The shape functions N of a face carry a uniform pressure by int N n 2 pi r ds, which the points have to have as weight and
 !> normal, so that it passes from side to side exactly. (In the plane the trapezoidal rule and Simpson's do that.) A face of the
@@ -12,7 +13,7 @@ module atrito_revolved_faces
    use atrito_face_geometry, only: face_direction, outward_normal
    use atrito_growth, only: make_room
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t
+   use atrito_mesh, only: mesh_t, depth_places
    use atrito_plane_state, only: STATES, depth_at
    use atrito_points, only: contact_points_t
    use atrito_shape_functions, only: face_shape_values, gauss_rule
@@ -68,7 +69,7 @@ contains
       real(wp), intent(in) :: thickness
       type(nodal_rule_t), intent(in) :: rule       !< of the face
       type(revolved_face_t) :: face
-      real(wp) :: x(2, MOST), vector(2, MOST)
+      real(wp) :: x(2, MOST), vector(2, MOST), places(MOST)
       integer(ip) :: order(MOST), k, n
 
       n = rule%n
@@ -77,14 +78,15 @@ contains
       do k = 1, n
          x(:, order(k)) = mesh%x(:, rule%node(k))
       end do
+      places(order(:n)) = depth_places(mesh, state, rule%node(:n))
       face%n = n
       face%mixes = is_at_axis(state, x(:, :n))
       vector = 0.0_wp
       if (face%mixes) then                         ! the hats have a kink in the middle
-         call add_part(x(:, :n), state, thickness, [-1.0_wp, 0.0_wp], face, vector)
-         call add_part(x(:, :n), state, thickness, [0.0_wp, 1.0_wp], face, vector)
+         call add_part(x(:, :n), places(:n), state, thickness, [-1.0_wp, 0.0_wp], face, vector)
+         call add_part(x(:, :n), places(:n), state, thickness, [0.0_wp, 1.0_wp], face, vector)
       else
-         call add_part(x(:, :n), state, thickness, [-1.0_wp, 1.0_wp], face, vector)
+         call add_part(x(:, :n), places(:n), state, thickness, [-1.0_wp, 1.0_wp], face, vector)
       end if
       do k = 1, n
          face%weight(k) = norm2(vector(:, order(k)))
@@ -94,8 +96,9 @@ contains
    end function revolve_face
 
    !> Adds the integrals over a part of a face.
-   pure subroutine add_part(x, state, thickness, part, face, vector)
+   pure subroutine add_part(x, places, state, thickness, part, face, vector)
       real(wp), intent(in) :: x(:, :)              !< in the order of face_nodes [L]
+      real(wp), intent(in) :: places(:)            !< what the depth goes by at these nodes (depth_places) [L]
       integer(ip), intent(in) :: state
       real(wp), intent(in) :: thickness, part(2)   !< part: of [-1,1]
       type(revolved_face_t), intent(inout) :: face
@@ -112,7 +115,7 @@ contains
          psi = values
          if (face%mixes) psi = axis_hats(t)
          ds = 0.5_wp*weights(g)*(part(2) - part(1))*norm2(face_direction(x, t)) &
-              *depth_at(state, thickness, dot_product(values(:n), x(1, :)))
+              *depth_at(state, thickness, dot_product(values(:n), places))
          vector = vector + ds*spread(outward_normal(x, t), 2, MOST)*spread(psi, 1, 2)
          if (face%mixes) face%share = face%share + ds*spread(psi, 2, MOST)*spread(values, 1, MOST)
       end do

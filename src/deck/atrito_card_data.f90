@@ -3,11 +3,12 @@ module atrito_card_data
    use atrito_kinds, only: ip
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, is_empty_token, line_item, last_item
    use atrito_diagnostics, only: report_error, report_note
+   use atrito_foreign_words, only: is_foreign_variable, may_be_empty
    use atrito_items, only: has_option, option_word
    use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_WORD
    use atrito_keyword_table, only: find_choice, choice_names
    use atrito_keyword_text, only: form_text, item_text, choices_text
-   use atrito_strings, only: string_t, append_string, same_name, to_text
+   use atrito_strings, only: string_t, append_string, same_name, to_text, upper_case
    implicit none (type, external)
    private
    public :: check_data
@@ -21,12 +22,14 @@ module atrito_card_data
       logical :: noted = .false.                       !< a note is given once a card
    end type tally_t
 
+   character(len=*), parameter :: BLANKS = ' '//achar(9)
+
 contains
 
    !> Checks the data lines of a card; lines(:)%ok tells the outcome.
    subroutine check_data(deck, card)
       type(deck_t), intent(inout) :: deck
-      type(card_t), intent(in) :: card
+      type(card_t), intent(inout) :: card              !< its lines become fewer where some go on
       type(tally_t) :: tally
       integer(ip) :: i
       integer :: f
@@ -34,7 +37,12 @@ contains
       ! which forms apply is not known when an option is wrong
       if (.not. card%ok .and. any_condition(deck%keywords(card%keyword)%forms)) return
       call find_forms(deck, card, tally)
+      if (size(tally%forms) == 1) call join_lines(deck, card, deck%keywords(card%keyword)%forms(tally%forms(1)))
       do i = card%first_line, card%first_line + card%n_lines - 1
+         if (.not. deck%lines(i)%ok) then              ! a stray quote: what its items are is not known
+            tally%faulty = .true.
+            cycle
+         end if
          call find_form(deck, card, deck%lines(i), tally, f)
          if (f == 0) then
             deck%lines(i)%ok = .false.
@@ -47,6 +55,66 @@ contains
       end do
       if (.not. tally%faulty) call check_counts(deck, card, tally)
    end subroutine check_data
+
+   !> Puts lines that go on together with those in which they do.
+   subroutine join_lines(deck, card, form)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(inout) :: card
+      type(form_t), intent(in) :: form
+      type(data_line_t) :: line
+      integer(ip) :: i, kept, last
+
+      if (.not. form%goes_on) return
+      kept = card%first_line - 1
+      last = kept + card%n_lines
+      i = card%first_line
+      do while (i <= last)
+         line = deck%lines(i)
+         i = i + 1
+         if (line%n_tokens < form%min_items) call take_more(deck, form, last, line, i)
+         kept = kept + 1
+         deck%lines(kept) = line
+      end do
+      card%n_lines = kept - card%first_line + 1
+   end subroutine join_lines
+
+   !> The items of the lines in which one goes on. Where the next line is complete by itself, items are missing here. A line that no
+   !> comma ends goes on only where that makes it complete; lines of equal lengths are then elements of another type.
+   pure subroutine take_more(deck, form, last, line, i)
+      type(deck_t), intent(in) :: deck
+      type(form_t), intent(in) :: form
+      integer(ip), intent(in) :: last                  !< line of the card
+      type(data_line_t), intent(inout) :: line
+      integer(ip), intent(inout) :: i                  !< the next line
+      integer(ip) :: more
+      logical :: goes_on
+
+      do while (line%n_tokens < form%min_items .and. i <= last)
+         more = deck%lines(i)%n_tokens
+         if (more >= form%min_items .and. more <= form%max_items) return
+         goes_on = ends_with_comma(deck, line)
+         if (.not. goes_on) goes_on = line%n_tokens + more >= form%min_items .and. line%n_tokens + more <= form%max_items &
+                                      .and. line%n_tokens /= more
+         if (.not. goes_on) return
+         line%n_tokens = line%n_tokens + more
+         i = i + 1
+      end do
+   end subroutine take_more
+
+   !> A comma stands behind the last item of a line.
+   pure logical function ends_with_comma(deck, line)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(token_t) :: token
+      integer(ip) :: i
+
+      token = last_item(deck, line)
+      ends_with_comma = .false.
+      do i = token%last + 1, len(deck%sources(token%source)%text)
+         ends_with_comma = deck%sources(token%source)%text(i:i) == ','
+         if (ends_with_comma .or. verify(deck%sources(token%source)%text(i:i), BLANKS) > 0) return
+      end do
+   end function ends_with_comma
 
    pure logical function any_condition(forms)
       type(form_t), intent(in) :: forms(:)
@@ -271,7 +339,10 @@ contains
       integer :: choice
 
       choice = find_choice(item%choices, token_text(deck, token))
-      if (choice == 0) then
+      if (choice == 0 .and. item%name == 'variable' .and. is_foreign_variable(upper_case(token_text(deck, token)))) then
+         call report_note(deck, token, 'N-IGNORED', 'variable '//upper_case(token_text(deck, token))//' of *'//trim(card%name)// &
+                          ' is not written')
+      else if (choice == 0) then
          ok = .false.
          call report_error(deck, token, 'E-CHOICE', 'unknown '//item%name//' '//token_text(deck, token), &
                            expected=item%doc//': '//choices_text(item%choices), known=choice_names(item%choices), &
@@ -304,6 +375,10 @@ contains
       integer :: f
 
       if (removes_all(deck, card)) return
+      if (card%n_lines == 0 .and. may_be_empty(trim(card%name))) then
+         call report_note(deck, card%place, 'N-IGNORED', '*'//trim(card%name)//' without data lines has no effect')
+         return
+      end if
       do f = 1, size(tally%forms)
          associate (form => deck%keywords(card%keyword)%forms(tally%forms(f)))
             if (tally%n_lines(f) >= form%min_lines) cycle

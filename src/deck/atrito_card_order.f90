@@ -1,12 +1,21 @@
 !> Where a keyword stands: model, step, or behind the end; and to what it belongs.
 module atrito_card_order
-   use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_keyword, only: LEVEL_BOTH
+   use atrito_keyword_table, only: keyword_names
    use atrito_kinds, only: ip
+   use atrito_part_order, only: parts_t, check_parts, check_open_parts
+   use atrito_strings, only: string_t, nearest_names, upper_case
    implicit none (type, external)
    private
-   public :: order_t, check_order, check_end
+   public :: order_t, check_order, check_end, meant_keyword
+
+   !> In the place of a parent: one that is misspelt, which is told.
+   character(len=*), parameter :: LOST = '?'
+
+   !> In the place of a parent: a keyword that changes the model within a step, refused.
+   character(len=*), parameter :: CHANGED = '*'
 
    !> What has been read so far.
    type :: order_t
@@ -14,6 +23,9 @@ module atrito_card_order
       integer(ip) :: n_steps = 0
       type(token_t) :: step                        !< the *STEP begun last
       character(len=32) :: parent = ''             !< keyword to whose block the next ones belong
+      logical :: parent_ok = .true.
+      logical :: lost_step = .false.               !< a *STEP is misspelt: what stands outside of all steps may be in it
+      type(parts_t) :: parts
       logical :: incomplete = .false.              !< a file could not be read: no word about what is missing
    end type order_t
 
@@ -27,18 +39,63 @@ contains
 
       card%level = merge(LEVEL_STEP, LEVEL_MODEL, order%in_step)
       card%step = merge(order%n_steps, 0_ip, order%in_step)
-      if (card%keyword == KEYWORD_UNKNOWN) return
+      if (order%parts%in_block) card%block = order%parts%n_blocks
+      if (card%keyword == KEYWORD_UNKNOWN) then
+         if (card%changes_model) then
+            order%parent = CHANGED
+         else
+            call follow_meaning(deck, order, card)
+         end if
+         return
+      end if
+      if (order%parent == CHANGED .and. order%in_step .and. len(deck%keywords(card%keyword)%parent) > 0) then
+         card%ok = .false.                         ! it belongs to what was refused
+         card%is_refused = .true.
+         return
+      end if
       select case (card%name)
       case ('STEP')
          call begin_step(deck, order, card)
       case ('END STEP')
-         if (.not. order%in_step) call refuse(deck, card, 'E-STEP', '*END STEP without a *STEP', '*STEP before it')
+         if (.not. (order%in_step .or. order%lost_step)) call refuse(deck, card, 'E-STEP', '*END STEP without a *STEP', &
+                                                                     '*STEP before it')
          order%in_step = .false.
       case default
          call check_level(deck, order, card)
       end select
       call check_parent(deck, order, card)
+      if (card%ok) call check_parts(deck, order%parts, card)
    end subroutine check_order
+
+   !> A misspelt keyword is told; what would follow only from it is not.
+   subroutine follow_meaning(deck, order, card)
+      type(deck_t), intent(in) :: deck
+      type(order_t), intent(inout) :: order
+      type(card_t), intent(in) :: card
+      character(len=:), allocatable :: name
+      integer :: i
+
+      name = meant_keyword(deck, card)
+      if (len(name) == 0) return
+      if (name == 'STEP') order%lost_step = .true.
+      if (name == 'END STEP') order%in_step = .false.
+      do i = 1, size(deck%keywords)
+         if (deck%keywords(i)%parent == name) order%parent = LOST
+      end do
+   end subroutine follow_meaning
+
+   !> The keyword that a misspelt one was meant to be; '' when none is near, or when other programs have it.
+   function meant_keyword(deck, card) result(name)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=:), allocatable :: name
+      type(string_t), allocatable :: near(:)
+
+      name = ''
+      if (.not. card%is_misspelt) return
+      near = nearest_names(token_text(deck, card%place), keyword_names(deck%keywords), 1)
+      if (size(near) > 0) name = near(1)%s
+   end function meant_keyword
 
    subroutine begin_step(deck, order, card)
       type(deck_t), intent(in) :: deck
@@ -60,16 +117,43 @@ contains
       integer :: level
 
       level = deck%keywords(card%keyword)%level
-      if (order%n_steps > 0 .and. .not. order%in_step) then
+      if (follows_only(deck, order, card)) then
+         card%ok = .false.
+      else if (order%n_steps > 0 .and. .not. order%in_step) then
          call refuse(deck, card, 'E-STEP', '*'//trim(card%name)//' stands after an *END STEP', &
                      'a *STEP, or nothing behind it')
-      else if (level == LEVEL_MODEL .and. order%in_step) then
+      else if (level == LEVEL_MODEL .and. order%in_step .and. .not. is_removal(deck, card)) then
          call refuse(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands inside the step', 'its place before *STEP')
       else if (level == LEVEL_STEP .and. .not. order%in_step) then
          call refuse(deck, card, 'E-LEVEL', '*'//trim(card%name)//' stands outside of a step', &
                      'its place between *STEP and *END STEP')
       end if
    end subroutine check_level
+
+   !> REMOVE, of which it is told that no step changes the model.
+   pure logical function is_removal(deck, card)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer :: i
+
+      is_removal = .false.
+      do i = 1, size(card%options)
+         is_removal = is_removal .or. upper_case(token_text(deck, card%options(i)%name)) == 'REMOVE'
+      end do
+   end function is_removal
+
+   !> What is wrong with the place of a card follows from what has been told: of its *STEP, or of the keyword that it belongs to.
+   pure logical function follows_only(deck, order, card)
+      type(deck_t), intent(in) :: deck
+      type(order_t), intent(in) :: order
+      type(card_t), intent(in) :: card
+
+      associate (keyword => deck%keywords(card%keyword))
+         follows_only = order%lost_step .and. .not. order%in_step .and. (keyword%level == LEVEL_STEP .or. card%name == 'BOUNDARY')
+         if (len(keyword%parent) == 0 .or. follows_only) return
+         follows_only = order%parent == LOST .or. (keyword%parent == order%parent .and. .not. order%parent_ok)
+      end associate
+   end function follows_only
 
    !> *ELASTIC belongs to the *MATERIAL before it; what may stand anywhere may stand between.
    subroutine check_parent(deck, order, card)
@@ -79,8 +163,10 @@ contains
 
       associate (keyword => deck%keywords(card%keyword))
          if (len(keyword%parent) == 0) then
-            if (keyword%level /= LEVEL_BOTH .and. .not. keyword%harmless) order%parent = card%name
-         else if (keyword%parent /= order%parent) then
+            if (keyword%level == LEVEL_BOTH) return
+            order%parent = card%name
+            order%parent_ok = card%ok
+         else if (keyword%parent /= order%parent .and. order%parent /= LOST) then
             call refuse(deck, card, 'E-PARENT', '*'//trim(card%name)//' belongs to no *'//keyword%parent, &
                         'its place behind *'//keyword%parent)
          end if
@@ -93,9 +179,10 @@ contains
       type(order_t), intent(in) :: order
 
       if (order%incomplete) return
+      call check_open_parts(deck, order%parts)
       if (deck%n_cards == 0) then
          call report_deck_error(deck, 'E-EMPTY', 'the deck holds no keyword', expected='a deck, see atrito help')
-      else if (order%n_steps == 0) then
+      else if (order%n_steps == 0 .and. .not. order%lost_step) then
          call report_deck_error(deck, 'E-STEP', 'the deck has no *STEP', expected='*STEP ... *END STEP', keyword='STEP')
       else if (order%in_step) then
          call report_error(deck, order%step, 'E-STEP', '*STEP without *END STEP', expected='*END STEP at the end of the deck', &

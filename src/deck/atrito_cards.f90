@@ -2,16 +2,28 @@
 module atrito_cards
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, option_t, token_t, KEYWORD_UNKNOWN, token_text, is_empty_token, is_quoted
-   use atrito_diagnostics, only: report_error, report_note
+   use atrito_diagnostics, only: report_error, report_note, report_outside
+   use atrito_foreign_keywords, only: ask_keyword, ask_element_type, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE, CHANGE
+   use atrito_foreign_words, only: ask_option, ask_word
    use atrito_items, only: get_real, get_integer, get_name
    use atrito_keyword, only: option_spec_t, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER
-   use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names
+   use atrito_keyword_table, only: find_keyword, find_option_spec, find_choice, keyword_names, option_names, choice_names, &
+                                   packed
    use atrito_keyword_text, only: option_text_of, with_dimension, choices_text
+   use atrito_messages, only: ID_OUTSIDE
    use atrito_lexer, only: find_equals, trim_place
-   use atrito_strings, only: string_t, nearest_names
+   use atrito_strings, only: string_t, nearest_names, upper_case
    implicit none (type, external)
    private
    public :: make_card, check_options
+
+   !> In option%spec: known of other programs.
+   integer, parameter :: FOREIGN_OPTION = -1
+
+   !> Keywords that define a name, and stand for it when they are refused. Without the first three no scene is left.
+   character(len=20), parameter :: DEFINING(11) = [character(len=20) :: 'NODE', 'ELEMENT', 'RIGID BODY', 'NSET', 'ELSET', &
+                                                       'SURFACE', 'AMPLITUDE', 'MATERIAL', 'SURFACE INTERACTION', 'SOLID SECTION', &
+                                                                                                                     'CONTACT PAIR']
 
 contains
 
@@ -33,10 +45,55 @@ contains
       else if (is_empty_token(card%place)) then
          call report_error(deck, items(1), 'E-KEYWORD', 'an asterisk without a keyword', expected='*KEYWORD')
       else
-         call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place), &
-                           expected='a keyword; atrito help lists them', known=keyword_names(deck%keywords))
+         call judge_foreign(deck, card)
       end if
    end subroutine make_card
+
+   !> A keyword that is not in the table: one of other programs, or of none.
+   subroutine judge_foreign(deck, card)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      character(len=:), allocatable :: name
+      integer :: verdict, subject
+
+      name = upper_case(token_text(deck, card%place))
+      call ask_keyword(packed(name), verdict, subject)
+      select case (verdict)
+      case (FOREIGN_IGNORED)
+         card%is_ignored = .true.
+         call report_note(deck, card%place, 'N-IGNORED', '*'//name//' has no effect')
+      case (FOREIGN_OUTSIDE)
+         card%is_outside = SUBJECTS(subject)%is_scene
+         card%changes_model = subject == CHANGE
+         if (subject == deck%subject .or. is_company(deck, name)) return   ! of elements, or of a keyword, that are refused
+         call report_outside(deck, card%place, '*'//name, subject)
+      case (NOT_FOREIGN)
+         card%is_misspelt = .true.
+         call report_error(deck, card%place, 'E-KEYWORD', 'unknown keyword *'//token_text(deck, card%place), &
+                           expected='a keyword; atrito help lists them', known=keyword_names(deck%keywords))
+      end select
+   end subroutine judge_foreign
+
+   !> The keyword only goes with another one, which is refused right before or above.
+   pure logical function is_company(deck, name)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: leader
+      integer(ip) :: i
+
+      is_company = .false.
+      select case (packed(name))
+      case ('KINEMATIC', 'DISTRIBUTING')
+         leader = 'COUPLING'
+      case ('CONTACTINITIALIZATIONASSIGNMENT')
+         leader = 'CONTACTINITIALIZATIONDATA'
+      case default
+         return
+      end select
+      do i = 1, deck%n_cards
+         is_company = is_company .or. packed(upper_case(token_text(deck, deck%cards(i)%place))) == leader
+      end do
+   end function is_company
 
    pure function without_asterisk(deck, item) result(place)
       type(deck_t), intent(in) :: deck
@@ -96,9 +153,7 @@ contains
       if (len(name) == 0) then
          call refuse(deck, card, card%options(i)%name, 'E-OPTION', 'an empty option')
       else if (spec == 0) then
-         card%ok = .false.
-         call report_error(deck, card%options(i)%name, 'E-OPTION', 'unknown option '//name//' of *'//trim(card%name), &
-                           known=option_names(deck%keywords(card%keyword)%options), keyword=trim(card%name))
+         call judge_option(deck, card, card%options(i))
       else if (any(card%options(:i - 1)%spec == spec)) then
          call refuse(deck, card, card%options(i)%name, 'E-OPTION-TWICE', 'option '//name//' is given twice')
       else
@@ -106,6 +161,47 @@ contains
          call check_use(deck, card, card%options(i), deck%keywords(card%keyword)%options(spec))
       end if
    end subroutine check_option
+
+   !> An option that the table does not have: one of other programs, or of none.
+   subroutine judge_option(deck, card, option)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      type(option_t), intent(inout) :: option
+      character(len=:), allocatable :: name, text
+      integer :: verdict
+
+      name = token_text(deck, option%name)
+      call ask_option(packed(card%name), packed(name), verdict, text)
+      if (verdict == NOT_FOREIGN .and. option%has_value) call ask_word(packed(card%name), packed(name), &
+                                                                       packed(token_text(deck, option%value)), verdict, text)
+      select case (verdict)
+      case (FOREIGN_IGNORED)
+         option%spec = FOREIGN_OPTION
+         call report_note(deck, option%name, 'N-IGNORED', 'option '//upper_case(name)//' of *'//trim(card%name)// &
+                          ' has no effect: '//text)
+      case (FOREIGN_OUTSIDE)
+         option%spec = FOREIGN_OPTION
+         call refuse_outside(deck, card, option%name, 'option '//upper_case(name)//' of *'//trim(card%name), text)
+      case (NOT_FOREIGN)
+         card%ok = .false.
+         call report_error(deck, option%name, 'E-OPTION', 'unknown option '//name//' of *'//trim(card%name), &
+                           known=option_names(deck%keywords(card%keyword)%options), keyword=trim(card%name))
+      end select
+   end subroutine judge_option
+
+   !> Refuses a card by the name of what it asks for. What defines a name keeps it, so that nobody misses the name; without nodes
+   !> and elements nothing of the scene is left.
+   subroutine refuse_outside(deck, card, place, name, instead)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      type(token_t), intent(in) :: place
+      character(len=*), intent(in) :: name, instead
+
+      card%ok = .false.
+      card%is_refused = .not. any(DEFINING == card%name)
+      card%is_outside = any(card%name == DEFINING(:3)) .or. card%name == 'RESTART'
+      call report_error(deck, place, ID_OUTSIDE, name//' is outside of atrito', expected=instead)
+   end subroutine refuse_outside
 
    subroutine check_use(deck, card, option, spec)
       type(deck_t), intent(in) :: deck
@@ -178,6 +274,7 @@ contains
       choice = find_choice(spec%choices, word)
       ok = choice > 0
       if (.not. ok) then
+         if (is_outside_word(deck, card, place, spec, word)) return
          call report_error(deck, place, 'E-CHOICE', spec%name//'='//word//' is unknown to *'//trim(card%name), &
                            expected=meaning(spec), known=choice_names(spec%choices), &
                            keyword=trim(card%name))
@@ -189,12 +286,37 @@ contains
                                       keyword=trim(card%name))
    end subroutine check_word
 
+   !> A word, or a type of elements, that other programs know; it is refused by its name.
+   logical function is_outside_word(deck, card, place, spec, word)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(inout) :: card
+      type(token_t), intent(in) :: place
+      type(option_spec_t), intent(in) :: spec
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable :: instead
+      integer :: verdict, subject
+
+      if (card%name == 'ELEMENT' .and. spec%name == 'TYPE') then
+         subject = ask_element_type(word)
+         is_outside_word = subject > 0
+         card%is_outside = card%is_outside .or. is_outside_word
+         card%subject = subject
+         if (is_outside_word) call report_outside(deck, place, 'TYPE='//upper_case(word)//' of *ELEMENT', subject)
+      else
+         call ask_word(packed(card%name), packed(spec%name), packed(word), verdict, instead)
+         is_outside_word = verdict == FOREIGN_OUTSIDE
+         if (is_outside_word) call refuse_outside(deck, card, place, spec%name//'='//upper_case(word)//' of *'// &
+                                                  trim(card%name), instead)
+      end if
+   end function is_outside_word
+
    !> Options that must be there: the required ones, and those that others need.
    subroutine check_company(deck, card)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
       integer :: i, j
 
+      if (card%is_refused .or. card%is_outside) return
       associate (options => deck%keywords(card%keyword)%options)
          do i = 1, size(options)
             if (options(i)%required .and. .not. any(card%options%spec == i)) then
@@ -205,7 +327,7 @@ contains
             end if
          end do
          do j = 1, size(card%options)
-            if (card%options(j)%spec == 0) cycle
+            if (card%options(j)%spec < 1) cycle
             i = find_option_spec(deck%keywords(card%keyword), options(card%options(j)%spec)%needs)
             if (i == 0 .or. any(card%options%spec == i)) cycle
             call refuse(deck, card, card%options(j)%name, 'E-OPTION', 'option '//options(card%options(j)%spec)%name// &

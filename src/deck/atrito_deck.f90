@@ -3,15 +3,18 @@
 !> The texts are kept whole and an item is only a place in one of them, so that a large deck is read without a copy and every
 !> later message can show where it comes from.
 module atrito_deck
+   use atrito_edits, only: edits_t
+   use atrito_gmsh_mesh, only: gmsh_mesh_t, move_mesh
    use atrito_kinds, only: ip, wp
    use atrito_keyword, only: keyword_t, LEVEL_MODEL, LEVEL_STEP
    implicit none (type, external)
    private
-   public :: source_t, token_t, option_t, card_t, data_line_t, parameter_t, deck_t
+   public :: source_t, token_t, option_t, card_t, data_line_t, scope_t, parameter_t, deck_t
    public :: KEYWORD_UNKNOWN, LEVEL_MODEL, LEVEL_STEP
-   public :: token_text, is_empty_token, is_quoted, is_id_token, same_token, keyword_name, line_item, last_item, reading_order, &
-             take_source_line
-   public :: allocate_deck, append_source, append_token, append_line, append_card, append_parameter
+   public :: token_text, is_empty_token, is_quoted, is_id_token, same_token, written_length, keyword_name, line_item, last_item, &
+             reading_order, take_source_line, scope_shift, scope_text, model_number
+   public :: after_byte_order_mark
+   public :: allocate_deck, append_source, append_token, append_line, append_card, append_parameter, append_mesh
 
    !> A card whose keyword is not in the table, is not built or has no effect here; already reported.
    integer, parameter :: KEYWORD_UNKNOWN = 0
@@ -21,6 +24,8 @@ module atrito_deck
       character(len=:), allocatable :: text
       integer(ip) :: parent = 0                    !< source that includes this one; 0: the deck itself
       integer(ip) :: include_line = 0              !< line of it that does
+      integer(ip) :: include_first = 1, include_last = 0 !< characters of that one's text that its *INCLUDE takes, whole lines
+      logical :: is_mesh = .false.                 !< of another program: *INCLUDE, TYPE=GMSH
       integer(ip) :: n_lines = 0                   !< with those of the files that it includes
       integer(ip) :: order = 0                     !< lines read before its first
    end type source_t
@@ -28,6 +33,7 @@ module atrito_deck
    !> The place of an item. An empty item has last < first; `first` is where it should stand.
    type :: token_t
       integer(ip) :: source = 0                    !< index in deck%sources; 0: no place
+      integer(ip) :: scope = 0                     !< of a number or a name: whose it is, index in deck%scopes
       integer(ip) :: line = 0, column = 0          !< from 1
       integer(ip) :: first = 1, last = 0           !< characters of sources(source)%text, with the quotes
    end type token_t
@@ -37,7 +43,7 @@ module atrito_deck
       type(token_t) :: name
       type(token_t) :: value
       logical :: has_value = .false.               !< there is an equals sign
-      integer :: spec = 0                          !< index in the options of the keyword's definition; 0: unknown
+      integer :: spec = 0                          !< in the options of the keyword's definition; 0: unknown; -1: foreign
    end type option_t
 
    type :: card_t
@@ -49,7 +55,15 @@ module atrito_deck
       integer(ip) :: n_lines = 0
       integer :: level = LEVEL_MODEL               !< where it stands: LEVEL_MODEL or LEVEL_STEP
       integer(ip) :: step = 0                      !< in which it stands; 0: none
+      integer(ip) :: block = 0                     !< the *PART or *INSTANCE in which it stands, counted; 0: none
+      integer(ip) :: scope = 0                     !< whose it is, index in deck%scopes
       logical :: ok = .true.                       !< nothing wrong with its keyword line
+      logical :: is_misspelt = .false.             !< nobody knows its keyword, which is told
+      logical :: is_ignored = .false.              !< of other programs, without effect
+      logical :: is_refused = .false.              !< refused by name: passed over with its data lines
+      logical :: changes_model = .false.           !< a keyword that changes the model in a step, which is refused
+      logical :: is_outside = .false.              !< the same, and without it nothing of the scene is left
+      integer :: subject = 0                       !< of what is outside, see atrito_foreign_keywords; 0: of none of them
    end type card_t
 
    type :: data_line_t
@@ -58,10 +72,21 @@ module atrito_deck
       logical :: ok = .true.                       !< the number of items is right and the words are known
    end type data_line_t
 
+   !> An instance of a part, or (0) the assembly with all that stands outside of parts. The numbers of nodes and elements in it
+   !> begin at 1 again, its sets and surfaces have names of their own.
+   type :: scope_t
+      character(len=:), allocatable :: name        !< of the instance; the assembly: ''
+      integer(ip) :: card = 0                      !< *INSTANCE, index in deck%cards
+      integer(ip) :: shift = 0                     !< added to its numbers, which makes them those of the model
+      integer(ip) :: span = huge(1_ip)             !< no number of it is greater
+      logical :: ok = .true.                       !< if not, that is reported
+   end type scope_t
+
    type :: parameter_t
       character(len=:), allocatable :: name
       real(wp) :: value = 0.0_wp
       type(token_t) :: place                       !< where it is defined
+      type(token_t) :: expression                  !< what stands behind the equals sign
       integer(ip) :: order = 0                     !< in reading order
       logical :: known = .false.                   !< its expression has a value; if not, that is reported
       logical :: overridden = .false.              !< by --set
@@ -76,6 +101,12 @@ module atrito_deck
       type(token_t), allocatable :: tokens(:)
       type(parameter_t), allocatable :: parameters(:)
       type(keyword_t), allocatable :: keywords(:)  !< the keyword table
+      logical :: has_lost_parameters = .false.     !< definitions that could not be read: an unknown one may be among them
+      logical :: is_outside = .false.              !< a scene that atrito does not solve: what only follows is not told
+      integer :: subject = 0                       !< of the elements that it does not solve
+      type(gmsh_mesh_t), allocatable :: meshes(:)  !< of *INCLUDE, TYPE=GMSH, in their order
+      type(edits_t) :: edits                       !< what is replaced when the deck is written as it was run
+      type(scope_t), allocatable :: scopes(:)      !< (0:instances); not allocated: a deck without parts
       integer(ip) :: n_sources = 0, n_cards = 0, n_lines = 0, n_tokens = 0, n_parameters = 0
    end type deck_t
 
@@ -83,7 +114,7 @@ module atrito_deck
 
 contains
 
-   !> The characters of an item, without its quotes.
+   !> The characters of an item, without its quotes; a name of an instance is `instance.name`.
    pure function token_text(deck, token) result(text)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
@@ -96,7 +127,50 @@ contains
       else
          text = deck%sources(token%source)%text(token%first:token%last)
       end if
+      if (token%scope == 0 .or. is_id_token(deck, token)) return
+      if (len(text) > 0 .and. index(text, '-<') /= 1) text = deck%scopes(token%scope)%name//'.'//text
    end function token_text
+
+   !> What makes the number that an item is one of the model.
+   pure integer(ip) function scope_shift(deck, token) result(shift)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+
+      shift = 0
+      if (allocated(deck%scopes)) shift = deck%scopes(token%scope)%shift
+   end function scope_shift
+
+   !> The number in the model; 0 where it is greater than any of its scope.
+   pure integer(ip) function model_number(deck, token, number)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      integer(ip), intent(in) :: number                !< as written
+
+      model_number = number
+      if (.not. allocated(deck%scopes)) return
+      associate (scope => deck%scopes(token%scope))
+         model_number = merge(min(number, scope%span) + scope%shift, 0_ip, number > 0 .and. number <= scope%span)
+      end associate
+   end function model_number
+
+   !> ` of <instance>`; '' where there is none.
+   pure function scope_text(deck, token) result(text)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (token%scope > 0) text = ' of '//deck%scopes(token%scope)%name
+   end function scope_text
+
+   !> How many characters of a name stand in the deck, its quotes apart.
+   pure integer(ip) function written_length(deck, token) result(n)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+
+      n = token%last - token%first + 1
+      if (is_quoted(deck, token)) n = n - 2
+   end function written_length
 
    elemental logical function is_empty_token(token)
       type(token_t), intent(in) :: token
@@ -207,11 +281,20 @@ contains
       end associate
    end subroutine take_source_line
 
+   !> The first character of a text behind the mark that some editors put before it.
+   pure integer(ip) function after_byte_order_mark(text) result(position)
+      character(len=*), intent(in) :: text
+      character(len=3), parameter :: MARK = char(239)//char(187)//char(191)
+
+      position = 1
+      if (index(text(:min(len(text), len(MARK))), MARK) == 1) position = 1 + len(MARK)
+   end function after_byte_order_mark
+
    !> An empty deck, with room to grow: a list that is full doubles, and what its second half holds is written over.
    subroutine allocate_deck(deck)
       type(deck_t), intent(inout) :: deck
 
-      allocate (deck%sources(4), deck%cards(64), deck%lines(256), deck%tokens(1024), deck%parameters(16))
+      allocate (deck%sources(4), deck%cards(64), deck%lines(256), deck%tokens(1024), deck%parameters(16), deck%meshes(0))
    end subroutine allocate_deck
 
    subroutine append_source(deck, name, text)
@@ -241,6 +324,9 @@ contains
       call move_alloc(from%text, to%text)
       to%parent = from%parent
       to%include_line = from%include_line
+      to%include_first = from%include_first
+      to%include_last = from%include_last
+      to%is_mesh = from%is_mesh
       to%n_lines = from%n_lines
       to%order = from%order
    end subroutine move_source
@@ -271,6 +357,23 @@ contains
       deck%n_cards = deck%n_cards + 1
       deck%cards(deck%n_cards) = card
    end subroutine append_card
+
+   !> The last card names this mesh.
+   subroutine append_mesh(deck, mesh)
+      type(deck_t), intent(inout) :: deck
+      type(gmsh_mesh_t), intent(inout) :: mesh         !< moved into the deck
+      type(gmsh_mesh_t), allocatable :: longer(:)
+      integer :: i, n
+
+      n = size(deck%meshes)
+      allocate (longer(n + 1))
+      do i = 1, n
+         call move_mesh(deck%meshes(i), longer(i))
+      end do
+      mesh%card = deck%n_cards
+      call move_mesh(mesh, longer(n + 1))
+      call move_alloc(longer, deck%meshes)
+   end subroutine append_mesh
 
    subroutine append_parameter(deck, parameter)
       type(deck_t), intent(inout) :: deck

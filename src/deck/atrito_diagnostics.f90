@@ -2,12 +2,17 @@
 module atrito_diagnostics
    use atrito_kinds, only: ip
    use atrito_deck, only: deck_t, token_t, token_text, reading_order, take_source_line
-   use atrito_messages, only: message_t, add_message, has_room, WIDEST_SOURCE, SEVERITY_ERROR, SEVERITY_WARNING, SEVERITY_NOTE
+   use atrito_foreign_keywords, only: SUBJECTS
+   use atrito_messages, only: message_t, add_message, has_room, ID_OUTSIDE, WIDEST_SOURCE, SEVERITY_ERROR, &
+                              SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_strings, only: string_t, nearest_names
    implicit none (type, external)
    private
-   public :: report_error, report_warning, report_note, report_deck_error
+   public :: report_error, report_warning, report_note, report_outside, report_deck_error
 
+   !> What may be wrong because the scene is another one than atrito's: faces, labels and options of other elements.
+   character(len=16), parameter :: FOLLOWING(8) = [character(len=16) :: 'E-CHOICE', 'E-ITEMS', 'E-LINES', 'E-OPTION', &
+                                                                   'E-OPTION-MISSING', 'E-OPTION-VALUE', 'E-MISSING', 'E-NOT-BUILT']
    integer, parameter :: MOST_NEAREST = 3
    integer, parameter :: LONGEST_TEXT = 240
    integer, parameter :: SHORT_LIST = 8        !< a list of valid names that is told whole when none of them is near
@@ -24,8 +29,22 @@ contains
       type(string_t), intent(in), optional :: known(:)      !< valid names: the nearest to the item are told
       character(len=*), intent(in), optional :: keyword     !< for `atrito help KEYWORD`
 
+      if (deck%is_outside) then
+         if (any(FOLLOWING == id)) return
+      end if
       call report(deck, token, SEVERITY_ERROR, id, text, expected, known, keyword)
    end subroutine report_error
+
+   !> Refuses by name what atrito does not solve, and says what to do instead.
+   subroutine report_outside(deck, token, name, subject)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: name                  !< as in the deck, or as in the list
+      integer, intent(in) :: subject                        !< place in SUBJECTS
+
+      call report(deck, token, SEVERITY_ERROR, ID_OUTSIDE, name//' is outside of atrito: '//trim(SUBJECTS(subject)%what), &
+                  expected=trim(SUBJECTS(subject)%instead))
+   end subroutine report_outside
 
    !> As report_error, a warning.
    subroutine report_warning(deck, token, id, text, expected, known, keyword)
@@ -79,6 +98,7 @@ contains
       message%severity = severity
       message%id = id
       message%text = shortened(text)
+      message%is_of_place = allocated(deck%scopes)          ! the same of another instance of a part
       if (.not. has_room(severity)) then
          call add_message(message)                          ! it is only counted
          return

@@ -4,16 +4,20 @@
 !>     product = factor { (*|/) factor }
 !>     factor  = [+|-] factor | power            so that -2**2 is -4
 !>     power   = primary [ ** factor ]           from the right: 2**3**2 = 2**9
-!>     primary = number | pi | name | function ( sum {, sum} ) | ( sum )
+!>     primary = number | pi | deg | name | function ( sum {, sum} ) | ( sum ) | call
+!>
+!> Calls, names that are no arithmetic (atrito_expression_calls), are there where the caller gives them values: --observe.
 module atrito_expressions
    use atrito_kinds, only: wp, PI
    use atrito_arithmetic, only: add_safely, multiply_safely, divide_safely, raise_safely, exponential_safely, ARITHMETIC_OK, &
                                 ARITHMETIC_OVERFLOW, ARITHMETIC_ZERO_DIVISION
+   use atrito_expression_calls, only: call_t, read_call, has_argument_of, append_call
+   use atrito_expression_names, only: is_name, is_function, is_reserved_name, reserved_names, DIGITS, LETTERS
    use atrito_numbers, only: read_real, NUMBER_OK, NUMBER_TOO_LARGE
-   use atrito_strings, only: string_t, same_name, append_string, lower_case
+   use atrito_strings, only: string_t, same_name, lower_case
    implicit none (type, external)
    private
-   public :: expression_fault_t, evaluate_expression, is_reserved_name, is_name, reserved_names
+   public :: expression_fault_t, evaluate_expression, list_calls, next_name, is_reserved_name, is_name, reserved_names
 
    !> What is wrong with an expression, and where.
    type :: expression_fault_t
@@ -30,73 +34,77 @@ module atrito_expressions
       integer :: depth = 0
       type(string_t), allocatable :: names(:)
       real(wp), allocatable :: values(:)
+      logical :: has_degree = .true.                 !< deg is pi/180
+      logical :: is_listing = .false.                !< only the text counts: calls are listed, and have no values
+      type(string_t), allocatable :: fields(:)       !< then: what min and max take as first argument of a call
+      type(call_t), allocatable :: calls(:)          !< those found, or those with values; not allocated: there are none
+      real(wp), allocatable :: amounts(:)            !< the values
       type(expression_fault_t) :: fault
    end type parser_t
 
    integer, parameter :: DEEPEST = 100               !< nested parentheses
    character(len=*), parameter :: BLANKS = ' '//achar(9)
-   character(len=*), parameter :: DIGITS = '0123456789'
-   character(len=*), parameter :: LETTERS = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
-   character(len=4), parameter :: FUNCTIONS(10) = ['sqrt', 'abs ', 'exp ', 'log ', 'sin ', 'cos ', 'tan ', 'atan', 'min ', 'max ']
 
 contains
 
    !> Evaluates an expression.
-   pure subroutine evaluate_expression(text, names, values, value, fault)
+   pure subroutine evaluate_expression(text, names, values, value, fault, own_degree, calls, amounts)
       character(len=*), intent(in) :: text
       type(string_t), intent(in) :: names(:)           !< of the variables, without case
       real(wp), intent(in) :: values(:)                !< theirs; as many
       real(wp), intent(out) :: value                   !< 0 when there is a fault
       type(expression_fault_t), intent(out) :: fault   !< fault%text not allocated: none
+      logical, intent(in), optional :: own_degree      !< deg is one of the variables, here or elsewhere: it is not pi/180
+      type(call_t), intent(in), optional :: calls(:)   !< those of the expression, from list_calls
+      real(wp), intent(in), optional :: amounts(:)     !< their values; as many
       type(parser_t) :: parser
 
       parser%text = text
       parser%names = names
       parser%values = values
+      if (present(own_degree)) parser%has_degree = .not. own_degree
+      ! not allocated: an optional argument that is not there
+      if (present(calls)) parser%calls = calls
+      if (present(amounts)) parser%amounts = amounts
+      call take_all(parser, value)
+      fault = parser%fault
+      if (has_failed(parser)) value = 0.0_wp
+   end subroutine evaluate_expression
+
+   !> Lists what an expression has besides arithmetic. fault: of its text; what its values do is not known yet.
+   pure subroutine list_calls(text, names, fields, calls, fault, own_degree)
+      character(len=*), intent(in) :: text
+      type(string_t), intent(in) :: names(:)           !< of the variables, without case
+      type(string_t), intent(in) :: fields(:)          !< what min and max may have as first argument that is no number
+      type(call_t), allocatable, intent(out) :: calls(:) !< in their order
+      type(expression_fault_t), intent(out) :: fault   !< fault%text not allocated: none
+      logical, intent(in) :: own_degree                !< as in evaluate_expression
+      type(parser_t) :: parser
+      real(wp) :: value
+
+      parser%text = text
+      parser%names = names
+      allocate (parser%values(size(names)), source=1.0_wp)
+      parser%has_degree = .not. own_degree
+      parser%is_listing = .true.
+      parser%fields = fields
+      allocate (parser%calls(0))
+      call take_all(parser, value)
+      fault = parser%fault
+      call move_alloc(parser%calls, calls)
+   end subroutine list_calls
+
+   !> The whole text.
+   pure subroutine take_all(parser, value)
+      type(parser_t), intent(inout) :: parser
+      real(wp), intent(out) :: value
+
       call move_to(parser, 1)
       call take_sum(parser, value)
       if (.not. has_failed(parser) .and. next(parser) /= '') then
          call fail(parser, parser%position, parser%position, "'"//next(parser)//"' is not expected here")
       end if
-      fault = parser%fault
-      if (has_failed(parser)) value = 0.0_wp
-   end subroutine evaluate_expression
-
-   !> Names that a parameter cannot have: functions, and pi.
-   pure logical function is_reserved_name(name)
-      character(len=*), intent(in) :: name
-
-      is_reserved_name = same_name(name, 'pi') .or. is_function(name)
-   end function is_reserved_name
-
-   pure function reserved_names() result(names)
-      type(string_t), allocatable :: names(:)
-      integer :: i
-
-      allocate (names(0))
-      do i = 1, size(FUNCTIONS)
-         call append_string(names, trim(FUNCTIONS(i)))
-      end do
-      call append_string(names, 'pi')
-   end function reserved_names
-
-   !> Letters, digits and underscores, beginning with a letter.
-   pure logical function is_name(text)
-      character(len=*), intent(in) :: text
-
-      is_name = len(text) > 0
-      if (is_name) is_name = scan(text(1:1), LETTERS) == 1 .and. verify(text, LETTERS//DIGITS//'_') == 0
-   end function is_name
-
-   pure logical function is_function(name)
-      character(len=*), intent(in) :: name
-      integer :: i
-
-      is_function = .false.
-      do i = 1, size(FUNCTIONS)
-         is_function = is_function .or. same_name(name, FUNCTIONS(i))
-      end do
-   end function is_function
+   end subroutine take_all
 
    pure recursive subroutine take_sum(parser, value)
       type(parser_t), intent(inout) :: parser
@@ -204,15 +212,14 @@ contains
       end if
    end subroutine take_primary
 
-   pure subroutine take_number(parser, value)
-      type(parser_t), intent(inout) :: parser
-      real(wp), intent(out) :: value
-      integer :: first, last, outcome
+   !> The last character of the number that begins at `first`.
+   pure integer function end_of_number(text, first) result(last)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first
 
-      first = parser%position
       last = first
-      do while (last < len(parser%text))
-         associate (symbol => parser%text(last + 1:last + 1), before => parser%text(last:last))
+      do while (last < len(text))
+         associate (symbol => text(last + 1:last + 1), before => text(last:last))
             if (scan(symbol, DIGITS//LETTERS//'._') == 0) then
                ! the sign of an exponent; hexadecimal and names are refused by read_real
                if (scan(symbol, '+-') == 0 .or. scan(before, 'eEdD') == 0) exit
@@ -220,6 +227,39 @@ contains
          end associate
          last = last + 1
       end do
+   end function end_of_number
+
+   !> The last character of the name that begins at `first`.
+   pure integer function end_of_name(text, first) result(last)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first
+
+      last = verify(text(first:)//' ', LETTERS//DIGITS//'_') + first - 2
+   end function end_of_name
+
+   !> The next name of a sound expression behind `last`; first > len(text) when there is none. The e of 1e5 is no name.
+   pure subroutine next_name(text, last, first)
+      character(len=*), intent(in) :: text
+      integer, intent(inout) :: last                   !< 0: of the whole expression the first; then that of the name
+      integer, intent(out) :: first
+
+      do first = last + 1, len(text)
+         if (first <= last) cycle
+         if (scan(text(first:first), LETTERS) == 1) then
+            last = end_of_name(text, first)
+            return
+         end if
+         if (scan(text(first:first), DIGITS//'.') == 1) last = end_of_number(text, first)
+      end do
+   end subroutine next_name
+
+   pure subroutine take_number(parser, value)
+      type(parser_t), intent(inout) :: parser
+      real(wp), intent(out) :: value
+      integer :: first, last, outcome
+
+      first = parser%position
+      last = end_of_number(parser%text, first)
       call read_real(parser%text(first:last), value, outcome)
       call move_to(parser, last + 1)
       if (outcome == NUMBER_OK) return
@@ -239,16 +279,18 @@ contains
 
       value = 0.0_wp
       first = parser%position
-      last = verify(parser%text(first:)//' ', LETTERS//DIGITS//'_') + first - 2
+      last = end_of_name(parser%text, first)
       name = parser%text(first:last)
       call move_to(parser, last + 1)
-      do i = 1, size(parser%names)
-         if (.not. same_name(parser%names(i)%s, name)) cycle
+      i = index_of_variable(parser, name)
+      if (i > 0) then
          value = parser%values(i)
-         return
-      end do
-      if (same_name(name, 'pi')) then
+      else if (same_name(name, 'pi')) then
          value = PI
+      else if (same_name(name, 'deg') .and. parser%has_degree) then
+         value = PI/180
+      else if (is_call(parser, name, last)) then
+         call take_call(parser, first, last, value)
       else if (is_function(name)) then
          call take_function(parser, lower_case(name), first, value)
       else
@@ -256,6 +298,58 @@ contains
          parser%fault%unknown_name = .true.
       end if
    end subroutine take_name
+
+   !> Place of a variable, 0 when there is none; what has parentheses behind it is none where there are calls.
+   pure integer function index_of_variable(parser, name) result(i)
+      type(parser_t), intent(in) :: parser
+      character(len=*), intent(in) :: name
+
+      i = 0
+      if (allocated(parser%calls) .and. next(parser) == '(') return
+      do i = 1, size(parser%names)
+         if (same_name(parser%names(i)%s, name)) return
+      end do
+      i = 0
+   end function index_of_variable
+
+   !> Whether the name that ends at a place is a call: no function, or a least or largest value of a field.
+   pure logical function is_call(parser, name, last)
+      type(parser_t), intent(in) :: parser
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: last
+
+      is_call = .false.
+      if (.not. allocated(parser%calls)) return
+      if (.not. parser%is_listing) then
+         is_call = any(parser%calls%first == last + 1 - len(name))
+      else if (same_name(name, 'min') .or. same_name(name, 'max')) then
+         is_call = has_argument_of(parser%text, last, parser%fields)
+      else
+         is_call = .not. is_function(name)
+      end if
+   end function is_call
+
+   !> Lists a call, or takes its value.
+   pure subroutine take_call(parser, first, last, value)
+      type(parser_t), intent(inout) :: parser
+      integer, intent(in) :: first, last               !< of its name
+      real(wp), intent(out) :: value
+      type(call_t) :: one
+      character(len=:), allocatable :: trouble
+      integer :: i, place
+
+      value = 1.0_wp
+      if (parser%is_listing) then
+         call read_call(parser%text, first, last, one, trouble, place)
+         if (allocated(trouble)) call fail(parser, place, place, trouble)
+         call append_call(one, parser%calls)
+         i = size(parser%calls)
+      else
+         i = findloc(parser%calls%first, first, dim=1)
+         value = parser%amounts(i)
+      end if
+      call move_to(parser, parser%calls(i)%last + 1)
+   end subroutine take_call
 
    pure recursive subroutine take_function(parser, name, first, value)
       type(parser_t), intent(inout) :: parser
@@ -388,7 +482,7 @@ contains
       integer, intent(in) :: first, last
       character(len=*), intent(in) :: text
 
-      if (has_failed(parser)) return
+      if (has_failed(parser) .or. parser%is_listing) return
       call fail(parser, first, last, text)
       parser%fault%of_value = .true.
    end subroutine fail_value

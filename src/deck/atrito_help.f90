@@ -1,9 +1,10 @@
 !> Reference of the deck keywords for the terminal, 80 columns, from the keyword table.
 module atrito_help
+   use atrito_foreign_keywords, only: ask_keyword, SUBJECTS, NOT_FOREIGN, FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
-   use atrito_keyword_table, only: keyword_table, find_keyword
+   use atrito_keyword_table, only: keyword_table, find_keyword, packed
    use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, level_text, item_meaning
-   use atrito_manual, only: help_manual
+   use atrito_manual, only: help_manual, foreign_names
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
@@ -18,24 +19,19 @@ contains
    subroutine help_overview(lines)
       type(string_t), allocatable, intent(out) :: lines(:)
       type(keyword_t), allocatable :: table(:)
-      character(len=:), allocatable :: harmless
-      integer :: i
 
       allocate (lines(0))
       table = keyword_table()
-      harmless = ''
       call append_string(lines, "Keywords of a deck; + is atrito's own. More: atrito help KEYWORD")
       call append_group(lines, table, 'Model, before *STEP', [.true., .false., .false.])
       call append_group(lines, table, 'Step, between *STEP and *END STEP', [.false., .true., .false.])
       call append_group(lines, table, 'Both', [.false., .false., .true.])
-      do i = 1, size(table)
-         if (.not. table(i)%harmless) cycle
-         if (len(harmless) > 0) harmless = harmless//', '
-         harmless = harmless//'*'//table(i)%name
-      end do
       call append_string(lines, '')
-      call append_string(lines, 'Without effect, a note')
-      call append_wrapped(lines, '  ', harmless)
+      call append_string(lines, 'Of other programs, without effect, a note')
+      call append_wrapped(lines, '  ', foreign_names(table, FOREIGN_IGNORED))
+      call append_string(lines, '')
+      call append_string(lines, 'Of other programs, outside of atrito; atrito help KEYWORD says what instead')
+      call append_wrapped(lines, '  ', foreign_names(table, FOREIGN_OUTSIDE))
    end subroutine help_overview
 
    subroutine append_group(lines, table, title, levels)
@@ -49,7 +45,7 @@ contains
       call append_string(lines, '')
       call append_string(lines, title)
       do i = 1, size(table)
-         if (table(i)%harmless .or. .not. levels(table(i)%level)) cycle
+         if (.not. levels(table(i)%level)) cycle
          name = '*'//table(i)%name
          if (table(i)%own) name = name//' +'
          text = table(i)%summary
@@ -71,8 +67,29 @@ contains
       first = merge(2, 1, index(name, '*') == 1)
       i = find_keyword(table, name(first:))
       found = i > 0
-      if (found) call append_page(lines, table(i))
+      if (found) then
+         call append_page(lines, table(i))
+      else
+         call append_foreign(lines, packed(name(first:)), found)
+      end if
    end subroutine help_keyword
+
+   !> What is known of a keyword of other programs.
+   subroutine append_foreign(lines, word, found)
+      type(string_t), allocatable, intent(inout) :: lines(:)
+      character(len=*), intent(in) :: word
+      logical, intent(out) :: found
+      integer :: verdict, subject
+
+      call ask_keyword(word, verdict, subject)
+      found = verdict /= NOT_FOREIGN
+      if (verdict == FOREIGN_IGNORED) then
+         call append_string(lines, '*'//word//', of other programs, has no effect; a note says so.')
+      else if (verdict == FOREIGN_OUTSIDE) then
+         call append_wrapped(lines, '', '*'//word//', of other programs, is outside of atrito: '//trim(SUBJECTS(subject)%what)//'.')
+         call append_wrapped(lines, '', 'Instead: '//trim(SUBJECTS(subject)%instead)//'.')
+      end if
+   end subroutine append_foreign
 
    subroutine append_page(lines, keyword)
       type(string_t), allocatable, intent(inout) :: lines(:)

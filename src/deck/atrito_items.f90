@@ -2,20 +2,24 @@
 module atrito_items
    use atrito_keyword_table, only: find_choice
    use atrito_kinds, only: ip, wp
-   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, is_empty_token, keyword_name, reading_order
+   use atrito_deck, only: deck_t, card_t, option_t, token_t, token_text, is_empty_token, written_length, keyword_name, reading_order
    use atrito_diagnostics, only: report_error
+   use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_later, index_of_parameter, parameter_names
+   use atrito_expressions, only: is_name, is_reserved_name
+   use atrito_lexer, only: trim_place
    use atrito_numbers, only: read_real, read_integer, NUMBER_OK, NUMBER_TOO_LARGE, NUMBER_NOT_INTEGER
    use atrito_strings, only: string_t, same_name, to_text, upper_case
    implicit none (type, external)
    private
    public :: get_real, get_integer, get_name, find_option, has_option, option_text, option_word, option_real, option_integer
-   public :: parameter_names, index_of_parameter, report_later, LONGEST_NAME
+   public :: LONGEST_NAME
 
    integer, parameter :: LONGEST_NAME = 80
+   real(wp), parameter :: ROUND_OFF = 1.0e-12_wp      !< of an expression that is to be whole: 0.1*30
 
 contains
 
-   !> The real value of an item: a number, `<name>` or `-<name>` of a parameter.
+   !> The real value of an item: a number, `<expression>` or `-<expression>` of parameters.
    !> An empty item takes the default, or is an error when there is none. ok: .false. when reported.
    subroutine get_real(deck, token, what, value, ok, default, keyword)
       type(deck_t), intent(in) :: deck
@@ -65,14 +69,15 @@ contains
          return
       end if
       associate (text => deck%sources(token%source)%text(token%first:token%last))
-         if (.not. is_parameter(text)) then
+         if (.not. is_expression(text)) then
             call number_of_text(deck, token, text, what, is_whole, value, ok, keyword)
             return
          end if
       end associate
-      call value_of_parameter(deck, token, what, value, ok, keyword)
+      call value_of_expression(deck, token, what, value, ok, keyword)
       if (.not. (ok .and. is_whole)) return
-      ok = abs(value) <= real(huge(1_ip), wp) .and. abs(value - anint(value)) <= 0.0_wp
+      ok = abs(value) <= real(huge(1_ip), wp) .and. abs(value - anint(value)) <= ROUND_OFF*abs(value)
+      if (ok) value = anint(value)
       if (ok) return
       call report_error(deck, token, 'E-INTEGER', token_text(deck, token)//' is '//to_text(value)//', not an integer', &
                         expected=what, keyword=keyword)
@@ -110,15 +115,16 @@ contains
       end select
    end subroutine number_of_text
 
-   !> Begins like a parameter; value_of_parameter checks the rest.
-   pure logical function is_parameter(text)
+   !> Begins like an expression in angle brackets; value_of_expression checks the rest.
+   pure logical function is_expression(text)
       character(len=*), intent(in) :: text
 
-      is_parameter = text(1:1) == '<'
-      if (len(text) > 1 .and. .not. is_parameter) is_parameter = text(1:2) == '-<'
-   end function is_parameter
+      is_expression = text(1:1) == '<'
+      if (len(text) > 1 .and. .not. is_expression) is_expression = text(1:2) == '-<'
+   end function is_expression
 
-   subroutine value_of_parameter(deck, token, what, value, ok, keyword)
+   !> The value of `<expression>` or `-<expression>`; of a name alone it is that of the parameter.
+   subroutine value_of_expression(deck, token, what, value, ok, keyword)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: what
@@ -127,27 +133,52 @@ contains
       character(len=*), intent(in), optional :: keyword
       character(len=:), allocatable :: text
       type(token_t) :: place
-      integer(ip) :: i, first
 
       value = 0.0_wp
       text = token_text(deck, token)
-      first = merge(3, 2, text(1:1) == '-')
-      ok = len(text) > first .and. text(len(text):) == '>'
-      if (.not. ok) then
-         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <name> of a parameter", &
-                           expected=what, keyword=keyword)
-         return
-      end if
       place = token
-      place%column = token%column + first - 1
-      place%first = token%first + first - 1
+      place%first = token%first + merge(2, 1, text(1:1) == '-')
       place%last = token%last - 1
+      call trim_place(deck%sources(token%source)%text, place%first, place%last)
+      place%column = token%column + place%first - token%first
+      ok = .not. is_empty_token(place) .and. text(len(text):) == '>'
+      if (.not. ok) then
+         call report_error(deck, token, 'E-NUMBER', "'"//text//"' is neither a number nor <expression> of parameters", &
+                           expected=what, keyword=keyword)
+      else if (is_own_name(deck, place)) then
+         call value_of_parameter(deck, place, what, value, ok)
+      else
+         call evaluate_at(deck, place, value, ok)
+      end if
+      if (ok .and. text(1:1) == '-') value = -value
+   end subroutine value_of_expression
+
+   !> A name alone that is no constant of the expressions.
+   pure logical function is_own_name(deck, place)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+
+      associate (text => deck%sources(place%source)%text(place%first:place%last))
+         is_own_name = is_name(text)
+         if (is_own_name) is_own_name = .not. is_reserved_name(text)
+         if (is_own_name .and. same_name(text, 'deg')) is_own_name = has_own_degree(deck)
+      end associate
+   end function is_own_name
+
+   subroutine value_of_parameter(deck, place, what, value, ok)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place               !< its name
+      character(len=*), intent(in) :: what
+      real(wp), intent(out) :: value
+      logical, intent(out) :: ok
+      integer(ip) :: i
+
+      value = 0.0_wp
       call find_parameter(deck, place, i, what)
       ok = i > 0
       if (.not. ok) return
       ok = deck%parameters(i)%known      ! if not, its definition is reported
       value = deck%parameters(i)%value
-      if (first == 3) value = -value
    end subroutine value_of_parameter
 
    !> Index of the parameter that an item names, 0 when there is none before this place (reported).
@@ -161,6 +192,7 @@ contains
       name = token_text(deck, place)
       i = index_of_parameter(deck, name)
       if (i == 0) then
+         if (deck%has_lost_parameters) return
          call report_error(deck, place, 'E-PARAMETER', 'unknown parameter '//name, expected=what, &
                            known=parameter_names(deck), keyword='PARAMETER')
          return
@@ -172,43 +204,6 @@ contains
       i = 0
    end subroutine find_parameter
 
-   !> A parameter is used before its definition.
-   subroutine report_later(deck, place, i, what)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: i                     !< the parameter
-      character(len=*), intent(in) :: what             !< what was expected
-
-      associate (parameter => deck%parameters(i))
-         call report_error(deck, place, 'E-PARAMETER', 'parameter '//token_text(deck, place)//' is used before its '// &
-                           'definition in '//deck%sources(parameter%place%source)%name//':'//to_text(parameter%place%line), &
-                           expected=what, keyword='PARAMETER')
-      end associate
-   end subroutine report_later
-
-   !> Index of a parameter, 0 when there is none of this name.
-   pure integer(ip) function index_of_parameter(deck, name) result(i)
-      type(deck_t), intent(in) :: deck
-      character(len=*), intent(in) :: name
-
-      do i = deck%n_parameters, 1, -1
-         if (same_name(deck%parameters(i)%name, name)) return
-      end do
-      i = 0
-   end function index_of_parameter
-
-   !> Names of the deck's parameters in the order of their definition.
-   function parameter_names(deck) result(names)
-      type(deck_t), intent(in) :: deck
-      type(string_t), allocatable :: names(:)
-      integer(ip) :: i
-
-      allocate (names(deck%n_parameters))
-      do i = 1, deck%n_parameters
-         names(i)%s = deck%parameters(i)%name
-      end do
-   end function parameter_names
-
    !> An item that is a name: not empty, of at most 80 characters.
    subroutine get_name(deck, token, what, name, ok, keyword)
       type(deck_t), intent(in) :: deck
@@ -219,7 +214,7 @@ contains
       character(len=*), intent(in), optional :: keyword
 
       name = token_text(deck, token)
-      ok = len(name) > 0 .and. len(name) <= LONGEST_NAME
+      ok = len(name) > 0 .and. written_length(deck, token) <= LONGEST_NAME
       if (len(name) == 0) then
          call report_error(deck, token, 'E-MISSING', 'a name is missing', expected=what, keyword=keyword)
       else if (.not. ok) then
@@ -240,7 +235,7 @@ contains
       found = .false.
       if (card%keyword < 1) return
       do i = 1, size(card%options)
-         if (card%options(i)%spec == 0) cycle
+         if (card%options(i)%spec < 1) cycle
          found = deck%keywords(card%keyword)%options(card%options(i)%spec)%name == name
          if (found) then
             option = card%options(i)

@@ -5,11 +5,11 @@
 !> `-NAME` is not built yet, `NAME!` must be given, `[name]` may be left out, `(name)` is of another solver and has no effect,
 !> `name...` may be repeated.
 module atrito_keyword
-   use atrito_strings, only: string_t, append_string
+   use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: keyword_t, keyword_list_t, option_spec_t, choice_t, form_t, item_t
-   public :: define_keyword, take_keywords, add_option, add_form, add_item, add_word_item, add_example
+   public :: define_keyword, take_keywords, add_option, add_form, let_lines_go_on, add_item, add_word_item, add_example
    public :: LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER
    public :: KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, &
              KIND_TEXT, KIND_REAL_OR_NAME
@@ -32,7 +32,7 @@ module atrito_keyword
    integer, parameter :: KIND_TEXT = 10          !< the whole line
    integer, parameter :: KIND_REAL_OR_NAME = 11  !< a number, or a set
 
-   integer, parameter :: MOST_KEYWORDS = 80, MOST_PARTS = 50
+   integer, parameter :: MOST_KEYWORDS = 90, MOST_PARTS = 50
    integer, parameter :: ANY_NUMBER = huge(1)    !< no upper limit of lines or items
 
    !> One of the words that an option or item can take.
@@ -71,6 +71,7 @@ module atrito_keyword
       integer :: min_items = 0, max_items = 0
       logical :: built = .true.
       logical :: harmless = .false.              !< lines of another solver: a note, not read
+      logical :: goes_on = .false.               !< a line with too few items goes on in the next
       character(len=:), allocatable :: doc
       type(item_t), allocatable :: items(:)
    end type form_t
@@ -80,7 +81,6 @@ module atrito_keyword
       integer :: level = LEVEL_MODEL
       logical :: own = .false.
       logical :: built = .true.
-      logical :: harmless = .false.
       character(len=:), allocatable :: parent    !< keyword to whose block it belongs; '' : none
       character(len=:), allocatable :: summary   !< one line
       character(len=:), allocatable :: doc       !< further sentences; may be ''
@@ -111,13 +111,12 @@ contains
       call finish_keyword(keywords)
       keywords%n = keywords%n + 1
       associate (keyword => keywords%list(keywords%n))
-         keyword%name = without_marks(name)
+         call set_bare(keyword%name, name)
          keyword%own = has_mark(name, '+')
-         keyword%harmless = has_mark(name, '(')
          keyword%level = level
          keyword%summary = summary
-         keyword%doc = text_or(doc)
-         keyword%parent = text_or(parent)
+         call set_text(keyword%doc, doc)
+         call set_text(keyword%parent, parent)
          allocate (keyword%example(0))
       end associate
    end subroutine define_keyword
@@ -183,7 +182,7 @@ contains
          option%required = has_mark(name, '!')
          option%own = has_mark(name, '+')
          option%built = .not. has_mark(name, '-')
-         option%needs = text_or(needs)
+         call set_text(option%needs, needs)
       end associate
    end subroutine add_option
 
@@ -194,13 +193,13 @@ contains
       integer, intent(in) :: kind
       character(len=*), intent(in), optional :: default, dimension, choices
 
-      item%name = without_marks(name)
+      call set_bare(item%name, name)
       item%kind = kind
       item%harmless = has_mark(name, '(')
       item%doc = doc
-      item%default = text_or(default)
-      item%dimension = text_or(dimension)
-      item%choices = choices_of(text_or(choices))
+      call set_text(item%default, default)
+      call set_text(item%dimension, dimension)
+      call set_choices(item%choices, choices)
       item%required = .not. (present(default) .or. has_mark(name, '[') .or. has_mark(name, '('))
    end subroutine describe
 
@@ -218,25 +217,39 @@ contains
          form%doc = doc
          form%min_lines = min_lines
          form%max_lines = max_lines
-         form%word = text_or(word)
+         call set_text(form%word, word)
          form%built = .true.
          form%harmless = .false.
+         form%goes_on = .false.
          if (present(built)) form%built = built
          if (present(harmless)) form%harmless = harmless
-         call set_condition(form, text_or(when))
+         call set_condition(form, when)
          form%min_items = merge(1, 0, len(form%word) > 0)
          form%max_items = form%min_items
       end associate
    end subroutine add_form
 
+   !> Lines of the form begun last that have too few items go on in the next line. For forms that apply alone.
+   subroutine let_lines_go_on(keywords)
+      type(keyword_list_t), intent(inout) :: keywords
+
+      keywords%forms(keywords%n_forms)%goes_on = .true.
+   end subroutine let_lines_go_on
+
    subroutine set_condition(form, when)
       type(form_t), intent(inout) :: form
-      character(len=*), intent(in) :: when
+      character(len=*), intent(in), optional :: when
       integer :: equals
 
+      if (.not. present(when)) then
+         form%absent = .false.
+         form%option = ''
+         allocate (form%values(0))
+         return
+      end if
       form%absent = has_mark(when, '-')
       equals = index(when//'=', '=')
-      form%option = without_marks(when(:equals - 1))
+      call set_bare(form%option, when(:equals - 1))
       call split_text(when(equals + 1:), '|', form%values)
    end subroutine set_condition
 
@@ -281,20 +294,24 @@ contains
       call split_text(lines, '|', keywords%list(keywords%n)%example)
    end subroutine add_example
 
-   function choices_of(list) result(choices)
-      character(len=*), intent(in) :: list
-      type(choice_t), allocatable :: choices(:)
+   subroutine set_choices(choices, list)
+      type(choice_t), allocatable, intent(out) :: choices(:)
+      character(len=*), intent(in), optional :: list
       type(string_t), allocatable :: words(:)
       integer :: i
 
+      if (.not. present(list)) then
+         allocate (choices(0))
+         return
+      end if
       call split_text(list, ' ', words)
       allocate (choices(size(words)))
       do i = 1, size(words)
-         choices(i)%name = with_blanks(without_marks(words(i)%s))
+         call set_bare(choices(i)%name, with_blanks(words(i)%s))
          choices(i)%built = .not. has_mark(words(i)%s, '-')
          choices(i)%own = has_mark(words(i)%s, '+')
       end do
-   end function choices_of
+   end subroutine set_choices
 
    pure function with_blanks(word) result(text)
       character(len=*), intent(in) :: word
@@ -312,13 +329,18 @@ contains
       character(len=*), intent(in) :: text
       character(len=1), intent(in) :: mark
       type(string_t), allocatable, intent(out) :: pieces(:)
-      integer :: first, length
+      integer :: first, length, i, n
 
-      allocate (pieces(0))
+      n = count([(text(i:i) == mark, i=1, len(text))])
+      if (len(text) > 0) then
+         if (text(len(text):) /= mark) n = n + 1
+      end if
+      allocate (pieces(n))
       first = 1
-      do while (first <= len(text))
-         length = index(text(first:)//mark, mark) - 1
-         call append_string(pieces, text(first:first + length - 1))
+      do i = 1, n
+         length = index(text(first:), mark) - 1
+         if (length < 0) length = len(text) - first + 1
+         pieces(i)%s = text(first:first + length - 1)
          first = first + length + 1
       end do
    end subroutine split_text
@@ -332,21 +354,25 @@ contains
       if (has_mark) has_mark = name(1:1) == mark .or. name(len(name):) == mark
    end function has_mark
 
-   pure function without_marks(name) result(bare)
+   !> The name without its marks. Texts are set in their places: a table has thousands, and is made at every start.
+   pure subroutine set_bare(bare, name)
+      character(len=:), allocatable, intent(inout) :: bare
       character(len=*), intent(in) :: name
-      character(len=:), allocatable :: bare
       character(len=*), parameter :: MARKS = '-+!.()[]'
 
       bare = name(max(verify(name, MARKS), 1):verify(name, MARKS, back=.true.))
-   end function without_marks
+   end subroutine set_bare
 
-   pure function text_or(text) result(given)
+   pure subroutine set_text(place, text)
+      character(len=:), allocatable, intent(inout) :: place
       character(len=*), intent(in), optional :: text
-      character(len=:), allocatable :: given
 
-      given = ''
-      if (present(text)) given = text
-   end function text_or
+      if (present(text)) then
+         place = text
+      else
+         place = ''
+      end if
+   end subroutine set_text
 
    subroutine move_keyword(from, to)
       type(keyword_t), intent(inout) :: from, to
@@ -354,7 +380,6 @@ contains
       to%level = from%level
       to%own = from%own
       to%built = from%built
-      to%harmless = from%harmless
       call move_alloc(from%name, to%name)
       call move_alloc(from%parent, to%parent)
       call move_alloc(from%summary, to%summary)
@@ -396,6 +421,7 @@ contains
       to%max_items = from%max_items
       to%built = from%built
       to%harmless = from%harmless
+      to%goes_on = from%goes_on
       call move_alloc(from%option, to%option)
       call move_alloc(from%values, to%values)
       call move_alloc(from%word, to%word)

@@ -3,7 +3,7 @@ module atrito_keyword_table
    use atrito_keyword, only: keyword_t, keyword_list_t, choice_t, option_spec_t, take_keywords
    use atrito_mesh_keywords, only: define_mesh_keywords
    use atrito_scene_keywords, only: define_scene_keywords
-   use atrito_step_keywords, only: define_step_keywords, define_harmless_keywords
+   use atrito_step_keywords, only: define_step_keywords
    use atrito_strings, only: string_t, append_string, upper_case
    implicit none (type, external)
    private
@@ -19,7 +19,6 @@ contains
       call define_mesh_keywords(keywords)
       call define_scene_keywords(keywords)
       call define_step_keywords(keywords)
-      call define_harmless_keywords(keywords)
       call take_keywords(keywords, table)
    end function keyword_table
 

@@ -129,6 +129,7 @@ contains
          end if
          if (form%max_lines == 1) text = 'at most 1 line'
       end if
+      if (form%goes_on) text = text//'; a line with too few items goes on in the next'
    end function lines_text
 
    !> When a form applies: `with TYPE=ELEMENT`, `without NONLOCAL`; '' when always.

@@ -93,25 +93,30 @@ contains
       is_blank = symbol == ' ' .or. ichar(symbol) == TAB
    end function is_blank
 
-   !> The items between the commas of text(first:last), a comma in quotes apart. One comma at the end of the line is free.
+   !> The items between the commas of text(first:last), commas in quotes and in <...> apart. One comma at the end of the line is
+   !> free.
    pure subroutine split_items(text, first, last, items)
       character(len=*), intent(in) :: text
       integer(ip), intent(in) :: first, last
       type(items_t), intent(inout) :: items      !< its arrays are kept and grow
-      integer(ip) :: i, start, quote
+      integer(ip) :: i, start, quote, closing          ! closing: end of the last <...>
 
       items%n = 0
       items%bad_quote = 0
       if (.not. allocated(items%first)) allocate (items%first(64), items%last(64))
       start = first
       quote = 0
+      closing = 0
       do i = first, last
          if (text(i:i) == '"') then
             if (.not. is_beside(text, first, last, i, opening=quote == 0)) items%bad_quote = i
             quote = merge(0_ip, i, quote > 0)
          else if (text(i:i) == ',' .and. quote == 0) then
+            if (i < closing) cycle
             call add_place(text, start, i - 1, items)
             start = i + 1
+         else if (text(i:i) == '<' .and. quote == 0) then
+            closing = closing_bracket(text, i, last)
          end if
       end do
       if (quote > 0) items%bad_quote = quote
@@ -119,7 +124,19 @@ contains
       if (start <= last .or. items%n == 0) call add_place(text, start, last, items)
    end subroutine split_items
 
-   !> A quote opens at the beginning of an item or value, and closes at its end.
+   !> Place of the `>` that closes a `<`, before any other `<`; 0 when there is none: then it is no bracket.
+   pure integer(ip) function closing_bracket(text, opening, last) result(place)
+      character(len=*), intent(in) :: text
+      integer(ip), intent(in) :: opening, last
+
+      do place = opening + 1, last
+         if (text(place:place) == '>') return
+         if (text(place:place) == '<' .or. text(place:place) == '"') exit
+      end do
+      place = 0
+   end function closing_bracket
+
+   !> A quote opens at the beginning of an item or value, and closes at its end. Beside a dot it is one of two names, "a b".c.
    pure logical function is_beside(text, first, last, quote, opening)
       character(len=*), intent(in) :: text
       integer(ip), intent(in) :: first, last, quote
@@ -131,7 +148,7 @@ contains
       i = quote + step
       do while (i >= first .and. i <= last)
          if (.not. is_blank(text(i:i))) then
-            is_beside = text(i:i) == ',' .or. (opening .and. text(i:i) == '=')
+            is_beside = text(i:i) == ',' .or. (opening .and. text(i:i) == '=') .or. (text(i:i) == '.' .and. i == quote + step)
             return
          end if
          i = i + step

@@ -1,12 +1,13 @@
 !> docs/user/keywords.md, from the keyword table.
 module atrito_manual
+   use atrito_foreign_keywords, only: IGNORED_KEYWORDS, OUTSIDE_KEYWORDS, SUBJECTS, FOREIGN_IGNORED, FOREIGN_OUTSIDE
    use atrito_keyword, only: keyword_t, option_spec_t, form_t
-   use atrito_keyword_table, only: keyword_table
+   use atrito_keyword_table, only: keyword_table, find_keyword
    use atrito_keyword_text, only: form_text, option_text_of, choices_text, lines_text, condition_text, level_text, item_meaning
    use atrito_strings, only: string_t, append_string
    implicit none (type, external)
    private
-   public :: help_manual
+   public :: help_manual, foreign_names
 
    character(len=96), parameter :: INTRODUCTION(14) = [character(len=96) :: &
                                                        '# Keywords of a deck', &
@@ -39,9 +40,9 @@ contains
       end do
       call append_overview(lines, table)
       do i = 1, size(table)
-         if (.not. table(i)%harmless) call append_section(lines, table(i))
+         call append_section(lines, table(i))
       end do
-      call append_harmless(lines, table)
+      call append_foreign(lines, table)
    end subroutine help_manual
 
    subroutine append_overview(lines, table)
@@ -52,7 +53,6 @@ contains
       call append_string(lines, '| keyword | where | what |')
       call append_string(lines, '|---|---|---|')
       do i = 1, size(table)
-         if (table(i)%harmless) cycle
          call append_string(lines, '| '//escaped(title_of(table(i)))//' | '//escaped(level_text(table(i)%level))//' | '// &
                             escaped(table(i)%summary)//not_built(table(i)%built)//' |')
       end do
@@ -144,20 +144,59 @@ contains
       call append_string(lines, '```')
    end subroutine append_example
 
-   subroutine append_harmless(lines, table)
+   subroutine append_foreign(lines, table)
       type(string_t), allocatable, intent(inout) :: lines(:)
       type(keyword_t), intent(in) :: table(:)
+      character(len=:), allocatable :: names
       integer :: i
 
       call append_string(lines, '')
       call append_string(lines, '## Keywords of other programs')
       call append_string(lines, '')
-      call append_string(lines, 'They have no effect, and a note says so:')
+      call append_string(lines, 'These have no effect on a linear static run, and a note says so once:')
+      call append_string(lines, escaped(foreign_names(table, FOREIGN_IGNORED))//'.')
       call append_string(lines, '')
-      do i = 1, size(table)
-         if (table(i)%harmless) call append_string(lines, '- '//escaped('*'//table(i)%name))
+      call append_string(lines, 'These are outside of atrito, and an error says so by name:')
+      call append_string(lines, '')
+      call append_string(lines, '| what | keywords | instead |')
+      call append_string(lines, '|---|---|---|')
+      do i = 1, size(SUBJECTS)
+         names = foreign_names(table, FOREIGN_OUTSIDE, i)
+         if (len(names) > 0) call append_string(lines, '| '//escaped(trim(SUBJECTS(i)%what))//' | '//escaped(names)//' | '// &
+                                                escaped(trim(SUBJECTS(i)%instead))//' |')
       end do
-   end subroutine append_harmless
+   end subroutine append_foreign
+
+   !> `*CONDUCTIVITY, *DAMPING`: what is known of other programs and is not in the table.
+   function foreign_names(table, verdict, subject) result(names)
+      type(keyword_t), intent(in) :: table(:)
+      integer, intent(in) :: verdict                !< FOREIGN_IGNORED, FOREIGN_OUTSIDE
+      integer, intent(in), optional :: subject      !< these alone; place in SUBJECTS
+      character(len=:), allocatable :: names
+      integer :: i
+
+      names = ''
+      if (verdict == FOREIGN_IGNORED) then
+         do i = 1, size(IGNORED_KEYWORDS)
+            call add_name(IGNORED_KEYWORDS(i))
+         end do
+         return
+      end if
+      do i = 1, size(OUTSIDE_KEYWORDS)
+         if (present(subject)) then
+            if (OUTSIDE_KEYWORDS(i)%subject /= subject) cycle
+         end if
+         call add_name(OUTSIDE_KEYWORDS(i)%name)
+      end do
+   contains
+      subroutine add_name(name)
+         character(len=*), intent(in) :: name
+
+         if (find_keyword(table, name) > 0) return
+         if (len(names) > 0) names = names//', '
+         names = names//'*'//trim(name)
+      end subroutine add_name
+   end function foreign_names
 
    pure function title_of(keyword) result(title)
       type(keyword_t), intent(in) :: keyword

@@ -1,9 +1,9 @@
 !> Definitions of the keywords that make meshes, sets and surfaces.
 module atrito_mesh_keywords
    use atrito_element_table, only: SHAPES, KINDS, MOST_NODES
-   use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
-                             LEVEL_MODEL, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, &
-                             KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
+   use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, let_lines_go_on, add_item, add_word_item, &
+                             add_example, LEVEL_MODEL, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, &
+                             KIND_REAL, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, KIND_TEXT
    use atrito_kinds, only: ip
    implicit none (type, external)
    private
@@ -20,6 +20,7 @@ contains
       call define_element_keywords(k)
       call define_block(k)
       call define_surface_keywords(k)
+      call define_part_keywords(k)
    end subroutine define_mesh_keywords
 
    !> The title, other files, parameters.
@@ -33,14 +34,21 @@ contains
       call add_example(k, '*HEADING|Plate on its support, units kN and m')
 
       call define_keyword(k, 'INCLUDE', LEVEL_BOTH, 'reads another file in this place', &
-                          doc='The file may begin with data lines of the keyword before. Files may include others, 20 deep.')
+                          doc='The file may begin with data lines of the keyword before. Files may include others, 20 deep. '// &
+                          'TYPE=GMSH reads a mesh of Gmsh (.msh, format 4.1 or 2.2, ASCII) before *STEP: physical surfaces '// &
+                          'become element sets, physical curves surfaces, all of them node sets; clockwise elements are '// &
+                          'turned, nodes of no element are left out. More in docs/user/gmsh.md.')
       call add_option(k, 'INPUT!', KIND_FILE, 'the file, relative to the one that includes it')
-      call add_example(k, '*INCLUDE, INPUT=mesh/plate.inp')
+      call add_option(k, 'TYPE+', KIND_WORD, 'what the file is, when it is no deck', default='DECK', choices='DECK GMSH')
+      call add_option(k, 'ELEMENTS+', KIND_WORD, 'plane state of the elements of a mesh', default='CPS', choices='CPS CPE CAX', &
+                      needs='TYPE')
+      call add_example(k, '*INCLUDE, INPUT=mesh/plate.inp|*INCLUDE, INPUT=disk.msh, TYPE=GMSH, ELEMENTS=CPE')
 
       call define_keyword(k, 'PARAMETER', LEVEL_BOTH, 'named numbers, set from the command line by --set', &
                           doc='Stands before the first use. Expressions know + - * / ** ( ) sqrt abs exp log sin cos tan atan '// &
-                          'min max pi and the parameters defined earlier; all is real, 1/2 is 0.5. A data item or the value of '// &
-                          'an option takes a parameter as <name> or -<name>. Defined twice is an error.')
+                          'min max pi deg (= pi/180, unless the deck has a parameter deg) and the parameters defined earlier; '// &
+                          'all is real, 1/2 is 0.5. A data item or the value of an option that is a number takes an '// &
+                          'expression as <...> or -<...>: <name>, -<name>, <2*name>, <sin(30*deg)>. Defined twice is an error.')
       call add_form(k, 'one parameter a line', 1, ANY_NUMBER)
       call add_item(k, 'name = expression', KIND_TEXT, 'letters, digits and underscores, a letter first')
       call add_example(k, '*PARAMETER|q = 1000|eps = 4e-4*q|*DSLOAD|plate-TOP, P, <q>')
@@ -55,8 +63,8 @@ contains
       call add_option(k, 'NSET', KIND_NAME, 'puts these nodes into a node set')
       call add_form(k, 'one node a line', 1, ANY_NUMBER)
       call add_item(k, 'id', KIND_ID, 'number of the node, positive')
-      call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
-      call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
+      call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L', default='0')
+      call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L', default='0')
       call add_item(k, 'z', KIND_REAL, 'coordinate, must be 0', dimension='L', default='0')
       call add_item(k, '(further)...', KIND_REAL, 'of other programs')
       call add_example(k, '*NODE, NSET=corners|1, 0., 0.|2, 1.5, 0.')
@@ -96,17 +104,9 @@ contains
       call add_option(k, '-REFLECT', KIND_WORD, 'mirrors the nodes')
       call add_option(k, '-POLE', KIND_FLAG, 'projects the nodes from a pole')
       call add_form(k, 'the translation', 1, 1)
-      call add_item(k, 'dx', KIND_REAL, 'along x', dimension='L')
-      call add_item(k, 'dy', KIND_REAL, 'along y', dimension='L')
-      call add_item(k, 'dz', KIND_REAL, 'along z, must be 0', dimension='L', default='0')
+      call add_motion_items(k, .true.)
       call add_form(k, 'the rotation', 0, 1)
-      call add_item(k, 'xa', KIND_REAL, 'first point of the axis', dimension='L')
-      call add_item(k, 'ya', KIND_REAL, 'first point of the axis', dimension='L')
-      call add_item(k, 'za', KIND_REAL, 'first point of the axis', dimension='L')
-      call add_item(k, 'xb', KIND_REAL, 'second point of the axis, = xa', dimension='L')
-      call add_item(k, 'yb', KIND_REAL, 'second point of the axis, = ya', dimension='L')
-      call add_item(k, 'zb', KIND_REAL, 'second point of the axis', dimension='L')
-      call add_item(k, 'angle', KIND_REAL, 'round the axis from the first to the second point, in degrees', dimension='-')
+      call add_motion_items(k, .false.)
       call add_example(k, '*NCOPY, CHANGE NUMBER=1000, OLD SET=stone, SHIFT, NEW SET=next|0., 0., 0.|0., 0., 0., 0., 0., 1., 9.')
 
       call define_keyword(k, 'NSET', LEVEL_MODEL, 'names a set of nodes', doc='A set named again grows.')
@@ -126,8 +126,10 @@ contains
                           '8 the same without a centre (serendipity); R: integrated at fewer points. '// &
                           'Faces: S1 = nodes 1-2, S2 = 2-3, '// &
                           'S3 = 3-4, S4 = 4-1. Triangles: 3 nodes are linear, 6 quadratic; mid-sides 1-2, 2-3, 3-1; '// &
-                          'S3 = 3-1, and no S4.')
-      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types()//' SPRING1 SPRING2')
+                          'S3 = 3-1, and no S4. M3D, a membrane, is plane stress. T3D2 and T3D3 are lines of Gmsh: they have '// &
+                          'no stiffness, and their element sets are node sets and surfaces.')
+      call add_option(k, 'TYPE!', KIND_WORD, 'type of the elements', choices=element_types()// &
+                      ' M3D3 M3D4 M3D4R M3D6 M3D8 M3D8R +M3D9 T3D2 T3D3 SPRING1 SPRING2 SPRINGA')
       call add_option(k, 'ELSET', KIND_NAME, 'puts these elements into an element set')
       do shape = 1, MOST_NODES
          if (SHAPES(shape)%n_nodes > 0) call add_element_form(k, shape)
@@ -135,10 +137,19 @@ contains
       call add_form(k, 'one spring to the ground a line; *SPRING gives its dof', 1, ANY_NUMBER, when='TYPE=SPRING1')
       call add_item(k, 'id', KIND_ID, 'number of the spring, positive')
       call add_item(k, 'node', KIND_ID, 'that it holds')
-      call add_form(k, 'one spring between two nodes a line', 1, ANY_NUMBER, when='TYPE=SPRING2')
+      call add_form(k, 'one spring between two nodes a line', 1, ANY_NUMBER, when='TYPE=SPRING2|SPRINGA')
       call add_item(k, 'id', KIND_ID, 'number of the spring, positive')
       call add_item(k, 'node 1', KIND_ID, 'first end')
       call add_item(k, 'node 2', KIND_ID, 'second end')
+      call add_form(k, 'one line between two nodes a line', 1, ANY_NUMBER, when='TYPE=T3D2')
+      call add_item(k, 'id', KIND_ID, 'number of the line, positive')
+      call add_item(k, 'node 1', KIND_ID, 'first end')
+      call add_item(k, 'node 2', KIND_ID, 'last end')
+      call add_form(k, 'one line over three nodes a line', 1, ANY_NUMBER, when='TYPE=T3D3')
+      call add_item(k, 'id', KIND_ID, 'number of the line, positive')
+      call add_item(k, 'node 1', KIND_ID, 'first end')
+      call add_item(k, 'node 2', KIND_ID, 'middle')
+      call add_item(k, 'node 3', KIND_ID, 'last end')
       call add_example(k, '*ELEMENT, TYPE=CPE4, ELSET=plate|1, 1, 2, 102, 101')
 
       call define_keyword(k, 'ELGEN', LEVEL_MODEL, 'repeats an element in a row, and the row', &
@@ -178,9 +189,12 @@ contains
 
       names = ''
       do i = 1, size(KINDS, kind=ip)
-         if (KINDS(i)%shape == shape) names = names//'|'//trim(KINDS(i)%name)
+         if (KINDS(i)%shape /= shape) cycle
+         names = names//'|'//trim(KINDS(i)%name)
+         if (KINDS(i)%name(:3) == 'CPS') names = names//'|M3D'//trim(KINDS(i)%name(4:))
       end do
       call add_form(k, 'one element a line', 1, ANY_NUMBER, when='TYPE='//names(2:))
+      call let_lines_go_on(k)
       call add_item(k, 'id', KIND_ID, 'number of the element, positive')
       do i = 1, shape
          call add_item(k, 'node '//achar(iachar('0') + i), KIND_ID, merge('corner  ', 'mid-side', i <= SHAPES(shape)%n_corners))
@@ -247,15 +261,19 @@ contains
 
       call define_keyword(k, 'SURFACE', LEVEL_MODEL, 'names a surface: faces of elements, or a drawn line', &
                           doc='Over a set, face Sn of each of its elements; without a face, all outer faces. A face inside the '// &
-                          'mesh is an error. The outward normal of a drawn line is its direction of travel turned by +90 '// &
+                          'mesh is an error. TYPE=NODE: the outer faces all of whose nodes are listed. The outward '// &
+                          'normal of a drawn line is its direction of travel turned by +90 '// &
                           'degrees: a floor drawn from left to right faces up. An arc runs the shorter way round its centre, '// &
                           'which is as far from both ends within 1e-4 and is moved to be so exactly.')
       call add_option(k, 'NAME!', KIND_NAME, 'name of the surface')
-      call add_option(k, 'TYPE', KIND_WORD, 'kind of surface', default='ELEMENT', choices='ELEMENT SEGMENTS')
+      call add_option(k, 'TYPE', KIND_WORD, 'kind of surface', default='ELEMENT', choices='ELEMENT NODE SEGMENTS')
       call add_option(k, '(INTERNAL)', KIND_FLAG, 'mark of a preprocessor')
       call add_form(k, 'faces', 1, ANY_NUMBER, when='TYPE=ELEMENT')
       call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
       call add_word_item(k, '[face]', 'S1 S2 S3 S4', 'face of each element; all outer faces when left out')
+      call add_form(k, 'nodes', 1, ANY_NUMBER, when='TYPE=NODE')
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
+      call add_item(k, '(area)', KIND_REAL, 'of another solver')
       call add_form(k, 'where the line begins', 1, 1, when='TYPE=SEGMENTS', word='START')
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
@@ -278,11 +296,71 @@ contains
       call add_example(k, '*RIGID BODY, ANALYTICAL SURFACE=floor|*RIGID BODY, ANALYTICAL SURFACE=punch, REF NODE=1000')
    end subroutine define_surface_keywords
 
+   !> Decks in parts.
+   subroutine define_part_keywords(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'PART', LEVEL_MODEL, 'begins a part: a mesh that stands in the scene once an *INSTANCE of it', &
+                          doc='Its numbers begin at 1, and its sets and surfaces have names of their own. *SOLID SECTION holds '// &
+                          'in every instance. Materials, contact, supports and loads stand outside.')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the part')
+      call add_example(k, '*PART, NAME=block|*NODE|1, 0., 0.|*END PART')
+
+      call define_keyword(k, 'END PART', LEVEL_MODEL, 'ends a part')
+      call add_example(k, '*END PART')
+
+      call define_keyword(k, 'ASSEMBLY', LEVEL_MODEL, 'begins the assembly, in which the instances stand', &
+                          doc='Outside of an instance its sets and surfaces are instance.name, its nodes and elements '// &
+                          'instance.number; a bare number is one of the assembly. Numbers of the first instance stay as they '// &
+                          'are, those of the others get a round number added, which the listing has.')
+      call add_option(k, 'NAME', KIND_NAME, 'name of the assembly')
+      call add_example(k, '*ASSEMBLY, NAME=all|*INSTANCE, NAME=upper, PART=block|0., 1.|*END INSTANCE|*END ASSEMBLY|*BOUNDARY|'// &
+                       'upper.3, 1, 2')
+
+      call define_keyword(k, 'END ASSEMBLY', LEVEL_MODEL, 'ends the assembly')
+      call add_example(k, '*END ASSEMBLY')
+
+      call define_keyword(k, 'INSTANCE', LEVEL_MODEL, 'a part in its place', &
+                          doc='Moved first, then rotated about the axis. Nodes, elements, sets and surfaces up to *END '// &
+                          'INSTANCE are of this instance alone.')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the instance')
+      call add_option(k, 'PART!', KIND_NAME, 'the part')
+      call add_form(k, 'the translation', 0, 1)
+      call add_motion_items(k, .true.)
+      call add_form(k, 'the rotation', 0, 1)
+      call add_motion_items(k, .false.)
+      call add_example(k, '*INSTANCE, NAME=upper, PART=block|0., 1.|0., 1., 0., 0., 1., 1., 90.|*END INSTANCE')
+
+      call define_keyword(k, 'END INSTANCE', LEVEL_MODEL, 'ends an instance')
+      call add_example(k, '*END INSTANCE')
+   end subroutine define_part_keywords
+
+   !> Items of the line of a translation, or of that of a rotation.
+   subroutine add_motion_items(k, is_translation)
+      type(keyword_list_t), intent(inout) :: k
+      logical, intent(in) :: is_translation
+
+      if (is_translation) then
+         call add_item(k, 'dx', KIND_REAL, 'along x', dimension='L')
+         call add_item(k, 'dy', KIND_REAL, 'along y', dimension='L')
+         call add_item(k, 'dz', KIND_REAL, 'along z, must be 0', dimension='L', default='0')
+         return
+      end if
+      call add_item(k, 'xa', KIND_REAL, 'first point of the axis', dimension='L')
+      call add_item(k, 'ya', KIND_REAL, 'first point of the axis', dimension='L')
+      call add_item(k, 'za', KIND_REAL, 'first point of the axis', dimension='L')
+      call add_item(k, 'xb', KIND_REAL, 'second point of the axis, = xa', dimension='L')
+      call add_item(k, 'yb', KIND_REAL, 'second point of the axis, = ya', dimension='L')
+      call add_item(k, 'zb', KIND_REAL, 'second point of the axis', dimension='L')
+      call add_item(k, 'angle', KIND_REAL, 'round the axis from the first to the second point, in degrees', dimension='-')
+   end subroutine add_motion_items
+
    subroutine add_set_forms(k, member)
       type(keyword_list_t), intent(inout) :: k
       character(len=*), intent(in) :: member
 
       call add_option(k, 'GENERATE', KIND_FLAG, 'the data lines are ranges of numbers')
+      call add_option(k, 'INSTANCE', KIND_NAME, 'in an *ASSEMBLY: the instance of which these are')
       call add_option(k, '(INTERNAL)', KIND_FLAG, 'mark of a preprocessor')
       call add_option(k, '(UNSORTED)', KIND_FLAG, 'sets keep the order of the deck')
       call add_form(k, 'members', 1, ANY_NUMBER, when='-GENERATE')

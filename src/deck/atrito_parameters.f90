@@ -3,11 +3,13 @@ module atrito_parameters
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, token_t, parameter_t, append_parameter, reading_order, token_text
    use atrito_diagnostics, only: report_error
-   use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name, reserved_names
-   use atrito_items, only: index_of_parameter, parameter_names, report_later, LONGEST_NAME
+   use atrito_expressions, only: expression_fault_t, evaluate_expression, is_name, is_reserved_name
+   use atrito_deck_expressions, only: evaluate_at, has_own_degree, report_fault, collect_known, put_before, index_of_parameter, &
+                                      parameter_names
+   use atrito_items, only: LONGEST_NAME
    use atrito_lexer, only: find_equals, trim_place
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE
-   use atrito_strings, only: string_t, append_string, lower_case, same_name, nearest_names, join, to_text
+   use atrito_strings, only: string_t, append_string, same_name, nearest_names, join, to_text
    implicit none (type, external)
    private
    public :: settings_t, read_settings, define_parameter, check_settings, evaluate_function
@@ -62,6 +64,7 @@ contains
 
       equals = find_equals(deck%sources(token%source)%text, token%first, token%last)
       if (equals == 0) then
+         deck%has_lost_parameters = .true.
          call report_error(deck, token, 'E-PARAMETER', 'a parameter without a value', expected='name = expression', &
                            keyword='PARAMETER')
          return
@@ -70,11 +73,13 @@ contains
       expression = part_of(deck, token, equals + 1, token%last)
       parameter%name = deck%sources(token%source)%text(name%first:name%last)
       call check_name(deck, name, parameter%name, ok)
+      if (.not. ok) deck%has_lost_parameters = deck%has_lost_parameters .or. index_of_parameter(deck, parameter%name) == 0
       if (.not. ok) return
       parameter%place = name
+      parameter%expression = expression
       parameter%order = reading_order(deck, token%source, token%line)
       call apply_settings(settings, parameter)
-      if (.not. parameter%known) call evaluate(deck, expression, parameter%value, parameter%known)
+      if (.not. parameter%known) call evaluate_at(deck, expression, parameter%value, parameter%known)
       call append_parameter(deck, parameter)
    end subroutine define_parameter
 
@@ -131,74 +136,6 @@ contains
       end if
    end subroutine check_name
 
-   !> The value of an expression of earlier parameters. known: .false. when it has none; that is reported, except when it
-   !> uses a parameter that has none itself.
-   subroutine evaluate(deck, expression, value, known)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
-      real(wp), intent(out) :: value
-      logical, intent(out) :: known
-      type(expression_fault_t) :: fault
-      type(string_t), allocatable :: names(:)
-      real(wp), allocatable :: values(:)
-
-      call collect_known(deck, expression, .true., names, values)
-      call evaluate_expression(token_text(deck, expression), names, values, value, fault)
-      known = .not. allocated(fault%text)
-      if (.not. known) call report_fault(deck, expression, fault, [string_t ::], 'PARAMETER')
-   end subroutine evaluate
-
-   !> A fault of an expression, at its place. Passed over in silence when it is a parameter whose definition was reported.
-   subroutine report_fault(deck, expression, fault, also, keyword)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: expression
-      type(expression_fault_t), intent(in) :: fault
-      type(string_t), intent(in) :: also(:)            !< names that the expression knows besides
-      character(len=*), intent(in) :: keyword
-      type(token_t) :: place
-      type(string_t), allocatable :: names(:)
-      character(len=:), allocatable :: others
-      integer(ip) :: i
-
-      place = expression
-      place%first = expression%first + fault%first - 1
-      place%last = min(expression%last, expression%first + fault%last - 1)
-      place%column = expression%column + fault%first - 1
-      others = join(also, ', ')
-      if (len(others) > 0) others = others//', '
-      i = 0
-      if (fault%unknown_name) i = index_of_parameter(deck, token_text(deck, place))
-      if (.not. fault%unknown_name) then
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
-                           expected='numbers, '//others//'earlier parameters, + - * / ** ( ), functions')
-      else if (i == 0) then
-         names = reserved_names()
-         call put_before(parameter_names(deck), names)
-         call put_before(also, names)
-         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=names, &
-                           expected=others//'an earlier parameter, a function or pi')
-      else if (deck%parameters(i)%known) then
-         call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
-      end if
-   end subroutine report_fault
-
-   !> Not an array constructor: what function results hold in one is never given back (gfortran 12).
-   pure subroutine put_before(first, names)
-      type(string_t), intent(in) :: first(:)
-      type(string_t), allocatable, intent(inout) :: names(:)
-      type(string_t), allocatable :: both(:)
-      integer :: i
-
-      allocate (both(size(first) + size(names)))
-      do i = 1, size(first)
-         both(i)%s = first(i)%s
-      end do
-      do i = 1, size(names)
-         call move_alloc(names(i)%s, both(size(first) + i)%s)
-      end do
-      call move_alloc(both, names)
-   end subroutine put_before
-
    !> An expression in x, y and earlier parameters at some places.
    subroutine evaluate_function(deck, expression, x, values, ok, keyword)
       type(deck_t), intent(in) :: deck
@@ -228,7 +165,8 @@ contains
       ok = .true.
       if (size(values) == 0) call check_text(deck, expression, names, known, ok, keyword)
       do i = 1, size(values, kind=ip)
-         call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault)
+         call evaluate_expression(token_text(deck, expression), names, [x(:, i), known], values(i), fault, &
+                                  has_own_degree(deck))
          ok = .not. allocated(fault%text)
          if (ok) cycle
          if (fault%of_value) fault%text = fault%text//' at x = '//to_text(x(1, i))//', y = '//to_text(x(2, i))
@@ -248,38 +186,10 @@ contains
       type(expression_fault_t) :: fault
       real(wp) :: value
 
-      call evaluate_expression(token_text(deck, expression), names, [0.0_wp, 0.0_wp, known], value, fault)
+      call evaluate_expression(token_text(deck, expression), names, [0.0_wp, 0.0_wp, known], value, fault, has_own_degree(deck))
       ok = .not. allocated(fault%text) .or. fault%of_value
       if (.not. ok) call report_fault(deck, expression, fault, names(:2), keyword)
    end subroutine check_text
-
-   !> The parameters that have values and are defined before the place of an expression.
-   subroutine collect_known(deck, place, named, names, values)
-      type(deck_t), intent(in) :: deck
-      type(token_t), intent(in) :: place
-      logical, intent(in) :: named                     !< only those that the expression may name: a deck can have thousands
-      type(string_t), allocatable, intent(out) :: names(:)
-      real(wp), allocatable, intent(out) :: values(:)
-      character(len=:), allocatable :: text
-      integer(ip), allocatable :: used(:)
-      integer(ip) :: i, n, here
-
-      text = lower_case(token_text(deck, place))
-      here = reading_order(deck, place%source, place%line)
-      allocate (used(deck%n_parameters))
-      n = 0
-      do i = 1, deck%n_parameters
-         if (.not. deck%parameters(i)%known .or. deck%parameters(i)%order >= here) cycle
-         if (named .and. index(text, lower_case(deck%parameters(i)%name)) == 0) cycle
-         n = n + 1
-         used(n) = i
-      end do
-      allocate (names(n), values(n))
-      do i = 1, n
-         names(i)%s = deck%parameters(used(i))%name
-         values(i) = deck%parameters(used(i))%value
-      end do
-   end subroutine collect_known
 
    !> status: STATUS_USAGE when a setting names no parameter of the deck; tells those that it has.
    subroutine check_settings(deck, settings, status)

@@ -2,17 +2,23 @@
 module atrito_reader
    use atrito_kinds, only: ip, lp
    use atrito_card_data, only: check_data
-   use atrito_card_order, only: order_t, check_order, check_end
+   use atrito_card_order, only: order_t, check_order, check_end, meant_keyword
    use atrito_cards, only: make_card, check_options
-   use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, append_source, append_token, append_line, &
-                          append_card, reading_order
-   use atrito_diagnostics, only: report_error, report_note, report_deck_error
-   use atrito_files, only: read_file, true_path
-   use atrito_items, only: option_text
+   use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, append_source, after_byte_order_mark, &
+                          append_token, append_line, append_card, append_mesh, reading_order
+   use atrito_diagnostics, only: report_error, report_deck_error
+   use atrito_files, only: read_file
+   use atrito_gmsh_file, only: read_gmsh_text
+   use atrito_gmsh_mesh, only: gmsh_mesh_t
+   use atrito_gmsh_words, only: fault_t
+   use atrito_includes, only: relative_path, may_include, is_told
+   use atrito_instances, only: expand_instances
+   use atrito_items, only: has_option, option_text, option_word
    use atrito_keyword, only: keyword_t, KIND_TEXT
    use atrito_keyword_table, only: keyword_table
    use atrito_lexer, only: line_t, items_t, take_line, split_items, LINE_KEYWORD, LINE_DATA
    use atrito_memory, only: available_memory, memory_text
+   use atrito_note_edits, only: note_edits
    use atrito_parameters, only: settings_t, read_settings, define_parameter, check_settings
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text, count_symbol
@@ -27,14 +33,10 @@ module atrito_reader
    integer, parameter :: MODE_TEXT = 3             !< the whole line is one item
    integer, parameter :: MODE_PARAMETER = 4        !< `name = expression`
 
-   integer, parameter :: DEEPEST_INCLUDE = 20
    !> What an item or a line takes at the most, the lists of them being copied as they double.
    integer(lp), parameter :: ITEM_BYTES = 100_lp
    !> A smaller file is not worth the question.
    integer(ip), parameter :: SMALL_FILE = 1000000
-   !> Includes that each include two others would fill any memory at a depth of 20.
-   integer(ip), parameter :: MOST_SOURCES = 10000
-   integer(lp), parameter :: MOST_CHARACTERS = 2000000000_lp   !< of all files
 
    !> The reader between two lines.
    type :: reading_t
@@ -75,6 +77,8 @@ contains
          call read_source(deck, reading, 1_ip)
          call finish_card(deck)
          call check_end(deck, reading%order)
+         call note_edits(deck)
+         call expand_instances(deck, reading%order%parts%n_blocks)
          call check_settings(deck, reading%settings, status)
       end if
       call cut_to_size(deck)
@@ -157,14 +161,6 @@ contains
       is_binary = count_symbol(deck%sources(source)%text, achar(0)) > 0_lp
       if (is_binary) call report_deck_error(deck, 'E-BINARY', 'not a text file', expected='a deck', source=source)
    end function is_binary
-
-   pure integer(ip) function after_byte_order_mark(text) result(position)
-      character(len=*), intent(in) :: text
-      character(len=3), parameter :: MARK = char(239)//char(187)//char(191)
-
-      position = 1
-      if (index(text, MARK) == 1) position = 4
-   end function after_byte_order_mark
 
    !> Reads a keyword line with the lines that continue it.
    recursive subroutine read_keyword_line(deck, reading, cursor, line)
@@ -284,22 +280,29 @@ contains
       if (card%keyword /= KEYWORD_UNKNOWN) then
          call check_options(deck, card)
          reading%mode = mode_of(deck%keywords(card%keyword))
+      else if (meant_keyword(deck, card) == 'NODE' .or. meant_keyword(deck, card) == 'ELEMENT') then
+         reading%mode = MODE_ITEMS                     ! the numbers of its lines are not unknown, they are lost
+      else if (meant_keyword(deck, card) == 'PARAMETER') then
+         deck%has_lost_parameters = .true.
       end if
+      if (card%is_refused) then
+         reading%mode = MODE_SKIP
+         card%keyword = KEYWORD_UNKNOWN
+         card%name = ''
+      end if
+      deck%is_outside = deck%is_outside .or. card%is_outside
+      if (deck%subject == 0) deck%subject = card%subject
       call append_card(deck, card)
    end subroutine begin_card
 
-   !> A keyword that has no effect, or none yet, is passed over with its data lines.
+   !> A keyword that has no effect yet is passed over with its data lines.
    subroutine judge_keyword(deck, card, keyword)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
       type(keyword_t), intent(in) :: keyword
 
-      if (keyword%built .and. .not. keyword%harmless) return
-      if (keyword%harmless) then
-         call report_note(deck, card%place, 'N-IGNORED', '*'//keyword%name//' has no effect')
-      else
-         call report_error(deck, card%place, 'E-NOT-BUILT', '*'//keyword%name//' is not built yet', keyword=keyword%name)
-      end if
+      if (keyword%built) return
+      call report_error(deck, card%place, 'E-NOT-BUILT', '*'//keyword%name//' is not built yet', keyword=keyword%name)
       card%keyword = KEYWORD_UNKNOWN
       card%name = ''
    end subroutine judge_keyword
@@ -321,6 +324,9 @@ contains
       if (deck%n_cards == 0) return
       card = deck%cards(deck%n_cards)
       if (card%keyword /= KEYWORD_UNKNOWN) call check_data(deck, card)
+      if (card%n_lines == deck%cards(deck%n_cards)%n_lines) return
+      deck%cards(deck%n_cards)%n_lines = card%n_lines
+      deck%n_lines = card%first_line + card%n_lines - 1
    end subroutine finish_card
 
    subroutine read_data_line(deck, reading, cursor, line)
@@ -331,7 +337,7 @@ contains
       type(token_t) :: whole
       integer(ip) :: i
 
-      if (line%control > 0) return
+      if (line%control > 0 .and. reading%mode /= MODE_ITEMS) return
       whole = token_at(cursor, line, line%first, line%last)
       select case (reading%mode)
       case (MODE_NO_KEYWORD)
@@ -349,6 +355,7 @@ contains
             call append_token(deck, token_at(cursor, line, reading%items%first(i), reading%items%last(i)))
          end do
          deck%lines(deck%n_lines)%n_tokens = reading%items%n
+         deck%lines(deck%n_lines)%ok = reading%items%bad_quote == 0 .and. line%control == 0
       end select
       if (deck%n_cards > 0) deck%cards(deck%n_cards)%n_lines = deck%n_lines - deck%cards(deck%n_cards)%first_line + 1
    end subroutine read_data_line
@@ -366,17 +373,20 @@ contains
       logical :: found
 
       call option_text(deck, card, 'INPUT', name, found, place)
-      if (.not. found .or. len(name) == 0) then
-         reading%order%incomplete = .true.
-         return
+      found = found .and. len(name) > 0 .and. (card%ok .or. .not. has_option(deck, card, 'TYPE'))
+      if (found) then
+         name = relative_path(deck%sources(cursor%source)%name, name)
+         found = may_include(deck, reading%depth, cursor%source, name, place)
       end if
-      name = relative_path(deck%sources(cursor%source)%name, name)
-      if (.not. may_include(deck, reading, cursor%source, name, place)) return
-      call read_file(name, text, status)
-      if (.not. is_ok(status)) then
-         reading%order%incomplete = .true.
-         call report_error(deck, place, 'E-INCLUDE', status%text, expected='a file, relative to the folder of '// &
-                           deck%sources(cursor%source)%name, keyword='INCLUDE')
+      if (found) then
+         call read_file(name, text, status)
+         found = is_ok(status)
+         if (.not. found) call report_error(deck, place, 'E-INCLUDE', status%text, expected='a file, relative to the folder of '// &
+                                            deck%sources(cursor%source)%name, keyword='INCLUDE')
+      end if
+      if (found) found = is_told(deck, card, text, place)
+      if (.not. found) then
+         call keep_failed_include(deck, reading, card)
          return
       end if
       call append_source(deck, name, text)
@@ -384,67 +394,59 @@ contains
       deck%sources(source)%order = reading_order(deck, cursor%source, card%place%line)
       deck%sources(source)%parent = cursor%source
       deck%sources(source)%include_line = card%place%line
+      deck%sources(source)%include_first = card%place%first - card%place%column + 1
+      deck%sources(source)%include_last = min(cursor%position - 1, len(deck%sources(cursor%source)%text, kind=ip))
+      if (option_word(deck, card, 'TYPE') == 'GMSH') then
+         call read_mesh_file(deck, reading, source, card)
+         return
+      end if
       reading%depth = reading%depth + 1
       call read_source(deck, reading, source)
       reading%depth = reading%depth - 1
    end subroutine read_include
 
-   !> No circle, and not too deep.
-   logical function may_include(deck, reading, from, name, place)
-      type(deck_t), intent(in) :: deck
+   !> What the file would have defined is not known: the card says so.
+   subroutine keep_failed_include(deck, reading, card)
+      type(deck_t), intent(inout) :: deck
       type(reading_t), intent(inout) :: reading
-      integer(ip), intent(in) :: from
-      character(len=*), intent(in) :: name
-      type(token_t), intent(in) :: place
-      character(len=:), allocatable :: path
-      integer(ip) :: above
+      type(card_t), intent(in) :: card
+      type(card_t) :: failed
 
-      may_include = .false.
-      path = true_path(name)                       ! a/../a/deck.inp is deck.inp again
-      above = from
-      do while (above > 0)
-         if (true_path(deck%sources(above)%name) == path) exit
-         above = deck%sources(above)%parent
-      end do
-      if (above > 0) then
-         call report_error(deck, place, 'E-INCLUDE', 'the includes go in a circle: '//name//' is being read', &
-                           expected='another file', keyword='INCLUDE')
-      else if (reading%depth >= DEEPEST_INCLUDE) then
-         call report_error(deck, place, 'E-INCLUDE', 'includes more than '//to_text(DEEPEST_INCLUDE)//' deep', keyword='INCLUDE')
-      else if (deck%n_sources >= MOST_SOURCES .or. characters(deck) > MOST_CHARACTERS) then
-         call report_error(deck, place, 'E-INCLUDE', 'includes of more than '//to_text(MOST_SOURCES)//' files, or 2 GB in all', &
-                           keyword='INCLUDE')
-      else
-         may_include = .true.
+      reading%order%incomplete = .true.
+      call finish_card(deck)
+      reading%mode = MODE_SKIP
+      failed = card
+      failed%ok = .false.
+      failed%first_line = deck%n_lines + 1
+      call append_card(deck, failed)
+   end subroutine keep_failed_include
+
+   !> A mesh in a file of another program. Messages of what stands in it name the *INCLUDE.
+   subroutine read_mesh_file(deck, reading, source, card)
+      type(deck_t), intent(inout) :: deck
+      type(reading_t), intent(inout) :: reading
+      integer(ip), intent(in) :: source
+      type(card_t), intent(in) :: card
+      type(card_t) :: mesh_card
+      type(gmsh_mesh_t) :: mesh
+      type(fault_t) :: fault
+
+      call finish_card(deck)
+      mesh%file = deck%sources(source)%name
+      deck%sources(source)%is_mesh = .true.
+      call read_gmsh_text(deck%sources(source)%text, mesh, fault)
+      mesh_card = card
+      mesh_card%first_line = deck%n_lines + 1
+      mesh_card%ok = card%ok .and. .not. allocated(fault%text)
+      reading%mode = MODE_ITEMS
+      call append_card(deck, mesh_card)
+      if (allocated(fault%text)) then
+         call report_error(deck, token_t(source, 0_ip, fault%line, fault%column, fault%first, fault%last), 'E-GMSH', fault%text, &
+                           expected=fault%expected, keyword='INCLUDE')
       end if
-      if (.not. may_include) reading%order%incomplete = .true.
-   end function may_include
-
-   !> Characters of all files so far.
-   pure integer(lp) function characters(deck) result(n)
-      type(deck_t), intent(in) :: deck
-      integer(ip) :: i
-
-      n = 0_lp
-      do i = 1, deck%n_sources
-         n = n + len(deck%sources(i)%text, kind=lp)
-      end do
-   end function characters
-
-   !> The path of a file relative to the folder of another one, without `./`.
-   pure function relative_path(from, name) result(path)
-      character(len=*), intent(in) :: from, name
-      character(len=:), allocatable :: path
-
-      path = name
-      do while (index(path, './') == 1 .and. len(path) > 2)
-         path = path(3:)
-         do while (path(1:1) == '/' .and. len(path) > 1)
-            path = path(2:)                        ! .//a is no absolute path
-         end do
-      end do
-      if (path(1:1) /= '/') path = from(:index(from, '/', back=.true.))//path
-   end function relative_path
+      deck%sources(source)%n_lines = int(count_symbol(deck%sources(source)%text, achar(10)), ip)
+      call append_mesh(deck, mesh)
+   end subroutine read_mesh_file
 
    !> False, and an error, when the items of a file need more memory than there is.
    logical function fits_memory(deck, source) result(fits)

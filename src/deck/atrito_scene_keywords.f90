@@ -1,11 +1,15 @@
 !> Definitions of the keywords of materials, sections, contact and supports.
 module atrito_scene_keywords
+   use atrito_kinds, only: ip
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_example, LEVEL_MODEL, LEVEL_BOTH, &
                              ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT, &
                              KIND_REAL_OR_NAME
    implicit none (type, external)
    private
    public :: define_scene_keywords
+
+   !> Of an orthotropic material, on its first line.
+   character(len=*), parameter :: STIFFNESSES(8) = ['D1111', 'D1122', 'D2222', 'D1133', 'D2233', 'D3333', 'D1212', 'D1313']
 
 contains
 
@@ -19,6 +23,7 @@ contains
       call define_initial_conditions(k)
       call define_linear_constraints(k)
       call define_tie(k)
+      call define_pretension(k)
       call define_springs(k)
    end subroutine define_scene_keywords
 
@@ -29,37 +34,104 @@ contains
       call add_option(k, 'NAME!', KIND_NAME, 'name of the material')
       call add_example(k, '*MATERIAL, NAME=concrete|*ELASTIC|25e6, 0.2')
 
-      call define_keyword(k, 'ELASTIC', LEVEL_MODEL, 'isotropic linear elasticity', parent='MATERIAL')
-      call add_option(k, 'TYPE', KIND_WORD, 'symmetry of the material', default='ISOTROPIC', choices='ISOTROPIC ISO')
-      call add_form(k, 'the constants', 1, 1)
+      call define_keyword(k, 'ELASTIC', LEVEL_MODEL, 'linear elasticity, isotropic or orthotropic', parent='MATERIAL', &
+                          doc='Orthotropic: the third axis stands across the plane, the first one is x, or what '// &
+                          'ORIENTATION= of *SOLID SECTION says. nu12 is the strain along 2 by a stress along 1. '// &
+                          'ENGINEERING CONSTANTS: E1, E2, E3, nu12, nu13, nu23, G12, G13, and G23 on a second line. '// &
+                          'ORTHO: D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, and D2323. '// &
+                          'G13, G23, D1313 and D2323 have no effect in the plane. '// &
+                          'Lines for further temperatures must say the same.')
+      call add_option(k, 'TYPE', KIND_WORD, 'symmetry of the material', default='ISOTROPIC', &
+                      choices='ISOTROPIC ISO ENGINEERING_CONSTANTS ORTHO ORTHOTROPIC -ANISOTROPIC')
+      call add_form(k, 'the constants', 1, ANY_NUMBER, when='TYPE=ISOTROPIC|ISO')
       call add_item(k, 'E', KIND_REAL, "Young's modulus, > 0", dimension='F/L^2')
       call add_item(k, 'mu', KIND_REAL, "Poisson's ratio: plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5", dimension='-')
-      call add_example(k, '*ELASTIC|1000., 0.3')
+      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+      call add_orthotropic_forms(k)
+      call add_example(k, '*ELASTIC|1000., 0.3|*ELASTIC, TYPE=ENGINEERING CONSTANTS|11e6, 4e5, 4e5, 0.3, 0.3, 0.4, 7e5, 7e5|1.4e5')
 
-      call define_keyword(k, 'DENSITY', LEVEL_MODEL, 'mass per volume, for the load GRAV', parent='MATERIAL')
-      call add_form(k, 'the constant', 1, 1)
+      call define_keyword(k, 'DENSITY', LEVEL_MODEL, 'mass per volume, for the loads GRAV and CENTRIF', parent='MATERIAL')
+      call add_form(k, 'the constant; lines for further temperatures must say the same', 1, ANY_NUMBER)
       call add_item(k, 'density', KIND_REAL, 'mass per volume, >= 0', dimension='F T^2/L^4')
+      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
       call add_example(k, '*DENSITY|2.5')
 
       call define_keyword(k, 'EXPANSION', LEVEL_MODEL, 'thermal expansion, the same along all axes', parent='MATERIAL', &
                           doc='Strains are alpha times the rise of the temperature, from *INITIAL CONDITIONS to *TEMPERATURE.')
       call add_option(k, 'TYPE', KIND_WORD, 'symmetry of the expansion', default='ISO', choices='ISO -ORTHO -ANISO')
       call add_option(k, '(ZERO)', KIND_REAL, 'reference temperature: alpha is constant, only differences count')
-      call add_form(k, 'the constant', 1, 1)
+      call add_form(k, 'the constant; lines for further temperatures must say the same', 1, ANY_NUMBER)
       call add_item(k, 'alpha', KIND_REAL, 'strain a unit of temperature', dimension='1/temperature')
+      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
       call add_example(k, '*EXPANSION|1.2e-5')
+
+      call define_keyword(k, 'ORIENTATION', LEVEL_MODEL, 'axes of an orthotropic material', &
+                          doc='The first axis points from the origin to a, the second lies on the side of b. A second line '// &
+                          'turns both about the third axis. What is printed is along x and y.')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the axes')
+      call add_option(k, 'SYSTEM', KIND_WORD, 'kind of the axes', default='RECTANGULAR', choices='RECTANGULAR -CYLINDRICAL')
+      call add_option(k, 'DEFINITION', KIND_WORD, 'how they are given', default='COORDINATES', &
+                      choices='COORDINATES -NODES -OFFSET_TO_NODES')
+      call add_form(k, 'the points', 1, 1)
+      call add_item(k, 'xa', KIND_REAL, 'point a', dimension='L')
+      call add_item(k, 'ya', KIND_REAL, 'point a', dimension='L')
+      call add_item(k, 'za', KIND_REAL, 'point a, must be 0', dimension='L')
+      call add_item(k, 'xb', KIND_REAL, 'point b', dimension='L')
+      call add_item(k, 'yb', KIND_REAL, 'point b', dimension='L')
+      call add_item(k, 'zb', KIND_REAL, 'point b, must be 0', dimension='L')
+      call add_item(k, '(further)...', KIND_REAL, 'of other programs')
+      call add_form(k, 'a rotation', 0, 1)
+      call add_item(k, 'axis', KIND_INTEGER, '3')
+      call add_item(k, 'angle', KIND_REAL, 'in degrees, from the first axis to the second', dimension='-', default='0')
+      call add_example(k, '*ORIENTATION, NAME=grain|1., 0., 0., 0., 1., 0.|3, 30.')
 
       call define_keyword(k, 'SOLID SECTION', LEVEL_MODEL, 'gives elements a material and a thickness', &
                           doc='Every element has exactly one section. BBAR gives CPE4 and CAX4 elements one dilatation, the '// &
                           'mean of each: they do not lock near mu = 0.5. Other elements are left as they are; but for those '// &
-                          'with three nodes they do not need it. CAX elements have no thickness.')
+                          'with three nodes they do not need it. That of CAX elements has no effect.')
       call add_option(k, 'ELSET!', KIND_NAME, 'the elements')
       call add_option(k, 'MATERIAL!', KIND_NAME, 'their material')
+      call add_option(k, 'ORIENTATION', KIND_NAME, 'axes of an orthotropic material')
+      call add_option(k, 'NODAL THICKNESS', KIND_FLAG, 'the thickness is that of *NODAL THICKNESS')
       call add_option(k, 'FORMULATION+', KIND_WORD, 'how the stiffness is integrated', default='STANDARD', choices='STANDARD BBAR')
       call add_form(k, 'the thickness', 0, 1)
       call add_item(k, 'thickness', KIND_REAL, '> 0', dimension='L', default='1')
       call add_example(k, '*SOLID SECTION, ELSET=plate, MATERIAL=concrete|0.2')
+
+      call define_keyword(k, 'NODAL THICKNESS', LEVEL_MODEL, 'gives nodes a thickness', &
+                          doc='Plane elements of a *SOLID SECTION with NODAL THICKNESS interpolate it by shape functions. '// &
+                          'All their nodes need one, those in the middle of sides, too; --refine does not change that field.')
+      call add_form(k, 'one thickness a line', 1, ANY_NUMBER)
+      call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
+      call add_item(k, 'thickness', KIND_REAL, '> 0', dimension='L')
+      call add_example(k, '*NODAL THICKNESS|root, 0.02|tip, 0.01')
    end subroutine define_material_keywords
+
+   subroutine add_orthotropic_forms(k)
+      type(keyword_list_t), intent(inout) :: k
+      character(len=*), parameter :: MODULUS = 'modulus, > 0', RATIO = "Poisson's ratio", STIFF = 'stiffness'
+      integer(ip) :: i
+
+      call add_form(k, 'eight of the constants', 1, 1, when='TYPE=ENGINEERING CONSTANTS')
+      do i = 1, 3
+         call add_item(k, 'E'//achar(iachar('0') + i), KIND_REAL, MODULUS, dimension='F/L^2')
+      end do
+      call add_item(k, 'nu12', KIND_REAL, RATIO, dimension='-')
+      call add_item(k, 'nu13', KIND_REAL, RATIO, dimension='-')
+      call add_item(k, 'nu23', KIND_REAL, RATIO, dimension='-')
+      call add_item(k, 'G12', KIND_REAL, MODULUS, dimension='F/L^2')
+      call add_item(k, 'G13', KIND_REAL, MODULUS, dimension='F/L^2')
+      call add_form(k, 'the last one', 1, 1, when='TYPE=ENGINEERING CONSTANTS')
+      call add_item(k, 'G23', KIND_REAL, MODULUS, dimension='F/L^2')
+      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+      call add_form(k, 'eight of the stiffnesses', 1, 1, when='TYPE=ORTHO|ORTHOTROPIC')
+      do i = 1, 8
+         call add_item(k, STIFFNESSES(i), KIND_REAL, STIFF, dimension='F/L^2')
+      end do
+      call add_form(k, 'the last one', 1, 1, when='TYPE=ORTHO|ORTHOTROPIC')
+      call add_item(k, 'D2323', KIND_REAL, STIFF, dimension='F/L^2')
+      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+   end subroutine add_orthotropic_forms
 
    subroutine define_interaction_keywords(k)
       type(keyword_list_t), intent(inout) :: k
@@ -117,7 +189,7 @@ contains
       call add_option(k, 'QUADRATURE+', KIND_WORD, 'how the gap is measured; left out: NODAL where the sides match or the '// &
                       'master is rigid, else MORTAR', choices='NODAL MORTAR')
       call add_option(k, 'TYPE', KIND_WORD, 'the same in the words of other programs: NODAL or MORTAR', &
-                      choices='NODE_TO_SURFACE SURFACE_TO_SURFACE')
+                      choices='NODE_TO_SURFACE SURFACE_TO_SURFACE MORTAR')
       call add_option(k, 'ADJUST', KIND_REAL_OR_NAME, 'slave nodes that overlap the master, or are not farther from it than '// &
                       'this value, or all of a node set, are moved onto it before anything is computed, without strain', &
                       dimension='L')
@@ -176,17 +248,20 @@ contains
       type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'BOUNDARY', LEVEL_BOTH, 'prescribed displacements', &
-                          doc='Before *STEP zero values only, which hold in every step. Dof 1 is x and 2 is y; a dof 3 to 6 of '// &
-                          'value 0 is a note, but 6 turns the reference node of a *RIGID BODY, counter-clockwise [rad]. Two '// &
-                          'different values for one dof in a step are an error. A later step has the displacements of the one '// &
-                          'before, but for the dofs that its lines give anew. FUNCTION: in the step, evaluated at each node.')
+                          doc='Before *STEP zero values only, which hold until a step says otherwise. Dof 1 is x, 2 is y; a '// &
+                          'dof 3 to 6 of value 0 is a note, but 6 turns the reference node of a *RIGID BODY, '// &
+                          'counter-clockwise [rad]. Two different values for one dof in a step are an error. A later step has '// &
+                          'the displacements of the one before, but for the dofs that its lines give anew. FUNCTION: in the '// &
+                          'step, evaluated at each node. '// &
+                          'Words alone: ENCASTRE, PINNED and ZASYMM are dofs 1 and 2, XSYMM and YASYMM 1, YSYMM and XASYMM 2, '// &
+                          'ZSYMM none; ENCASTRE, XSYMM, YSYMM and ZASYMM also hold dof 6 of a reference node.')
       call add_option(k, 'FUNCTION+', KIND_FLAG, 'the value is an expression in x and y')
       call add_option(k, 'AMPLITUDE', KIND_NAME, 'curve over time that multiplies the values, in a step')
-      call add_option(k, 'OP', KIND_WORD, 'MOD: lines change and add; NEW: what the steps before gave is removed, the same in '// &
-                      'all cards of the keyword in a step', default='MOD', choices='MOD NEW')
+      call add_option(k, 'OP', KIND_WORD, 'MOD: lines change and add; NEW: what was given before, also before *STEP, is '// &
+                      'removed; the same in all cards of the keyword in a step', default='MOD', choices='MOD NEW')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='-FUNCTION')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
-      call add_item(k, 'first dof', KIND_INTEGER, '1 or 2; of a reference node also 6')
+      call add_item(k, 'first dof', KIND_INTEGER, '1 or 2; of a reference node also 6; or a word in its place')
       call add_item(k, 'last dof', KIND_INTEGER, '1 or 2; of a reference node also 6', default='first dof')
       call add_item(k, 'value', KIND_REAL, 'displacement; of dof 6 the rotation [rad]', dimension='L', default='0')
       call add_form(k, 'one support a line', 1, ANY_NUMBER, when='FUNCTION')
@@ -263,19 +338,38 @@ contains
       call add_example(k, '*TIE, NAME=glue|layer-BOTTOM, ground-TOP')
    end subroutine define_tie
 
+   subroutine define_pretension(k)
+      type(keyword_list_t), intent(inout) :: k
+
+      call define_keyword(k, 'PRE-TENSION SECTION', LEVEL_MODEL, 'a section of a bolt, by which it is tightened', &
+                          doc='The surface lies inside a body, from outline to outline. There the body is cut; its sides move '// &
+                          'alike across the normal, and along it but for one displacement: dof 1 of the node. *CLOAD on that '// &
+                          'dof is the force in the section, *BOUNDARY the length that is taken out of the body there. Both '// &
+                          'are positive where they pull, for a normal that points away from the elements of the surface. '// &
+                          'rigid.tab has both.')
+      call add_option(k, 'SURFACE!', KIND_NAME, 'faces inside a body, all of elements on one side of the section')
+      call add_option(k, 'NODE!', KIND_ID_OR_NAME, 'a node of no element, or a set of one; where it stands does not matter')
+      call add_form(k, 'the normal; that of the faces in the mean when left out', 0, 1)
+      call add_item(k, 'nx', KIND_REAL, 'any length', dimension='-')
+      call add_item(k, 'ny', KIND_REAL, 'any length', dimension='-', default='0')
+      call add_item(k, 'nz', KIND_REAL, '0', dimension='-', default='0')
+      call add_example(k, '*PRE-TENSION SECTION, SURFACE=shank, NODE=4608|0., -1.')
+   end subroutine define_pretension
+
    subroutine define_springs(k)
       type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'SPRING', LEVEL_MODEL, 'gives springs their direction and stiffness', &
-                          doc='The springs are made by *ELEMENT, TYPE=SPRING1 (a node to the ground) or SPRING2 (between two '// &
-                          'nodes). The force is stiffness times u_dof of the first node, less that of the second.')
+                          doc='The springs are made by *ELEMENT, TYPE=SPRING1 (a node to the ground), SPRING2 (between two '// &
+                          'nodes) or SPRINGA (along the line between two nodes). The force is stiffness times u_dof of the '// &
+                          'first node, less that of the second; of SPRINGA stiffness times elongation, tension > 0.')
       call add_option(k, 'ELSET!', KIND_NAME, 'the springs, as ELSET of their *ELEMENT')
       call add_option(k, '-NONLINEAR', KIND_FLAG, 'force by a table')
       call add_option(k, '-ORIENTATION', KIND_NAME, 'local axes')
-      call add_form(k, 'the dofs', 1, 1)
+      call add_form(k, 'the dofs; SPRINGA has none', 1, 1)
       call add_item(k, 'dof', KIND_INTEGER, 'of the first node, 1 or 2')
       call add_item(k, 'second dof', KIND_INTEGER, 'of the second node, of SPRING2', default='dof')
-      call add_form(k, 'the stiffness', 1, 1)
+      call add_form(k, 'the stiffness', 0, 1)
       call add_item(k, 'stiffness', KIND_REAL, 'force over elongation, > 0', dimension='F/L')
       call add_item(k, '(further)...', KIND_REAL, 'of other programs')
       call add_example(k, '*ELEMENT, TYPE=SPRING1, ELSET=bedding|1001, 17|*SPRING, ELSET=bedding|2|2.5e4')

@@ -1,20 +1,16 @@
-!> Definitions of the keywords of a step: loads, controls, tables; and of those of other programs that have no effect here.
+!> Definitions of the keywords of a step: loads, controls, tables.
 module atrito_step_keywords
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
                              LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, &
                              KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
    implicit none (type, external)
    private
-   public :: define_step_keywords, define_harmless_keywords
-
-   !> Output requests and marks of other programs.
-   character(len=16), parameter :: HARMLESS(10) = [character(len=16) :: 'OUTPUT', 'NODE OUTPUT', 'ELEMENT OUTPUT', &
-                                    'CONTACT OUTPUT', 'ENERGY OUTPUT', 'PREPRINT', 'MONITOR', 'TIME POINTS', 'PRINT', 'FILE FORMAT']
+   public :: define_step_keywords
 
    character(len=*), parameter :: FIELD_FILE = '<deck name>.h5, an HDF5 file that ParaView opens by <deck name>.xdmf; there is '// &
                                   'one when a *... FILE asks for it.'
 
-   character(len=*), parameter :: FREQUENCY_DOC = 'every so many increments, >= 1, and at the end of the step; left '// &
+   character(len=*), parameter :: FREQUENCY_DOC = 'every so many increments, >= 1, and at the end of the step; 0: never; left '// &
                                   'out: at the end alone'
    character(len=*), parameter :: OP_DOC = 'MOD: lines change and add; NEW: what the steps before gave is removed, the same in '// &
                                   'all cards of the keyword in a step'
@@ -37,15 +33,6 @@ contains
       call define_restart(k)
       call define_end_step(k)
    end subroutine define_step_keywords
-
-   subroutine define_harmless_keywords(k)
-      type(keyword_list_t), intent(inout) :: k
-      integer :: i
-
-      do i = 1, size(HARMLESS)
-         call define_keyword(k, '('//trim(HARMLESS(i))//')', LEVEL_BOTH, 'of other programs, has no effect')
-      end do
-   end subroutine define_harmless_keywords
 
    subroutine define_amplitude(k)
       type(keyword_list_t), intent(inout) :: k
@@ -86,7 +73,8 @@ contains
 
       call define_keyword(k, 'STEP', LEVEL_STEP, 'begins a step', &
                           doc='A step has what the steps before gave, but for what its own lines change. Displacements are small.')
-      call add_option(k, 'NLGEOM', KIND_OPTIONAL_WORD, 'large displacements', default='NO', choices='-YES NO')
+      call add_option(k, 'NLGEOM', KIND_OPTIONAL_WORD, 'asks for large displacements: small ones are solved, and at the '// &
+                      'end it is told whether that mattered', default='NO', choices='YES NO')
       call add_option(k, '(NAME)', KIND_NAME, 'the step has no name here')
       call add_option(k, 'INC', KIND_INTEGER, 'most increments, >= 1; one more ends the run', default='100')
       call add_option(k, '(PERTURBATION)', KIND_FLAG, 'of other programs')
@@ -112,7 +100,8 @@ contains
       call add_item(k, 'length of the step', KIND_REAL, '> 0', dimension='time', default='1')
       call add_item(k, 'least increment', KIND_REAL, '> 0, not longer than the first', dimension='time', &
                     default='1e-5 of the step')
-      call add_item(k, 'greatest increment', KIND_REAL, 'not less than the first', dimension='time', default='the first')
+      call add_item(k, 'greatest increment', KIND_REAL, '> 0; a longer first is cut to it', dimension='time', &
+                    default='the first; the step where INC of these do not reach its end')
       call add_example(k, '*STATIC|0.1, 1., 1e-4, 0.2')
    end subroutine define_static
 
@@ -136,17 +125,26 @@ contains
 
       call define_keyword(k, 'DLOAD', LEVEL_STEP, 'pressure on faces, force per volume, weight', &
                           doc='P1 to P4: pressure on that face, positive pushes on the element. BX, BY: force per volume. '// &
-                          'GRAV: acceleration times *DENSITY along a direction. HP1 to HP4 and TRVEC1 to TRVEC4: hydrostatic '// &
+                          'GRAV: acceleration times *DENSITY along a direction. CENTRIF: *DENSITY times the square of an '// &
+                          'angular velocity times the distance from its axis, away from it; the axis goes through x, y, z '// &
+                          'along ax, ay, az, across the plane or in it, and is y for CAX elements. '// &
+                          'HP1 to HP4 and TRVEC1 to TRVEC4: hydrostatic '// &
                           'pressure and traction on that face, as HP and TRVEC of *DSLOAD. All are multiplied by the '// &
                           'thickness, or go round the full circle.')
       call add_changes(k)
       call add_form(k, 'one load a line', 1, ANY_NUMBER)
-      call add_item(k, 'element', KIND_ID_OR_NAME, 'number of an element, or an element set')
-      call add_word_item(k, 'label', 'P1 P2 P3 P4 BX BY GRAV HP1 HP2 HP3 HP4 TRVEC1 TRVEC2 TRVEC3 TRVEC4', 'kind of load')
-      call add_item(k, 'magnitude', KIND_REAL, 'P, HP, TRVEC [F/L^2], B [F/L^3], GRAV [L/T^2]')
-      call add_item(k, '[gx]', KIND_REAL, 'direction of GRAV and TRVEC; of HP the level of zero pressure [L]', dimension='-')
-      call add_item(k, '[gy]', KIND_REAL, 'direction of GRAV and TRVEC; of HP the level of the magnitude [L]', dimension='-')
-      call add_item(k, '[gz]', KIND_REAL, 'direction of GRAV and TRVEC, must be 0', dimension='-')
+      call add_item(k, '[element]', KIND_ID_OR_NAME, 'number of an element, or an element set; left out with BX, BY, '// &
+                    'GRAV or CENTRIF: all')
+      call add_word_item(k, 'label', 'P1 P2 P3 P4 BX BY GRAV CENTRIF HP1 HP2 HP3 HP4 TRVEC1 TRVEC2 TRVEC3 TRVEC4', 'kind of load')
+      call add_item(k, 'magnitude', KIND_REAL, 'P, HP, TRVEC [F/L^2], B [F/L^3], GRAV [L/T^2], CENTRIF [1/T^2]')
+      call add_item(k, '[gx]', KIND_REAL, 'direction of GRAV and TRVEC; of HP the level of zero pressure [L]; of CENTRIF x [L]', &
+                    dimension='-')
+      call add_item(k, '[gy]', KIND_REAL, 'direction of GRAV and TRVEC; of HP the level of the magnitude [L]; of CENTRIF y [L]', &
+                    dimension='-')
+      call add_item(k, '[gz]', KIND_REAL, 'direction of GRAV and TRVEC, must be 0; of CENTRIF z [L]', dimension='-')
+      call add_item(k, '[ax]', KIND_REAL, 'direction of the axis of CENTRIF', dimension='-')
+      call add_item(k, '[ay]', KIND_REAL, 'direction of the axis of CENTRIF', dimension='-')
+      call add_item(k, '[az]', KIND_REAL, 'direction of the axis of CENTRIF', dimension='-')
       call add_example(k, '*DLOAD|plate, P3, 10.|plate, GRAV, 9.81, 0., -1.')
 
       call define_keyword(k, 'DSLOAD', LEVEL_STEP, 'pressure and traction on surfaces', &
@@ -206,16 +204,23 @@ contains
       call add_word_item(k, 'variable...', 'U RF', 'displacements, reactions')
       call add_example(k, '*NODE PRINT, NSET=base|U, RF')
 
-      call define_keyword(k, 'EL PRINT', LEVEL_STEP, 'writes stress.tab (S)')
+      call define_keyword(k, 'EL PRINT', LEVEL_STEP, 'writes stress.tab (S), or nodal_stress.tab', &
+                          doc='For both tables the step has two cards. The stresses at the nodes are recovered from all '// &
+                          'elements round them; where materials meet they are the mean of the sides.')
       call add_option(k, 'ELSET', KIND_NAME, 'these elements only')
+      call add_option(k, 'POSITION', KIND_WORD, 'of stress.tab, or of nodal_stress.tab', &
+                      default='INTEGRATION POINTS', choices='INTEGRATION_POINTS AVERAGED_AT_NODES -CENTROIDAL -NODES')
       call add_print_options(k)
       call add_form(k, 'the tables', 1, ANY_NUMBER)
-      call add_word_item(k, 'variable...', 'S', 'stresses at the integration points')
-      call add_example(k, '*EL PRINT, ELSET=plate|S')
+      call add_word_item(k, 'variable...', 'S', 'stresses')
+      call add_example(k, '*EL PRINT, ELSET=plate|S|*EL PRINT, POSITION=AVERAGED AT NODES|S')
 
       call define_keyword(k, 'CONTACT PRINT', LEVEL_STEP, 'writes contact.tab', &
                           doc='contact.tab is written whenever there is a pair, with or without this request.')
       call add_print_options(k)
+      call add_option(k, '(NSET)', KIND_NAME, 'the table has all points')
+      call add_option(k, '(SLAVE)', KIND_NAME, 'the table has all pairs')
+      call add_option(k, '(MASTER)', KIND_NAME, 'the table has all pairs')
       call add_form(k, 'variables', 0, ANY_NUMBER)
       call add_item(k, '[variable]...', KIND_NAME, 'of other programs; the table always has all columns')
       call add_example(k, '*CONTACT PRINT')
@@ -232,6 +237,27 @@ contains
                           'thrust. There are no data lines.')
       call add_option(k, 'FREQUENCY', KIND_INTEGER, FREQUENCY_DOC)
       call add_example(k, '*JOINT PRINT')
+
+      call define_keyword(k, 'SECTION PRINT', LEVEL_STEP, 'writes sections.tab: normal force, shear force and moment in cuts', &
+                          doc='A cut is a straight line through a body, from one point to another. What is on its right, seen '// &
+                          'from the first point, pulls at what is on its left with n, normal to the cut, and v, along it; m is '// &
+                          'the moment about the middle, counter-clockwise. Over the whole thickness, or the full circle. A cut '// &
+                          'has to go through the body; several lines make the cuts NAME-1, NAME-2, ...')
+      call add_option(k, 'NAME!', KIND_NAME, 'name of the cut')
+      call add_option(k, 'ELSET', KIND_NAME, 'of several places where the line meets bodies only those at elements of this set')
+      call add_option(k, 'FREQUENCY', KIND_INTEGER, FREQUENCY_DOC)
+      call add_option(k, '(SURFACE)', KIND_NAME, 'the card is that of other programs, and nothing is written; here a cut is a line')
+      call add_option(k, '(AXES)', KIND_WORD, 'of other programs')
+      call add_option(k, '(UPDATE)', KIND_WORD, 'of other programs')
+      call add_option(k, '(TIME POINTS)', KIND_NAME, 'FREQUENCY= says when')
+      call add_form(k, 'one cut a line', 1, ANY_NUMBER, when='-SURFACE')
+      call add_item(k, 'x1', KIND_REAL, 'the first point', dimension='L')
+      call add_item(k, 'y1', KIND_REAL, 'the first point', dimension='L')
+      call add_item(k, 'x2', KIND_REAL, 'the second point', dimension='L')
+      call add_item(k, 'y2', KIND_REAL, 'the second point', dimension='L')
+      call add_form(k, 'with SURFACE=', 0, ANY_NUMBER, when='SURFACE', harmless=.true.)
+      call add_item(k, '[variable]...', KIND_TEXT, 'has no effect')
+      call add_example(k, '*SECTION PRINT, NAME=root|0.1, 0., 0.1, 1.')
    end subroutine define_print_keywords
 
    !> Requests of fields.

@@ -12,9 +12,10 @@ module atrito_assembly
    use atrito_bodies, only: bodies_t, element_equations
    use atrito_element, only: element_stiffness
    use atrito_multifrontal, only: element_store_t, pack_matrix
-   use atrito_plane_state, only: elastic_t, STATES
+   use atrito_plane_state, only: elastic_t, IS_TAPERED, STATES
    use atrito_profile, only: profile_t, begin_profile, add_to_profile, close_profile, expect_profile
    use atrito_linear_solver, only: linear_solver_t
+   use atrito_tapered, only: take_thickness, has_thickness
    use atrito_threads, only: is_shared, chunk_count, find_chunk, CHUNK_LENGTH
    implicit none (type, external)
    private
@@ -37,6 +38,7 @@ module atrito_assembly
       logical :: has_hoop = .false.                !< the radius matters: of the state
       real(wp) :: x(2, MOST_NODES) = 0.0_wp          !< relative to the first node
       real(wp) :: radius = 0.0_wp                  !< of the first node, where it matters [L]
+      real(wp) :: thickness(MOST_NODES) = 0.0_wp   !< of the nodes, of tapered elements [L]
    end type form_t
 
    !> The stiffness computed last.
@@ -286,7 +288,8 @@ contains
 
       call take_form(fem, element, form)
       n = 2*form%shape
-      call element_stiffness(form%x(:, :form%shape), fem%sections(form%section), form%state, k(:n, :n), form%radius)
+      call element_stiffness(form%x(:, :form%shape), fem%sections(form%section), form%state, k(:n, :n), form%radius, &
+                             form%thickness(:form%shape))
       call pack_matrix(k(:n, :n), packed)
    end subroutine compute_matrix
 
@@ -332,7 +335,8 @@ contains
       if (has_form(fem, element, cache%form_t, 0.0_wp)) return
       call take_form(fem, element, cache%form_t)
       n = cache%shape
-      call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n), cache%radius)
+      call element_stiffness(cache%x(:, :n), fem%sections(cache%section), cache%state, cache%k(:2*n, :2*n), cache%radius, &
+                             cache%thickness(:n))
    end subroutine cached_stiffness
 
    !> Whether an element has this form; triangles also turned by 180 degrees, as every other one of a block is: their stiffness is
@@ -348,6 +352,10 @@ contains
       if (form%has_hoop) has_form = is_at_radius(fem%mesh, element, form%radius)
       if (.not. has_form) return
       has_form = is_like_before(fem%mesh, element, form%shape, form%x, grain)
+      if (IS_TAPERED(form%state)) then
+         if (has_form) has_form = has_thickness(fem%mesh, element, form%thickness)
+         return
+      end if
       if (has_form .or. form%has_hoop .or. form%shape /= fem%mesh%shape(element)) return
       if (side_count(fem%mesh, element) == 3) has_form = is_like_before(fem%mesh, element, form%shape, -form%x, grain)
    end function has_form
@@ -364,6 +372,7 @@ contains
       form%has_hoop = STATES(form%state)%has_hoop
       form%radius = 0.0_wp
       if (form%has_hoop) form%radius = radius_of(fem%mesh, element)
+      if (IS_TAPERED(form%state)) call take_thickness(fem%mesh, element, form%thickness)
       do k = 1, form%shape
          form%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, element)) - fem%mesh%x(:, fem%mesh%nodes(1, element))
       end do

@@ -9,12 +9,13 @@
 module atrito_axisymmetric
    use atrito_element_table, only: SHAPES, MOST_NODES, has_mean_dilatation, point_count
    use atrito_kinds, only: ip, wp, EPS_MACH
+   use atrito_orthotropy, only: SPATIAL
    use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
    implicit none (type, external)
    private
    public :: axisymmetric_stiffness, mean_rows, add_hoop_stress
-   public :: strain_rows_t, strain_rows, mean_strain_rows, add_point, balance_axis
+   public :: strain_rows_t, strain_rows, mean_strain_rows, add_point, add_orthotropic_point, balance_axis
 
    !> Bits of the largest entry of a stiffness that are kept, as in atrito_element.
    integer, parameter :: KEPT_BITS = digits(1.0_wp) - 4
@@ -55,7 +56,11 @@ contains
       k = 0.0_wp
       do point = 1, point_count(n, state)
          rows = strain_rows(x, origin, section%thickness, state, point_count(n, state), point)
-         call add_point(n, rows, lambda, shear, k)
+         if (section%is_orthotropic) then
+            call add_orthotropic_point(n, rows, section%stiffness, k)
+         else
+            call add_point(n, rows, lambda, shear, k)
+         end if
       end do
       if (averages) then
          call mean_rows(x, origin, section%thickness, state, mean, volume)
@@ -115,6 +120,28 @@ contains
          end do
       end do
    end subroutine add_point
+
+   !> The same of any elasticity: B of a node has the rows [g1, 0], [0, g2], [h, 0], [g2, g1] of the components 11, 22, 33, 12.
+   pure subroutine add_orthotropic_point(n, rows, c, k)
+      integer(ip), intent(in) :: n
+      type(strain_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: c(SPATIAL, SPATIAL)  !< [F/L^2]
+      real(wp), intent(inout) :: k(2*n, 2*n)
+      real(wp) :: b(SPATIAL, 2*n)
+      integer(ip) :: j
+
+      b = 0.0_wp
+      do j = 1, n
+         b(1, 2*j - 1) = rows%g(1, j)
+         b(3, 2*j - 1) = rows%h(j)
+         b(4, 2*j - 1) = rows%g(2, j)
+         b(2, 2*j) = rows%g(2, j)
+         b(4, 2*j) = rows%g(1, j)
+      end do
+      do j = 1, 2*n
+         k(:j, j) = k(:j, j) + matmul(rows%weight*matmul(c, b(:, j)), b(:, :j))
+      end do
+   end subroutine add_orthotropic_point
 
    !> Means over the volume of the element of the dilatation, node by node: theta_m = sum(mean*u) [1/L].
    pure subroutine mean_rows(x, origin, thickness, state, mean, volume)

@@ -4,15 +4,16 @@
 !> round-off, which far from the origin would cost digits.
 module atrito_element
    use atrito_axisymmetric, only: axisymmetric_stiffness
-   use atrito_element_table, only: MOST_NODES, POINTS_OF, ERROR_POINTS_OF, has_mean_dilatation
+   use atrito_element_table, only: BEST_OF, MOST_NODES, POINTS_OF, ERROR_POINTS_OF, has_mean_dilatation, point_count
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_plane_state, only: elastic_t, elasticity_matrix, IS_REDUCED, COMPONENTS, depth_at, STATES
+   use atrito_plane_state, only: elastic_t, elasticity_matrix, IS_REDUCED, IS_TAPERED, COMPONENTS, depth_at, STATES
    use atrito_reduced_integration, only: hourglass_stiffness
    use atrito_reduced_rings, only: reduced_ring_stiffness
    use atrito_shape_functions, only: shape_values, shape_gradients, face_shape_values, face_shape_slopes, gauss_rule, &
                                      rule_point, Q1_XI_SLOPES, Q1_ETA_SLOPES, Q2_XI_SLOPES, Q2_ETA_SLOPES, S2_XI_SLOPES, &
                                      S2_ETA_SLOPES, Q2_WEIGHTS, T1_XI_SLOPES, T1_ETA_SLOPES, T2_XI_SLOPES, T2_ETA_SLOPES, &
                                      T1_WEIGHT, T2_WEIGHT, Q1R_XI_SLOPES, Q1R_ETA_SLOPES, S2R_XI_SLOPES, S2R_ETA_SLOPES
+   use atrito_tapered, only: tapered_means
    implicit none (type, external)
    private
    public :: element_stiffness, mean_gradients, pressure_load, body_load
@@ -32,13 +33,14 @@ contains
    !>
    !> the work of the dilatation and that of the rest, so that the integrals of ga gb' are all that is wanted of the Gauss points.
    !> The mean dilatation changes the first part alone. Only pairs a < b are computed: the blocks of the diagonal follow from them.
-   pure subroutine element_stiffness(x, section, state, k, radius)
+   pure subroutine element_stiffness(x, section, state, k, radius, thickness)
       real(wp), intent(in) :: x(:, :)              !< coordinates [L], (2, n)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: k(:, :)             !< (2n, 2n)
       real(wp), intent(in), optional :: radius     !< of the origin of x [L], where that matters; default 0
-      real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, MOST_NODES), d(COMPONENTS, COMPONENTS), bulk, shear
+      real(wp), intent(in), optional :: thickness(:) !< of the nodes [L], of a tapered state
+      real(wp) :: upper(MOST_DOFS, MOST_DOFS), relative(2, MOST_NODES), d(COMPONENTS, COMPONENTS), bulk, shear, middle
       integer(ip) :: n, i, j
 
       if (STATES(state)%has_hoop) then
@@ -53,17 +55,25 @@ contains
       do i = 1, n
          relative(:, i) = x(:, i) - x(:, 1)
       end do
-      call integrate_products(n, IS_REDUCED(state), relative, upper)
+      middle = 1.0_wp
+      if (IS_TAPERED(state)) then
+         call integrate_tapered(n, state, relative, thickness, upper)
+         middle = sum(thickness)/n
+      else
+         call integrate_products(n, IS_REDUCED(state), relative, upper)
+      end if
       d = elasticity_matrix(section, state)
       bulk = (d(1, 2) + d(3, 3))*section%thickness
       shear = d(3, 3)*section%thickness
-      if (has_mean_dilatation(section, state, n)) then
+      if (section%is_orthotropic) then
+         call combine_orthotropic(n, section%thickness*d, upper)
+      else if (has_mean_dilatation(section, state, n)) then
          call combine_products(n, 0.0_wp, shear, upper)
-         call add_mean_dilatation(relative, bulk, upper)
+         call add_mean_dilatation(relative, state, bulk, upper, thickness)
       else
          call combine_products(n, bulk, shear, upper)
       end if
-      if (IS_REDUCED(state) .and. n == 4) call add_hourglass(relative, section, state, upper)
+      if (IS_REDUCED(state) .and. n == 4) call add_hourglass(relative, section, state, middle, upper)
       call balance_stiffness(n, upper)
       do j = 1, 2*n
          do i = 1, j
@@ -105,6 +115,31 @@ contains
       end if
    end subroutine integrate_products
 
+   !> The same with the thickness at each point; four nodes with reduced integration have their means over the volume, since one
+   !> point in the middle would not give the nodal forces of a uniform stress.
+   pure subroutine integrate_tapered(n, state, x, thickness, products)
+      integer(ip), intent(in) :: n, state
+      real(wp), intent(in) :: x(2, MOST_NODES)       !< less those of the first node [L]
+      real(wp), intent(in) :: thickness(:)         !< of the nodes [L]
+      real(wp), intent(out) :: products(MOST_DOFS, MOST_DOFS) !< blocks a < b; others are undefined
+      real(wp) :: xi(2), weight, slopes(n, 2), mean(2*n)
+      integer(ip) :: i, b
+
+      products(:2*n, :2*n) = 0.0_wp
+      if (IS_REDUCED(state) .and. n == 4) then
+         call tapered_means(x(:, :n), thickness, mean, weight)
+         do b = 3, 2*n
+            products(:2*((b - 1)/2), b) = mean(:2*((b - 1)/2))*(weight*mean(b))
+         end do
+         return
+      end if
+      do i = 1, point_count(n, state)
+         call rule_point(n, point_count(n, state), i, xi, weight)
+         slopes = shape_gradients(n, xi)
+         call add_products(n, x, slopes(:, 1), slopes(:, 2), weight*dot_product(shape_values(n, xi), thickness), products)
+      end do
+   end subroutine integrate_tapered
+
    !> The same at fewer points: 2 x 2 of eight nodes, the middle of four.
    pure subroutine integrate_reduced(n, x, products)
       integer(ip), intent(in) :: n
@@ -122,15 +157,17 @@ contains
    end subroutine integrate_reduced
 
    !> What of the stiffness of four nodes the middle does not feel, in the blocks a < b.
-   pure subroutine add_hourglass(x, section, state, k)
+   pure subroutine add_hourglass(x, section, state, thickness, k)
       real(wp), intent(in) :: x(2, MOST_NODES)
       type(elastic_t), intent(in) :: section
       integer(ip), intent(in) :: state
+      real(wp), intent(in) :: thickness            !< of a tapered state in the middle [L]; else 1
       real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
       real(wp) :: shape(4), amount(2, 2)
       integer(ip) :: a, b
 
       call hourglass_stiffness(x(:, :4), section, state, shape, amount)
+      amount = thickness*amount
       do b = 2, 4
          do a = 1, b - 1
             k(2*a - 1:2*a, 2*b - 1:2*b) = k(2*a - 1:2*a, 2*b - 1:2*b) + shape(a)*shape(b)*amount
@@ -189,19 +226,48 @@ contains
       end do
    end subroutine combine_products
 
+   !> The same of any D: with g the gradients, B of a node has the rows [g1, 0], [0, g2], [g2, g1].
+   pure subroutine combine_orthotropic(n, d, k)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: d(COMPONENTS, COMPONENTS) !< times the thickness [F/L]
+      real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
+      real(wp) :: p11, p12, p21, p22
+      integer(ip) :: a, b
+
+      do b = 2, n
+         do a = 1, b - 1
+            p11 = k(2*a - 1, 2*b - 1)
+            p21 = k(2*a, 2*b - 1)
+            p12 = k(2*a - 1, 2*b)
+            p22 = k(2*a, 2*b)
+            k(2*a - 1, 2*b - 1) = d(1, 1)*p11 + d(1, 3)*(p12 + p21) + d(3, 3)*p22
+            k(2*a, 2*b - 1) = d(1, 2)*p21 + d(1, 3)*p11 + d(2, 3)*p22 + d(3, 3)*p12
+            k(2*a - 1, 2*b) = d(1, 2)*p12 + d(1, 3)*p11 + d(2, 3)*p22 + d(3, 3)*p21
+            k(2*a, 2*b) = d(2, 2)*p22 + d(2, 3)*(p12 + p21) + d(3, 3)*p11
+         end do
+      end do
+   end subroutine combine_orthotropic
+
    !> The work of the mean dilatation (T. J. R. Hughes, Int. J. Numer. Methods Eng. 15, 1980, for the plane: half of it in either
    !> direction; e33 stays 0, and s33 = mu (s11 + s22)).
-   pure subroutine add_mean_dilatation(x, bulk, k)
+   pure subroutine add_mean_dilatation(x, state, bulk, k, thickness)
       real(wp), intent(in) :: x(2, MOST_NODES)       !< of four nodes [L]
+      integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(in) :: bulk
       real(wp), intent(inout) :: k(MOST_DOFS, MOST_DOFS)
-      real(wp) :: mean(8), d(2), e(2), area
+      real(wp), intent(in), optional :: thickness(:) !< of the nodes of a tapered state [L]
+      real(wp) :: mean(8), of_nodes(2, 4), d(2), e(2), area
       integer(ip) :: b
 
-      mean = reshape(mean_gradients(x(:, :4)), [8])
-      d = x(:, 3) - x(:, 1)
-      e = x(:, 4) - x(:, 2)
-      area = 0.5_wp*(d(1)*e(2) - d(2)*e(1))
+      if (IS_TAPERED(state)) then
+         call tapered_means(x(:, :4), thickness, of_nodes, area)
+         mean = reshape(of_nodes, [8])
+      else
+         mean = reshape(mean_gradients(x(:, :4)), [8])
+         d = x(:, 3) - x(:, 1)
+         e = x(:, 4) - x(:, 2)
+         area = 0.5_wp*(d(1)*e(2) - d(2)*e(1))
+      end if
       do b = 3, 8
          associate (last => 2*((b - 1)/2))         ! dofs of the nodes before
             k(:last, b) = k(:last, b) + mean(:last)*(bulk*area*mean(b))
@@ -313,15 +379,18 @@ contains
    end function mean_gradients
 
    !> Nodal forces [F] of a pressure on a face; a positive pressure pushes on the element.
-   pure subroutine pressure_load(x, pressure, thickness, state, f)
+   pure subroutine pressure_load(x, pressure, thickness, state, f, places)
       real(wp), intent(in) :: x(:, :)              !< the face's nodes in the order of face_nodes [L], (2, 2 or 3)
       real(wp), intent(in) :: pressure             !< [F/L^2]
       real(wp), intent(in) :: thickness            !< [L]
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< shape of x
-      real(wp) :: points(3), weights(3), n(size(x, 2)), tangent(2), relative(2, size(x, 2)), depth
+      real(wp), intent(in), optional :: places(:)  !< what the depth goes by at the nodes (depth_places) [L]; default x1
+      real(wp) :: points(3), weights(3), n(size(x, 2)), tangent(2), relative(2, size(x, 2)), goes_by(size(x, 2)), depth
       integer(ip) :: i, order, n_face
 
+      goes_by = x(1, :)
+      if (present(places)) goes_by = places
       n_face = size(x, 2, kind=ip)
       order = n_face
       relative = from_first(x)
@@ -329,7 +398,7 @@ contains
       f = 0.0_wp
       do i = 1, order
          n = face_shape_values(n_face, points(i))
-         depth = depth_at(state, thickness, dot_product(n, x(1, :)))
+         depth = depth_at(state, thickness, dot_product(n, goes_by))
          tangent = matmul(relative, face_shape_slopes(n_face, points(i)))
          ! travelling counter-clockwise the inward normal is the tangent turned by +90 degrees
          f(1, :) = f(1, :) - n*tangent(2)*(weights(i)*pressure*depth)
@@ -337,28 +406,38 @@ contains
       end do
    end subroutine pressure_load
 
-   !> Nodal forces [F] of a constant force per volume.
-   pure subroutine body_load(x, density, thickness, state, f)
+   !> Nodal forces [F] of a force per volume, constant or linear in the place: density + A x.
+   pure subroutine body_load(x, density, thickness, state, f, slope, places)
       real(wp), intent(in) :: x(:, :)              !< (2, n) [L]
       real(wp), intent(in) :: density(2)           !< [F/L^3]
       real(wp), intent(in) :: thickness            !< [L]
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< (2, n)
-      real(wp) :: xi(2), weight, j(2, 2), jacobian, n(size(x, 2))
+      real(wp), intent(in), optional :: slope(3)   !< A11, A12 = A21, A22 [F/L^4]; default 0
+      real(wp), intent(in), optional :: places(:)  !< what the depth goes by at the nodes (depth_places) [L]; default x1
+      real(wp) :: xi(2), weight, j(2, 2), jacobian, n(size(x, 2)), here(2), place(2), goes_by(size(x, 2))
       integer(ip) :: point, n_points, n_nodes
 
+      goes_by = x(1, :)
+      if (present(places)) goes_by = places
       n_nodes = size(x, 2, kind=ip)
       f = 0.0_wp
       n_points = POINTS_OF(n_nodes)
-      if (STATES(state)%has_hoop) n_points = ERROR_POINTS_OF(n_nodes) ! r N is of a higher degree
+      if (STATES(state)%has_hoop .or. IS_TAPERED(state) .or. present(slope)) n_points = ERROR_POINTS_OF(n_nodes) ! a higher degree
+      if (IS_REDUCED(state) .and. n_nodes == 8) n_points = BEST_OF(n_nodes) ! as other programs have it
+      here = density
       do point = 1, n_points
          call rule_point(n_nodes, n_points, point, xi, weight)
          j = matmul(from_first(x), shape_gradients(n_nodes, xi))
          jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
          n = shape_values(n_nodes, xi)
-         n = n*(weight*jacobian*depth_at(state, thickness, dot_product(n, x(1, :))))
-         f(1, :) = f(1, :) + n*density(1)
-         f(2, :) = f(2, :) + n*density(2)
+         if (present(slope)) then
+            place = matmul(x, n)
+            here = density + [slope(1)*place(1) + slope(2)*place(2), slope(2)*place(1) + slope(3)*place(2)]
+         end if
+         n = n*(weight*jacobian*depth_at(state, thickness, dot_product(n, goes_by)))
+         f(1, :) = f(1, :) + n*here(1)
+         f(2, :) = f(2, :) + n*here(2)
       end do
    end subroutine body_load
 

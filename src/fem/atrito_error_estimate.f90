@@ -4,8 +4,10 @@ module atrito_error_estimate
    use atrito_assembly, only: fem_t
    use atrito_element_table, only: MOST_NODES, ERROR_POINTS_OF
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_plane_state, only: compliance_matrix, COMPONENTS, depth_at
-   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
+   use atrito_orthotropy, only: SPATIAL, IN_PLANE, ACROSS
+   use atrito_plane_state, only: compliance_matrix, COMPONENTS
+   use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses, &
+                                  point_depth
    use atrito_stress_recovery, only: stress_field_t
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
@@ -27,13 +29,15 @@ module atrito_error_estimate
 contains
 
    !> Integrates (s* - s) C (s* - s) and s C s, C the compliance, by the Gauss rule of the stiffness, of triangles by a finer one.
-   subroutine measure_error(fem, u, field, energies, unit)
+   subroutine measure_error(fem, u, field, energies, unit, element_error)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
       type(stress_field_t), intent(in) :: field     !< recovered from u
       type(energies_t), intent(out) :: energies
       real(wp), intent(in), optional :: unit        !< displacements and stresses are divided by it first: a power of two, so that
       !< squares of very large or small ones stay in the range of numbers
+      real(wp), intent(out), optional :: element_error(:) !< (n_elements) share of the relative error, whose square is the sum of
+      !< their squares [%]
       type(point_rule_t) :: rules(MOST_NODES)
       type(energies_t) :: parts(chunk_count(fem%mesh%n_elements))
       real(wp) :: per_unit
@@ -44,16 +48,27 @@ contains
       call make_point_rules(ERROR_POINTS_OF, rules)
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do chunk = 1, size(parts, kind=ip)
-         call measure_chunk(fem, u, field, per_unit, rules, chunk, parts(chunk))
+         call measure_chunk(fem, u, field, per_unit, rules, chunk, parts(chunk), element_error)
       end do
       !$omp end parallel do
       energies%solution = sum(parts%solution)
       energies%error = sum(parts%error)
       energies%round_off = sum(parts%round_off)
       energies%strain = maxval([parts%strain, 0.0_wp])/per_unit
+      if (present(element_error)) element_error = share_errors(energies, element_error)
    end subroutine measure_error
 
-   pure subroutine measure_chunk(fem, u, field, per_unit, rules, chunk, energies)
+   !> From ||e||^2 of the elements to their shares of the relative error [%].
+   pure function share_errors(energies, squares) result(shares)
+      type(energies_t), intent(in) :: energies
+      real(wp), intent(in) :: squares(:)            !< [F L]
+      real(wp) :: shares(size(squares))
+
+      shares = 0.0_wp
+      if (relative_error(energies) > 0.0_wp) shares = 100*sqrt(squares/(energies%solution + energies%error))
+   end function share_errors
+
+   pure subroutine measure_chunk(fem, u, field, per_unit, rules, chunk, energies, square)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
       type(stress_field_t), intent(in) :: field
@@ -61,7 +76,9 @@ contains
       type(point_rule_t), intent(in) :: rules(MOST_NODES)
       integer(ip), intent(in) :: chunk
       type(energies_t), intent(out) :: energies
+      real(wp), intent(inout), optional :: square(:) !< ||e||^2 of the chunk's elements [F L]
       type(point_geometry_t) :: geometry
+      type(energies_t) :: alone
       integer(ip) :: e, first, last
 
       call find_chunk(chunk, fem%mesh%n_elements, first, last)
@@ -69,6 +86,10 @@ contains
          associate (rule => rules(fem%mesh%shape(e)))
             call fetch_geometry(fem, e, rule, geometry)
             call add_element(fem, e, u, field, per_unit, rule, geometry, energies)
+            if (.not. present(square)) cycle
+            alone = energies_t()
+            call add_element(fem, e, u, field, per_unit, rule, geometry, alone)
+            square(e) = alone%error
          end associate
       end do
    end subroutine measure_chunk
@@ -90,7 +111,11 @@ contains
       c = compliance_matrix(fem%sections(geometry%section), geometry%state)
       call point_stresses(fem, e, u, rule, geometry, s)
       s(:n, :) = s(:n, :)*per_unit
-      energies%strain = max(energies%strain, largest_strain(n, 0.5_wp/(geometry%d(3, 3) + min(geometry%d(1, 2), 0.0_wp)), s))
+      if (geometry%is_orthotropic) then
+         if (.not. geometry%has_hoop) energies%strain = max(energies%strain, largest_orthotropic_strain(n, c, s))
+      else
+         energies%strain = max(energies%strain, largest_strain(n, 0.5_wp/(geometry%d(3, 3) + min(geometry%d(1, 2), 0.0_wp)), s))
+      end if
       d(:n, :) = -s(:n, :)
       largest = 0.0_wp
       do k = 1, geometry%shape
@@ -102,12 +127,32 @@ contains
          end associate
       end do
       call find_volumes(fem, e, rule, geometry, weight)
-      energies%solution = energies%solution + integral(n, c, s, weight)
-      energies%error = energies%error + integral(n, c, d, weight)
+      if (geometry%is_orthotropic) then
+         energies%solution = energies%solution + orthotropic_integral(n, c, s, weight)
+         energies%error = energies%error + orthotropic_integral(n, c, d, weight)
+      else
+         energies%solution = energies%solution + integral(n, c, s, weight)
+         energies%error = energies%error + integral(n, c, d, weight)
+      end if
       if (geometry%has_hoop) call add_hoop(fem, e, u, field, per_unit, rule, geometry, energies)
-      energies%round_off = energies%round_off + (geometry%d(1, 1)*(EPS_MACH*(largest*per_unit))**2) &
+      energies%round_off = energies%round_off + (max(geometry%d(1, 1), geometry%d(2, 2))*(EPS_MACH*(largest*per_unit))**2) &
                            *sum(weight(:n)*geometry%steepness(:n))
    end subroutine add_element
+
+   !> The largest root of e11^2 + e22^2 + 2 e12^2 at the points; of rings add_orthotropic_hoop has the strains.
+   pure real(wp) function largest_orthotropic_strain(n, c, s)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: c(COMPONENTS, COMPONENTS), s(MOST_POINTS, COMPONENTS)
+      real(wp) :: square, e(COMPONENTS)
+      integer(ip) :: i
+
+      square = 0.0_wp
+      do i = 1, n
+         e = matmul(c, s(i, :))
+         square = max(square, e(1)**2 + e(2)**2 + 0.5_wp*e(3)**2)
+      end do
+      largest_orthotropic_strain = sqrt(square)
+   end function largest_orthotropic_strain
 
    !> A bound of the strains of an axisymmetric element at the points: the root of s11^2 + s22^2 + s33^2 + 2 s12^2 over the
    !> least of 2G and 2G + 3 lambda.
@@ -154,7 +199,7 @@ contains
       thickness = fem%sections(geometry%section)%thickness
       x1 = fem%mesh%x(1, fem%mesh%nodes(1, e))
       do i = 1, rule%n
-         volume(i) = rule%weight(i)*geometry%jacobian(i)*depth_at(geometry%state, thickness, x1 + geometry%place(i, 1))
+         volume(i) = rule%weight(i)*geometry%jacobian(i)*point_depth(geometry, rule, i, thickness, x1)
       end do
    end subroutine find_volumes
 
@@ -177,13 +222,21 @@ contains
       call point_stresses(fem, e, u, rule, geometry, s, hoop)
       s(:rule%n, :) = s(:rule%n, :)*per_unit
       hoop(:rule%n) = hoop(:rule%n)*per_unit
-      energies%strain = max(energies%strain, largest_spatial_strain(rule%n, geometry%d, s, hoop))
+      if (.not. geometry%is_orthotropic) energies%strain = max(energies%strain, &
+                                                               largest_spatial_strain(rule%n, geometry%d, s, hoop))
       associate (place => field%place(:geometry%shape, e))
          do i = 1, rule%n
-            flat = s(i, 1) + s(i, 2)
-            round = hoop(i)
-            energies%solution = energies%solution + weight(i)*(c(1, 1)*round**2 + 2*c(1, 2)*round*flat)
             associate (value => rule%value(i, :geometry%shape))
+               if (geometry%is_orthotropic) then
+                  call add_orthotropic_hoop(fem%sections(geometry%section)%compliance, weight(i), &
+                                            [s(i, 1:2), hoop(i), s(i, 3)], per_unit*[matmul(field%stress(1:2, place), value), &
+                                                                 sum(value*field%hoop(place)), sum(value*field%stress(3, place))], &
+                                            energies)
+                  cycle
+               end if
+               flat = s(i, 1) + s(i, 2)
+               round = hoop(i)
+               energies%solution = energies%solution + weight(i)*(c(1, 1)*round**2 + 2*c(1, 2)*round*flat)
                flat = sum(value*(field%stress(1, place) + field%stress(2, place)))*per_unit - flat
                round = sum(value*field%hoop(place))*per_unit - round
             end associate
@@ -191,6 +244,40 @@ contains
          end do
       end associate
    end subroutine add_hoop
+
+   !> The same of any elasticity, at a point, with the strains of the whole: S33 s33^2 + 2 s33 (S13 s11 + S23 s22 + S34 s12).
+   pure subroutine add_orthotropic_hoop(c, weight, s, smooth, energies)
+      real(wp), intent(in) :: c(SPATIAL, SPATIAL)  !< compliance [L^2/F]
+      real(wp), intent(in) :: weight               !< [L^3]
+      real(wp), intent(in) :: s(SPATIAL)           !< s11, s22, s33, s12 ...
+      real(wp), intent(in) :: smooth(SPATIAL)      !< ... and those that are continuous
+      type(energies_t), intent(inout) :: energies
+      real(wp) :: e(SPATIAL)
+
+      e = matmul(c, s)
+      energies%strain = max(energies%strain, sqrt(e(1)**2 + e(2)**2 + e(3)**2 + 0.5_wp*e(4)**2))
+      energies%solution = energies%solution + weight*hoop_work(c, s)
+      energies%error = energies%error + weight*hoop_work(c, smooth - s)
+   end subroutine add_orthotropic_hoop
+
+   !> What s33 adds to the energy of the others.
+   pure real(wp) function hoop_work(c, s)
+      real(wp), intent(in) :: c(SPATIAL, SPATIAL), s(SPATIAL)
+
+      hoop_work = c(ACROSS, ACROSS)*s(ACROSS)**2 + 2*s(ACROSS)*dot_product(c(ACROSS, IN_PLANE), s(IN_PLANE))
+   end function hoop_work
+
+   !> Sum over the points of weight s C s [F L], of any C.
+   pure real(wp) function orthotropic_integral(n, c, s, weight) result(integral)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: c(COMPONENTS, COMPONENTS), s(MOST_POINTS, COMPONENTS), weight(MOST_POINTS)
+      integer(ip) :: i
+
+      integral = 0.0_wp
+      do i = 1, n
+         integral = integral + weight(i)*dot_product(s(i, :), matmul(c, s(i, :)))
+      end do
+   end function orthotropic_integral
 
    !> Sum over the points of weight s C s [F L].
    pure real(wp) function integral(n, c, s, weight)

@@ -16,15 +16,18 @@ module atrito_face_loads
 contains
 
    !> Forces [F] of a traction of the same size and direction along the face.
-   pure subroutine traction_load(x, traction, thickness, state, f)
+   pure subroutine traction_load(x, traction, thickness, state, f, places)
       real(wp), intent(in) :: x(:, :)              !< the face's nodes in the order of face_nodes [L], (2, 2 or 3)
       real(wp), intent(in) :: traction(2)          !< [F/L^2]
       real(wp), intent(in) :: thickness            !< [L]
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< shape of x
-      real(wp) :: points(RULE_POINTS), weights(RULE_POINTS), n(size(x, 2)), t
+      real(wp), intent(in), optional :: places(:)  !< what the depth goes by at the nodes (depth_places) [L]; default x1
+      real(wp) :: points(RULE_POINTS), weights(RULE_POINTS), n(size(x, 2)), goes_by(size(x, 2)), t
       integer(ip) :: i, k, n_face
 
+      goes_by = x(1, :)
+      if (present(places)) goes_by = places
       n_face = size(x, 2, kind=ip)
       call line_rule(points, weights)
       f = 0.0_wp
@@ -32,7 +35,7 @@ contains
          do i = 1, RULE_POINTS
             t = (2*k - 1 + points(i))/PANELS - 1
             n = face_shape_values(n_face, t)
-            n = n*(weights(i)/PANELS*norm2(face_direction(x, t))*depth_at(state, thickness, dot_product(n, x(1, :))))
+            n = n*(weights(i)/PANELS*norm2(face_direction(x, t))*depth_at(state, thickness, dot_product(n, goes_by)))
             f(1, :) = f(1, :) + n*traction(1)
             f(2, :) = f(2, :) + n*traction(2)
          end do
@@ -41,20 +44,23 @@ contains
 
    !> Forces [F] of a pressure that is 0 at the level x2 = levels(1) and the magnitude at levels(2), linear in x2 on that side of
    !> the first one and 0 on the other; a positive pressure pushes on the element.
-   pure subroutine hydrostatic_load(x, magnitude, levels, thickness, state, f)
+   pure subroutine hydrostatic_load(x, magnitude, levels, thickness, state, f, places)
       real(wp), intent(in) :: x(:, :)              !< the face's nodes in the order of face_nodes [L], (2, 2 or 3)
       real(wp), intent(in) :: magnitude            !< [F/L^2]
       real(wp), intent(in) :: levels(2)            !< [L]
       real(wp), intent(in) :: thickness            !< [L]
       integer(ip), intent(in) :: state             !< place in STATES
       real(wp), intent(out) :: f(:, :)             !< shape of x
-      real(wp) :: cuts(4)
+      real(wp), intent(in), optional :: places(:)  !< what the depth goes by at the nodes (depth_places) [L]; default x1
+      real(wp) :: cuts(4), goes_by(size(x, 2))
       integer(ip) :: k, n_cuts
 
+      goes_by = x(1, :)
+      if (present(places)) goes_by = places
       f = 0.0_wp
       call cut_face((x(2, :) - levels(1))/(levels(2) - levels(1)), cuts, n_cuts)
       do k = 1, n_cuts - 1
-         call add_panel(x, magnitude, levels, cuts(k:k + 1), thickness, state, f)
+         call add_panel(x, [magnitude, levels], cuts(k:k + 1), goes_by, thickness, state, f)
       end do
    end subroutine hydrostatic_load
 
@@ -93,8 +99,10 @@ contains
    end subroutine cut_face
 
    !> The part of a face between two places, where the pressure has one sign: none where it is that of the dry side.
-   pure subroutine add_panel(x, magnitude, levels, ends, thickness, state, f)
-      real(wp), intent(in) :: x(:, :), magnitude, levels(2), ends(2), thickness
+   pure subroutine add_panel(x, law, ends, goes_by, thickness, state, f)
+      real(wp), intent(in) :: x(:, :), ends(2), thickness
+      real(wp), intent(in) :: law(3)               !< magnitude [F/L^2] and levels [L]
+      real(wp), intent(in) :: goes_by(:)           !< what the depth goes by at the nodes [L]
       integer(ip), intent(in) :: state
       real(wp), intent(inout) :: f(:, :)
       real(wp) :: points(RULE_POINTS), weights(RULE_POINTS), n(size(x, 2)), tangent(2), place(2), t, share
@@ -105,10 +113,10 @@ contains
          t = 0.5_wp*(ends(1) + ends(2)) + 0.5_wp*(ends(2) - ends(1))*points(i)
          n = face_shape_values(size(x, 2, kind=ip), t)
          place = matmul(x, n)
-         share = (place(2) - levels(1))/(levels(2) - levels(1))
+         share = (place(2) - law(2))/(law(3) - law(2))
          if (share <= 0.0_wp) cycle
          tangent = face_direction(x, t)
-         n = n*(0.5_wp*(ends(2) - ends(1))*weights(i)*magnitude*share*depth_at(state, thickness, place(1)))
+         n = n*(0.5_wp*(ends(2) - ends(1))*weights(i)*law(1)*share*depth_at(state, thickness, dot_product(n, goes_by)))
          ! travelling counter-clockwise the inward normal is the tangent turned by +90 degrees
          f(1, :) = f(1, :) - n*tangent(2)
          f(2, :) = f(2, :) + n*tangent(1)

@@ -69,7 +69,8 @@ contains
    pure logical function same_section(a, b)
       type(elastic_t), intent(in) :: a, b
 
-      same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness
+      same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
+                     .and. all(a%stiffness == b%stiffness)
    end function same_section
 
    !> Gives every pair of a node and a zone its place.

@@ -6,14 +6,16 @@ module atrito_point_stress
    use atrito_element, only: mean_gradients
    use atrito_element_table, only: SHAPES, MOST_NODES, MOST_CORNERS, has_mean_dilatation
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: elasticity_matrix, thermal_modulus, IS_REDUCED, COMPONENTS, STATES, depth_at
+   use atrito_orthotropy, only: IN_PLANE, ACROSS
+   use atrito_plane_state, only: elasticity_matrix, thermal_stresses, IS_REDUCED, IS_TAPERED, COMPONENTS, STATES, depth_at
    use atrito_reduced_integration, only: spread_gradients, spread_values
    use atrito_reduced_rings, only: spread_ring_strains
    use atrito_shape_functions, only: shape_values, shape_gradients, rule_point
+   use atrito_tapered, only: tapered_means, take_thickness, has_thickness
    implicit none (type, external)
    private
    public :: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, make_point_rule, fetch_geometry, point_stresses
-   public :: hoop_strain, point_thermal_strains, find_means, takes_means
+   public :: hoop_strain, point_thermal_strains, find_means, takes_means, point_depth
 
    integer(ip), parameter :: MOST_POINTS = 9
 
@@ -33,7 +35,10 @@ module atrito_point_stress
       real(wp) :: x(2, MOST_NODES) = 0.0_wp        !< [L]
       logical :: has_hoop = .false.              !< axisymmetric
       real(wp) :: radius = 0.0_wp                !< then of the first node [L]
+      real(wp) :: thickness(MOST_NODES) = 0.0_wp !< of the nodes of a tapered element [L]
       real(wp) :: d(COMPONENTS, COMPONENTS) = 0.0_wp               !< elasticity matrix [F/L^2]
+      logical :: is_orthotropic = .false.
+      real(wp) :: across(4) = 0.0_wp             !< then s33 by e11, e22, 2 e12 and e33 [F/L^2]
       logical :: averages = .false.              !< the dilatation is the same everywhere in the element: FORMULATION=BBAR
       real(wp) :: mean(2, MOST_CORNERS) = 0.0_wp     !< then the mean gradients of the shape functions [1/L]
       real(wp) :: place(MOST_POINTS, 2) = 0.0_wp !< less the element's first node [L]
@@ -83,8 +88,13 @@ contains
 
       if (geometry%section == fem%section_of(e) .and. geometry%state == fem%mesh%state(e)) then
          if (is_like_before(fem%mesh, e, geometry%shape, geometry%x, 0.0_wp)) then
-            if (.not. geometry%has_hoop) return
-            if (is_at_radius(fem%mesh, e, geometry%radius)) return
+            if (IS_TAPERED(geometry%state)) then
+               if (has_thickness(fem%mesh, e, geometry%thickness)) return
+            else if (.not. geometry%has_hoop) then
+               return
+            else if (is_at_radius(fem%mesh, e, geometry%radius)) then
+               return
+            end if
          end if
       end if
       geometry%section = fem%section_of(e)
@@ -92,6 +102,7 @@ contains
       geometry%shape = fem%mesh%shape(e)
       geometry%has_hoop = STATES(geometry%state)%has_hoop
       geometry%radius = radius_of(fem%mesh, e)
+      if (IS_TAPERED(geometry%state)) call take_thickness(fem%mesh, e, geometry%thickness)
       first = fem%mesh%nodes(1, e)
       do k = 1, geometry%shape
          geometry%x(:, k) = fem%mesh%x(:, fem%mesh%nodes(k, e)) - fem%mesh%x(:, first)
@@ -99,10 +110,14 @@ contains
       associate (section => fem%sections(geometry%section))
          geometry%d = elasticity_matrix(section, geometry%state)
          geometry%averages = has_mean_dilatation(section, geometry%state, geometry%shape)
+         geometry%is_orthotropic = section%is_orthotropic
+         if (section%is_orthotropic) geometry%across = section%stiffness([IN_PLANE, ACROSS], ACROSS)
       end associate
       if (geometry%averages .and. geometry%has_hoop) then
          k = geometry%shape                      ! of the first degree: corners alone
          call mean_rows(geometry%x(:, :k), geometry%radius, 1.0_wp, geometry%state, geometry%mean(:, :k), volume)
+      else if (geometry%averages .and. IS_TAPERED(geometry%state)) then
+         call tapered_means(geometry%x(:, :MOST_CORNERS), geometry%thickness(:MOST_CORNERS), geometry%mean, volume)
       else if (geometry%averages) then
          geometry%mean = mean_gradients(geometry%x(:, :MOST_CORNERS))
       end if
@@ -110,6 +125,8 @@ contains
       if (IS_REDUCED(geometry%state) .and. geometry%has_hoop) then
          k = geometry%shape
          call spread_ring_strains(rule%n, geometry%x(:, :k), geometry%radius, geometry%state, geometry%gradient, geometry%hoop)
+      else if (has_mean_strains(geometry)) then
+         call spread_means(rule%n, geometry)
       else if (IS_REDUCED(geometry%state)) then
          call spread_gradients(rule%n, geometry%shape, geometry%x, geometry%gradient)
       end if
@@ -180,7 +197,11 @@ contains
                s(k, 1:2) = s(k, 1:2) + 0.5_wp*(dilatation - (s(k, 1) + s(k, 2)))
             end do
          end if
-         call strains_to_stresses(rule%n, geometry%d, s)
+         if (geometry%is_orthotropic) then
+            s(:rule%n, :) = matmul(s(:rule%n, :), geometry%d)
+         else
+            call strains_to_stresses(rule%n, geometry%d, s)
+         end if
       end if
       if (allocated(fem%heating)) call subtract_thermal_stress(fem, e, rule, geometry, s, hoop)
    end subroutine point_stresses
@@ -193,14 +214,16 @@ contains
       type(point_geometry_t), intent(in) :: geometry
       real(wp), intent(inout) :: s(MOST_POINTS, COMPONENTS)
       real(wp), intent(inout), optional :: hoop(MOST_POINTS)
-      real(wp) :: strain(MOST_POINTS), modulus
+      real(wp) :: strain(MOST_POINTS), b(COMPONENTS + 1)
+      integer(ip) :: i
 
       if (.not. abs(fem%sections(geometry%section)%expansion) > 0.0_wp) return
       call point_thermal_strains(fem, e, rule, geometry, strain)
-      modulus = thermal_modulus(fem%sections(geometry%section), geometry%state)
-      s(:rule%n, 1) = s(:rule%n, 1) - modulus*strain(:rule%n)
-      s(:rule%n, 2) = s(:rule%n, 2) - modulus*strain(:rule%n)
-      if (present(hoop) .and. geometry%has_hoop) hoop(:rule%n) = hoop(:rule%n) - modulus*strain(:rule%n)
+      b = thermal_stresses(fem%sections(geometry%section), geometry%state)
+      do i = 1, COMPONENTS
+         s(:rule%n, i) = s(:rule%n, i) - b(i)*strain(:rule%n)
+      end do
+      if (present(hoop) .and. geometry%has_hoop) hoop(:rule%n) = hoop(:rule%n) - b(COMPONENTS + 1)*strain(:rule%n)
    end subroutine subtract_thermal_stress
 
    !> The strains of the temperature at the points, alpha times its rise, which the element's shape functions interpolate: as the
@@ -229,6 +252,22 @@ contains
       strain(:rule%n) = fem%sections(geometry%section)%expansion*strain(:rule%n)
    end subroutine point_thermal_strains
 
+   !> What stands behind a point of an element.
+   pure real(wp) function point_depth(geometry, rule, i, thickness, x1) result(depth)
+      type(point_geometry_t), intent(in) :: geometry
+      type(point_rule_t), intent(in) :: rule
+      integer(ip), intent(in) :: i               !< point
+      real(wp), intent(in) :: thickness          !< of the section [L]
+      real(wp), intent(in) :: x1                 !< of the element's first node [L]
+
+      if (IS_TAPERED(geometry%state)) then
+         depth = depth_at(geometry%state, thickness, dot_product(rule%value(i, :geometry%shape), &
+                                                                 geometry%thickness(:geometry%shape)))
+      else
+         depth = depth_at(geometry%state, thickness, x1 + geometry%place(i, 1))
+      end if
+   end function point_depth
+
    !> Means of the shape functions over the volume, and that of the full circle where there is one, else the area times the unit.
    pure subroutine find_means(geometry, mean, volume)
       type(point_geometry_t), intent(in) :: geometry
@@ -243,20 +282,45 @@ contains
          call rule_point(geometry%shape, SHAPES(geometry%shape)%n_points, k, xi, weight)
          j = matmul(geometry%x(:, :geometry%shape), shape_gradients(geometry%shape, xi))
          n = shape_values(geometry%shape, xi)
-         weight = weight*(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)) &
-                  *depth_at(geometry%state, 1.0_wp, geometry%radius + dot_product(n, geometry%x(1, :geometry%shape)))
+         weight = weight*(j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1))
+         if (IS_TAPERED(geometry%state)) then
+            weight = weight*dot_product(n, geometry%thickness(:geometry%shape))
+         else
+            weight = weight*depth_at(geometry%state, 1.0_wp, geometry%radius + dot_product(n, geometry%x(1, :geometry%shape)))
+         end if
          mean = mean + weight*n
          volume = volume + weight
       end do
       mean = mean/volume
    end subroutine find_means
 
-   !> Whether the strains are means over the volume: the mean dilatation, and all those of a reduced ring of four nodes.
+   !> Whether the strains are means over the volume: the mean dilatation, and all those of some reduced elements.
    pure logical function takes_means(geometry)
       type(point_geometry_t), intent(in) :: geometry
 
-      takes_means = geometry%averages .or. (geometry%has_hoop .and. geometry%shape == 4 .and. IS_REDUCED(geometry%state))
+      takes_means = geometry%averages .or. has_mean_strains(geometry)
    end function takes_means
+
+   !> Whether all strains are means over the volume: of four nodes with reduced integration where the depth varies.
+   pure logical function has_mean_strains(geometry)
+      type(point_geometry_t), intent(in) :: geometry
+
+      has_mean_strains = geometry%shape == 4 .and. IS_REDUCED(geometry%state) &
+                         .and. (geometry%has_hoop .or. IS_TAPERED(geometry%state))
+   end function has_mean_strains
+
+   !> The means of the gradients at n points of a tapered element.
+   pure subroutine spread_means(n, geometry)
+      integer(ip), intent(in) :: n
+      type(point_geometry_t), intent(inout) :: geometry
+      real(wp) :: mean(2, 4), volume
+      integer(ip) :: i
+
+      call tapered_means(geometry%x(:, :4), geometry%thickness(:4), mean, volume)
+      do i = 1, n
+         geometry%gradient(i, :, :4) = mean
+      end do
+   end subroutine spread_means
 
    !> From the strains in the plane to the stresses of an axisymmetric element.
    pure subroutine axisymmetric_stresses(rule, geometry, way, u, s, hoop)
@@ -281,7 +345,12 @@ contains
             e33 = e33 + excess/3
          end if
          at_point = matmul(geometry%d, [e11, e22, s(k, 3)])
-         call add_hoop_stress(geometry%d, e11, e22, e33, at_point, s33)
+         if (geometry%is_orthotropic) then
+            at_point = at_point + geometry%across(:COMPONENTS)*e33
+            s33 = dot_product(geometry%across, [e11, e22, s(k, 3), e33])
+         else
+            call add_hoop_stress(geometry%d, e11, e22, e33, at_point, s33)
+         end if
          s(k, :) = at_point
          if (present(hoop)) hoop(k) = s33
       end do

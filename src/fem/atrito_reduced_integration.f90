@@ -35,12 +35,37 @@ contains
       axes = element_axes(x)
       h = matmul(transpose(axes), matmul(products_of_slopes(x), axes))
       c = compliance_matrix(section, state)
+      if (section%is_orthotropic) then
+         amount = section%thickness*matmul(axes, matmul(orthotropic_amount(h, c, axes), transpose(axes)))
+         return
+      end if
       ratio = -c(1, 2)/c(1, 1)
       amount = h
       amount(1, 2) = -ratio*h(1, 2)
       amount(2, 1) = amount(1, 2)
       amount = (section%thickness/c(1, 1))*matmul(axes, matmul(amount, transpose(axes)))
    end subroutine hourglass_stiffness
+
+   !> The same along the axes of the element where they are not those of the material: stresses s11 = h,1 q1/c11, s22 = h,2 q2/c22
+   !> alone
+   !> have the energy h11 q1^2/c11 + 2 h12 q1 q2 c12/(c11 c22) + h22 q2^2/c22, with the compliance along those axes.
+   pure function orthotropic_amount(h, c, axes) result(amount)
+      real(wp), intent(in) :: h(2, 2)              !< integrals of h,i h,j along the axes
+      real(wp), intent(in) :: c(COMPONENTS, COMPONENTS) !< compliance along x1, x2 [L^2/F]
+      real(wp), intent(in) :: axes(2, 2)
+      real(wp) :: amount(2, 2)
+      real(wp) :: unit(COMPONENTS, 2), along(2, 2)
+      integer(ip) :: i
+
+      do i = 1, 2                                  ! a stress of 1 along the axis
+         unit(:, i) = [axes(1, i)**2, axes(2, i)**2, axes(1, i)*axes(2, i)]
+      end do
+      along = matmul(transpose(unit), matmul(c, unit))
+      amount(1, 1) = h(1, 1)/along(1, 1)
+      amount(2, 2) = h(2, 2)/along(2, 2)
+      amount(1, 2) = h(1, 2)*along(1, 2)/(along(1, 1)*along(2, 2))
+      amount(2, 1) = amount(1, 2)
+   end function orthotropic_amount
 
    !> (h - (h.x1) b1 - (h.x2) b2)/4, b the gradients in the middle.
    pure subroutine hourglass_amplitude(x, shape)

@@ -14,9 +14,10 @@
 !> that the hourglass would be stiff. All of it is nothing where u1 = c x1 and u2 is linear, and the work of the mean strains on it
 !> is left out, which leaves the forces of a uniform stress as they are.
 module atrito_reduced_rings
-   use atrito_axisymmetric, only: strain_rows_t, strain_rows, mean_strain_rows, add_point, balance_axis
+   use atrito_axisymmetric, only: strain_rows_t, strain_rows, mean_strain_rows, add_point, add_orthotropic_point, balance_axis
    use atrito_element_table, only: BEST_OF
    use atrito_kinds, only: ip, wp
+   use atrito_orthotropy, only: turned_stiffness
    use atrito_plane_state, only: elastic_t, elasticity_matrix, COMPONENTS, depth_at
    use atrito_reduced_integration, only: share_of_point, hourglass_amplitude, element_axes
    use atrito_shape_functions, only: rule_point, shape_gradients
@@ -42,8 +43,14 @@ contains
 
       origin = 0.0_wp
       if (present(radius)) origin = radius
-      d = elasticity_matrix(section, state)
       k = 0.0_wp
+      if (section%is_orthotropic) then
+         call add_orthotropic_point(N, mean_strain_rows(x, origin, section%thickness, state), section%stiffness, k)
+         call add_orthotropic_hourglass(x(:, :N), origin, section, state, k)
+         call balance_axis(N, k)
+         return
+      end if
+      d = elasticity_matrix(section, state)
       call add_point(N, mean_strain_rows(x, origin, section%thickness, state), d(1, 2), d(3, 3), k)
       call add_hourglass(x(:, :N), origin, section%thickness, state, d, k)
       call balance_axis(N, k)
@@ -58,7 +65,7 @@ contains
       real(wp) :: b(3, N_DOFS, N_POINTS), jacobian(N_POINTS), depth, stress(3), lambda, shear
       integer(ip) :: point, j
 
-      call hourglass_strains(x, origin, state, d(1, 2)/d(1, 1), b, jacobian)
+      call hourglass_strains(x, origin, state, spread(d(1, 2)/d(1, 1), 1, 4), b, jacobian)
       depth = depth_at(state, thickness, origin + 0.25_wp*sum(x(1, :)))
       lambda = d(1, 2)
       shear = d(3, 3)
@@ -70,11 +77,32 @@ contains
       end do
    end subroutine add_hourglass
 
+   !> The same of any elasticity C along the axes of the element: a strain along one of them, or round the circle, leaves the others
+   !> without stress, m = c12/c11 and so on.
+   pure subroutine add_orthotropic_hourglass(x, origin, section, state, k)
+      real(wp), intent(in) :: x(2, N), origin
+      type(elastic_t), intent(in) :: section
+      integer(ip), intent(in) :: state
+      real(wp), intent(inout) :: k(N_DOFS, N_DOFS)
+      real(wp) :: b(3, N_DOFS, N_POINTS), jacobian(N_POINTS), axes(2, 2), c(4, 4), depth
+      integer(ip) :: point, j
+
+      axes = element_axes(x)
+      c = turned_stiffness(section%stiffness, [axes(1, 1), -axes(2, 1)])
+      call hourglass_strains(x, origin, state, [c(1, 2)/c(1, 1), c(1, 3)/c(1, 1), c(1, 2)/c(2, 2), c(2, 3)/c(2, 2)], b, jacobian)
+      depth = depth_at(state, section%thickness, origin + 0.25_wp*sum(x(1, :)))
+      do point = 1, N_POINTS
+         do j = 1, N_DOFS
+            k(:j, j) = k(:j, j) + (jacobian(point)*depth)*matmul(matmul(c(:3, :3), b(:, j, point)), b(:, :j, point))
+         end do
+      end do
+   end subroutine add_orthotropic_hourglass
+
    !> e11, e22, e33 by the displacements of the nodes at 2 x 2 points.
    pure subroutine hourglass_strains(x, origin, state, m, b, jacobian)
       real(wp), intent(in) :: x(2, N), origin
       integer(ip), intent(in) :: state
-      real(wp), intent(in) :: m                    !< mu/(1 - mu)
+      real(wp), intent(in) :: m(4)                 !< mu/(1 - mu): of e22 and e33 in e11, of e11 and e33 in e22 [-]
       real(wp), intent(out) :: b(3, N_DOFS, N_POINTS) !< [1/L]
       real(wp), intent(out) :: jacobian(N_POINTS)  !< [L^2]
       real(wp) :: relative(2, N), shape(N), axes(2, 2), t(N, 2), xi(2), weight, slope(2)
@@ -95,8 +123,8 @@ contains
          t2 = 0.0_wp
          t1(1::2) = t(:, 1)*xi(1)
          t2(1::2) = t(:, 2)*xi(2)
-         b(1, :, point) = e1 - m*(e2 + t1)
-         b(2, :, point) = e2 - m*(e1 + t2)
+         b(1, :, point) = e1 - (m(1)*e2 + m(2)*t1)
+         b(2, :, point) = e2 - (m(3)*e1 + m(4)*t2)
          b(3, :, point) = t1 + t2
       end do
    end subroutine hourglass_strains

@@ -12,7 +12,7 @@ module atrito_stress_recovery
    use atrito_patch_fit, only: patch_fit_t, polynomial_t, clear_samples, add_sample, is_laid, lay_patch, &
                                determined_degree, fit_node, fit_polynomial, fitted_value
    use atrito_patches, only: patches_t, build_patches, PATCH_NONE, PATCH_OUTER, PATCH_SINGLE
-   use atrito_plane_state, only: stress_33, von_mises, IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES
+   use atrito_plane_state, only: stress_33, thermal_modulus_33, von_mises, IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
@@ -48,7 +48,7 @@ module atrito_stress_recovery
    !> The same of triangles; there is no fourth corner.
    integer(ip), parameter :: TRIANGLE_RANK_OF(MOST_CORNERS, 6) = reshape([1, 2, 2, 0, 2, 1, 2, 0, 2, 2, 1, 0, &
                                                                           1, 1, 2, 0, 2, 1, 1, 0, 1, 2, 1, 0], [4, 6])
-   integer(ip), parameter :: RANK_NEIGHBOUR = 4, RANK_NONE = 5 !< 4: of an element that has the patches of its neighbour
+   integer(ip), parameter :: RANK_NEIGHBOUR = 4, RANK_NONE = 5 !< of an element that has the patches of its neighbour
 
 contains
 
@@ -478,7 +478,7 @@ contains
       s33 = 0.0_wp
       if (STATES(fem%mesh%state(e))%is_thin) return
       associate (section => fem%sections(fem%section_of(e)))
-         s33 = -section%young*section%expansion*fem%heating(node)
+         s33 = -thermal_modulus_33(section)*section%expansion*fem%heating(node)
       end associate
    end function thermal_stress_33
 

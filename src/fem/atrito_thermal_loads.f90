@@ -10,12 +10,12 @@ module atrito_thermal_loads
    use atrito_assembly, only: fem_t
    use atrito_element_table, only: BEST_OF, POINTS_OF, MOST_NODES
    use atrito_kinds, only: ip, wp
-   use atrito_plane_state, only: thermal_modulus, IS_REDUCED, STATES, depth_at
+   use atrito_plane_state, only: thermal_stresses, COMPONENTS, IS_REDUCED, STATES
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, &
-                                  point_thermal_strains, find_means, takes_means
+                                  point_thermal_strains, find_means, takes_means, point_depth
    implicit none (type, external)
    private
-   public :: add_thermal_loads, elastic_energy, largest_thermal_strain
+   public :: add_thermal_loads, add_thermal_of, elastic_energy, largest_thermal_strain
 
 contains
 
@@ -27,6 +27,24 @@ contains
 
       if (allocated(fem%heating)) call go_through(fem, f, blocked)
    end subroutine add_thermal_loads
+
+   !> The same of some elements.
+   pure subroutine add_thermal_of(fem, elements, f)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:)
+      real(wp), intent(inout) :: f(:, :)           !< (2, n_nodes) [F]
+      type(point_rule_t) :: rules(MOST_NODES, 2)
+      type(point_geometry_t) :: geometry
+      real(wp) :: blocked
+      integer(ip) :: i
+
+      if (.not. allocated(fem%heating)) return
+      call make_rules(rules)
+      blocked = 0.0_wp
+      do i = 1, size(elements, kind=ip)
+         call add_expansion(fem, elements(i), rules, geometry, f, blocked)
+      end do
+   end subroutine add_thermal_of
 
    !> The energy of the stresses from that of the displacements alone; unchanged where there are no temperatures.
    pure real(wp) function elastic_energy(fem, u, of_displacements) result(energy)
@@ -61,20 +79,37 @@ contains
       real(wp), intent(out) :: blocked             !< energy if nothing moved, int e_th D e_th dV/2 [F L]
       type(point_rule_t) :: rules(MOST_NODES, 2)   ! of full and of reduced integration
       type(point_geometry_t) :: geometry
-      integer(ip) :: e, k
+      integer(ip) :: e
+
+      call make_rules(rules)
+      blocked = 0.0_wp
+      do e = 1, fem%mesh%n_elements
+         call add_expansion(fem, e, rules, geometry, f, blocked)
+      end do
+   end subroutine go_through
+
+   !> The points of the stiffness.
+   pure subroutine make_rules(rules)
+      type(point_rule_t), intent(inout) :: rules(MOST_NODES, 2) !< of full and of reduced integration
 
       call make_point_rules(POINTS_OF, rules(:, 1))
       call make_point_rules(BEST_OF, rules(:, 2))
-      blocked = 0.0_wp
-      do e = 1, fem%mesh%n_elements
-         if (.not. abs(fem%sections(fem%section_of(e))%expansion) > 0.0_wp) cycle
-         k = merge(2, 1, IS_REDUCED(fem%mesh%state(e)))
-         associate (rule => rules(fem%mesh%shape(e), k))
-            call fetch_geometry(fem, e, rule, geometry)
-            call add_element(fem, e, rule, geometry, f, blocked)
-         end associate
-      end do
-   end subroutine go_through
+   end subroutine make_rules
+
+   !> An element; nothing where it does not expand.
+   pure subroutine add_expansion(fem, e, rules, geometry, f, blocked)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: e
+      type(point_rule_t), intent(in) :: rules(MOST_NODES, 2)
+      type(point_geometry_t), intent(inout) :: geometry
+      real(wp), intent(inout) :: f(:, :), blocked
+
+      if (.not. abs(fem%sections(fem%section_of(e))%expansion) > 0.0_wp) return
+      associate (rule => rules(fem%mesh%shape(e), merge(2, 1, IS_REDUCED(fem%mesh%state(e)))))
+         call fetch_geometry(fem, e, rule, geometry)
+         call add_element(fem, e, rule, geometry, f, blocked)
+      end associate
+   end subroutine add_expansion
 
    pure subroutine add_element(fem, e, rule, geometry, f, blocked)
       type(fem_t), intent(in) :: fem
@@ -82,27 +117,47 @@ contains
       type(point_rule_t), intent(in) :: rule
       type(point_geometry_t), intent(in) :: geometry
       real(wp), intent(inout) :: f(:, :), blocked
-      real(wp) :: strain(MOST_POINTS), push(MOST_POINTS), fe(2, MOST_NODES)
+      real(wp) :: strain(MOST_POINTS), volume, push(MOST_POINTS, COMPONENTS + 1), b(COMPONENTS + 1), fe(2, MOST_NODES)
       integer(ip) :: i, k, n
 
       n = geometry%shape
       call point_thermal_strains(fem, e, rule, geometry, strain)
       fe(:, :n) = 0.0_wp
       associate (section => fem%sections(geometry%section), state => geometry%state)
+         b = thermal_stresses(section, state)
          do i = 1, rule%n
-            push(i) = volume_at(geometry, rule, i, section%thickness)*thermal_modulus(section, state)*strain(i)
+            volume = volume_at(geometry, rule, i, section%thickness)
+            push(i, :) = volume*b*strain(i)
             do k = 2, n
-               fe(:, k) = fe(:, k) + push(i)*point_rows(geometry, i, k)
+               fe(:, k) = fe(:, k) + push(i, 1:2)*point_rows(geometry, i, k)
             end do
+            if (geometry%is_orthotropic) call add_shear(n, geometry%gradient(i, :, :n), push(i, 3), fe)
          end do
          fe(:, 1) = -sum(fe(:, 2:n), dim=2)        ! the gradients add up to 0
-         if (geometry%has_hoop) call add_hoop(rule, geometry, push, fe)
-         blocked = blocked + 0.5_wp*free_axes(state)*sum(push(:rule%n)*strain(:rule%n))
+         if (geometry%has_hoop) call add_hoop(rule, geometry, push(:, COMPONENTS + 1), fe)
+         if (geometry%is_orthotropic) then
+            blocked = blocked + 0.5_wp*dot_product(push(:rule%n, 1) + push(:rule%n, 2) + push(:rule%n, 4), strain(:rule%n))
+         else
+            blocked = blocked + 0.5_wp*free_axes(state)*sum(push(:rule%n, 1)*strain(:rule%n))
+         end if
       end associate
       do k = 1, n
          f(:, fem%mesh%nodes(k, e)) = f(:, fem%mesh%nodes(k, e)) + fe(:, k)
       end do
    end subroutine add_element
+
+   !> What a shear stress does at a point.
+   pure subroutine add_shear(n, gradient, push, fe)
+      integer(ip), intent(in) :: n
+      real(wp), intent(in) :: gradient(2, n)       !< of the shape functions [1/L]; of the first nothing
+      real(wp), intent(in) :: push                 !< [F L]
+      real(wp), intent(inout) :: fe(2, MOST_NODES)
+      integer(ip) :: k
+
+      do k = 2, n
+         fe(:, k) = fe(:, k) + push*[gradient(2, k), gradient(1, k)]
+      end do
+   end subroutine add_shear
 
    !> The volume of a point [L^3]: all of it where the strains are means.
    pure real(wp) function volume_at(geometry, rule, i, thickness) result(volume)
@@ -116,7 +171,7 @@ contains
          call find_means(geometry, mean, volume)
          volume = volume*thickness
       else
-         volume = rule%weight(i)*geometry%jacobian(i)*depth_at(geometry%state, thickness, geometry%radius + geometry%place(i, 1))
+         volume = rule%weight(i)*geometry%jacobian(i)*point_depth(geometry, rule, i, thickness, geometry%radius)
       end if
    end function volume_at
 

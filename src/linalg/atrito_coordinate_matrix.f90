@@ -23,7 +23,7 @@ contains
       type(coordinate_matrix_t), intent(out) :: matrix
       integer(ip), intent(in) :: n
       integer(lp), intent(in) :: expected
-      integer, intent(out) :: no_memory          !< 0: there is room
+      integer, intent(out) :: no_memory          !< where there is room: 0
 
       matrix%n = n
       call take_room(matrix, expected, no_memory)
@@ -34,7 +34,7 @@ contains
    pure subroutine take_room(matrix, length, no_memory)
       type(coordinate_matrix_t), intent(inout) :: matrix
       integer(lp), intent(in) :: length
-      integer, intent(out) :: no_memory          !< 0: there is room
+      integer, intent(out) :: no_memory          !< where there is room: 0
       integer(ip), allocatable :: row(:), column(:)
       real(wp), allocatable :: values(:)
 

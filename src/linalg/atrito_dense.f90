@@ -14,7 +14,7 @@ module atrito_dense
    public :: solve_cholesky, estimate_condition, solve_lu, eigen_symmetric
    public :: orthonormalise, multiply, multiply_vector, null_space, least_squares
 
-   integer(ip), parameter :: NOT_FINITE = -99             !< info: none of LAPACK's
+   integer(ip), parameter :: NOT_FINITE = -99             !< an info that is none of LAPACK's
 
    !> b <- A^-1 b with the lower triangle of A = L L' (dpotrf); b of rank 1 or 2.
    interface solve_cholesky

@@ -4,7 +4,7 @@ module atrito_mesh
    use atrito_growth, only: resize
    use atrito_kinds, only: ip, wp
    use atrito_id_map, only: id_map_t, add_id, add_sequence, find_id
-   use atrito_plane_state, only: STATES
+   use atrito_plane_state, only: STATES, IS_TAPERED
    use atrito_threads, only: is_shared
    use atrito_triangle_pieces, only: triangles_of_square
    implicit none (type, external)
@@ -12,7 +12,7 @@ module atrito_mesh
    public :: mesh_t, reserve_mesh, add_node, add_nodes, add_element, add_block, find_node, find_element, trim_mesh
    public :: face_nodes, face_end
    public :: opposite_face_count, has_side, nodes_of_square, is_hollow, elements_of_square
-   public :: side_count, middle_node, element_coordinates, signed_area, is_revolved
+   public :: side_count, middle_node, element_coordinates, signed_area, is_revolved, depth_places
 
    type :: mesh_t
       integer(ip) :: n_nodes = 0, n_elements = 0
@@ -21,11 +21,29 @@ module atrito_mesh
       integer(ip), allocatable :: element_id(:)     !< the user's numbers
       integer(ip), allocatable :: shape(:)          !< place in SHAPES: how many nodes they have
       integer(ip), allocatable :: state(:)          !< place in STATES
+      real(wp), allocatable :: thickness(:)         !< of the nodes (n_nodes) [L]; allocated where elements are tapered
       integer(ip), allocatable :: nodes(:, :)       !< (MOST_NODES, n_elements): corners counter-clockwise, mid-sides, centre
       type(id_map_t) :: node_map, element_map
    end type mesh_t
 
 contains
+
+   !> What the depth of an element goes by at some of its nodes, for depth_at: x1, or their thickness where it is tapered [L].
+   pure function depth_places(mesh, state, nodes) result(places)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: state              !< of the element, place in STATES
+      integer(ip), intent(in) :: nodes(:)
+      real(wp) :: places(size(nodes))
+      integer(ip) :: k
+
+      if (IS_TAPERED(state)) then
+         places = mesh%thickness(nodes)
+         return
+      end if
+      do k = 1, size(nodes, kind=ip)
+         places(k) = mesh%x(1, nodes(k))
+      end do
+   end function depth_places
 
    !> Makes room for nodes and elements that are going to be added: once, not by doubling.
    pure subroutine reserve_mesh(mesh, new_nodes, new_elements)

@@ -78,7 +78,7 @@ contains
 
    !> Reports what no axisymmetric scene can have.
    subroutine check_axis(model, context)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(inout) :: model
       type(build_context_t), intent(in) :: context
       integer(ip) :: first
 
@@ -95,7 +95,7 @@ contains
          end if
       end associate
       call check_radii(model, context)
-      call check_thickness(model, context)
+      call drop_thickness(model, context)
    end subroutine check_axis
 
    !> The first element that is axisymmetric or not; 0: there is none.
@@ -131,18 +131,23 @@ contains
                         expected='x >= 0 [L]: x is the radius, y the axis', keyword='NODE')
    end subroutine check_radii
 
-   !> Loads and forces are those of the full circle; a thickness would be ignored.
-   subroutine check_thickness(model, context)
-      type(model_t), intent(in) :: model
+   !> Loads and forces are those of the full circle; a thickness, which preprocessors write, says nothing.
+   subroutine drop_thickness(model, context)
+      type(model_t), intent(inout) :: model
       type(build_context_t), intent(in) :: context
+      character(len=:), allocatable :: amount
       integer(ip) :: i
 
       do i = 1, size(model%sections, kind=ip)
-         if (abs(model%sections(i)%thickness - 1) <= 0.0_wp) cycle
-         call report_error(context%deck, context%sections(i), 'E-VALUE', 'the thickness '// &
-                           to_text(model%sections(i)%thickness)//' of axisymmetric elements', &
-                           expected='none, or 1: they reach round the full circle', keyword='SOLID SECTION')
+         if (abs(model%sections(i)%thickness - 1) <= 0.0_wp .and. .not. model%sections(i)%is_tapered) cycle
+         amount = to_text(model%sections(i)%thickness)
+         if (model%sections(i)%is_tapered) amount = 'of the nodes'
+         call report_note(context%deck, context%sections(i), 'N-THICKNESS', 'the thickness '//amount// &
+                          ' of axisymmetric elements has no effect: they reach round '// &
+                          'the full circle', keyword='SOLID SECTION')
+         model%sections(i)%thickness = 1.0_wp
+         model%sections(i)%is_tapered = .false.
       end do
-   end subroutine check_thickness
+   end subroutine drop_thickness
 
 end module atrito_axis

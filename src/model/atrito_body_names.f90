@@ -36,7 +36,28 @@ contains
             end if
          end associate
       end do
+      if (allocated(model%instances)) call name_after_instances(model, bodies)
    end subroutine name_bodies
+
+   !> An instance that is one body gives it its name alone, without that of the set in its part.
+   pure subroutine name_after_instances(model, bodies)
+      type(model_t), intent(in) :: model
+      type(bodies_t), intent(inout) :: bodies
+      character(len=:), allocatable :: name
+      integer(ip) :: i, k, n, last
+
+      do i = 1, size(model%instances, kind=ip)
+         n = 0
+         last = 0
+         name = model%instances(i)%name
+         do k = 1, bodies%n
+            if (index(bodies%list(k)%name, name//'.') /= 1) cycle
+            n = n + 1
+            last = k
+         end do
+         if (n == 1) bodies%list(last)%name = name
+      end do
+   end subroutine name_after_instances
 
    !> The first set that holds all elements of a body and no others; 0: there is none.
    pure function sets_of_bodies(model, bodies) result(set)

@@ -47,14 +47,15 @@ contains
       type(amplitude_t), intent(inout) :: amplitude
       logical, intent(out) :: ok
       integer(ip) :: k, n
-      logical :: good
+      logical :: good, is_table                        ! lines of a definition that is refused mean other things
 
       ok = card%ok
       n = 0
       amplitude%is_total_time = option_word(deck, card, 'TIME') == 'TOTAL TIME'
       amplitude%is_smooth = option_word(deck, card, 'DEFINITION') == 'SMOOTH STEP'
+      is_table = amplitude%is_smooth .or. option_word(deck, card, 'DEFINITION') == 'TABULAR'
       do k = card%first_line, card%first_line + card%n_lines - 1
-         good = deck%lines(k)%ok
+         good = deck%lines(k)%ok .and. is_table
          if (good) call read_pairs(deck, deck%lines(k), n, amplitude, good)
          ok = ok .and. good
       end do

@@ -4,110 +4,74 @@
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_build_context
-   use atrito_block_map, only: block_map_t
-   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name
+   use atrito_build_parts, only: open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES, &
+                                 LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
+   use atrito_curves, only: curve_list_t, line_list_t
+   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name, scope_shift, &
+                          scope_text, model_number
    use atrito_diagnostics, only: report_error
-   use atrito_faces, only: node_elements_t
+   use atrito_faces, only: face_list_t, node_elements_t
    use atrito_growth, only: make_room
    use atrito_id_map, only: id_map_t, add_id
    use atrito_items, only: option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_messages, only: count_messages, SEVERITY_ERROR
-   use atrito_model, only: model_t, nodal_values_t
+   use atrito_model, only: model_t
+   use atrito_motion, only: motion_t
    use atrito_name_list, only: name_list_t, add_name, find_name, has_name
    use atrito_numbers, only: read_integer, NUMBER_OK
    use atrito_refinement, only: refinement_t
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
-   public :: build_context_t, open_step_t, references_t, carried_t, numbered_t, block_t, BLOCK_SIDES
-   public :: prepare_context, add_context_block, invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, &
-             has_errors
+   public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
+   public :: build_context_t, open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t
+   public :: BLOCK_SIDES
+   public :: prepare_context, add_context_block, note_undetermined_mesh
+   public :: invalidate_block, invalidate_name, spoil_number, is_invalid, is_undetermined, &
+             has_errors, has_lost_elements
    public :: place_token, place_text, note_number, note_place, note_places, keep_token, define_name, count_cards, ids_text
-
-   !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
-   character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
-
-   !> A *BLOCK between the pass that makes its nodes and the one that makes its elements.
-   type :: block_t
-      character(len=:), allocatable :: name
-      integer(ip) :: card = 0                          !< place in deck%cards
-      integer(ip) :: state = 0                         !< place in STATES
-      integer(ip) :: shape = 0                         !< place in SHAPES
-      integer(ip) :: order = 1                         !< node intervals along an edge of an element
-      integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places; 0: none
-      integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
-      integer(ip) :: n_elements = 0
-      integer(ip) :: body = 0                          !< the same for blocks that MERGE joins
-      character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
-      logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
-      type(block_map_t) :: map                         !< of its unit square
-      real(wp), allocatable :: along(:), across(:)     !< places of its nodes in the unit square, (0:order*nx), (0:order*ny)
-   end type block_t
-
-   !> What is known of the nodes or the elements by their numbers.
-   type :: numbered_t
-      type(id_map_t) :: invalid                        !< numbers whose definition is faulty
-      integer(ip) :: greatest = 0                      !< number
-      integer(ip), allocatable :: place(:)             !< of each, by its place in the mesh; > 0: token; < 0: card
-   end type numbered_t
-
-   !> Loads that a step has from the one before, in lists by the dof or the element on which they act.
-   type :: carried_t
-      integer(ip) :: n = 0                             !< the first of the step's loads
-      integer(ip), allocatable :: head(:)              !< of each dof or element the last of these; 0: none
-      integer(ip), allocatable :: next(:)              !< (n)
-      integer(ip), allocatable :: label(:)             !< (n) of loads on elements: place in the labels of the deck
-      logical, allocatable :: is_given(:)              !< (n) a line of the step has taken its place
-   end type carried_t
-
-   !> What is prescribed and applied at the reference nodes of rigid surfaces.
-   type :: references_t
-      type(nodal_values_t) :: prescribed, loads
-      integer(ip), allocatable :: token(:)             !< first of the line that prescribes each
-      integer(ip) :: n_fixed = 0                       !< prescribed in every step
-      type(carried_t) :: old_loads
-   end type references_t
-
-   !> The step that is being built.
-   type :: open_step_t
-      integer(ip) :: number = 1
-      integer(ip) :: first_token = 0                   !< of its lines: what stands before it has been carried on
-      integer(ip) :: line = 0                          !< of the deck, that is being read
-      integer(ip) :: label = 0                         !< of its load, place in the labels of the deck
-      integer(ip) :: amplitude = 0                     !< that the card being read names
-      integer(ip) :: n_fixed = 0                       !< of the supports those that hold in every step
-      type(nodal_values_t) :: supports, forces         !< along the dofs of the deck, which may be local axes
-      type(nodal_values_t) :: inclined                 !< supports of the first step along directions that are no axis
-      type(carried_t) :: old_forces, old_loads
-      type(references_t) :: references
-   end type open_step_t
 
    type :: build_context_t
       type(deck_t), pointer :: deck => null()
       type(model_t), pointer :: model => null()        !< so far
+      type(motion_t), allocatable :: motions(:)        !< (0:instances), as deck%scopes
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
       type(name_list_t) :: invalid                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names, amplitude_names !< in the order of the model's lists
+      type(name_list_t) :: orientation_names           !< in the order of orientation_axis
+      type(name_list_t) :: source_names                !< keywords and names: in the order of the model's sources
       type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
       type(numbered_t) :: nodes, elements
       integer(ip) :: n_blocks = 0
       type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none
       integer(ip) :: elements_to_come = 0              !< of blocks whose elements are not made yet
+      type(line_list_t) :: lines
+      type(curve_list_t) :: curves                     !< lines that carry names
+      type(curve_list_t) :: node_surfaces              !< of *SURFACE, TYPE=NODE
+      integer(ip), allocatable :: mesh_shift(:)        !< of the node numbers of each mesh of the deck; < 0: it is refused
       integer(ip), allocatable :: set_card(:)          !< for each node set the card that made it
       type(open_step_t) :: open
       logical, allocatable :: card_done(:)             !< *NSET and *ELSET cards that are read already
       type(node_elements_t) :: around                  !< elements round each node
+      type(section_cut_t), allocatable :: cuts(:)
+      type(token_t), allocatable :: cut_lines(:)       !< of each of the model's cuts its first item
+      type(face_list_t) :: cut_faces                   !< of both sides of all cuts
       type(refinement_t) :: refinement                 !< how the mesh came from that of the deck, if it is another one
+      real(wp), allocatable :: node_thickness(:)       !< *NODAL THICKNESS, 0 where there is none [L]; unallocated: no card
+      logical :: thickness_undetermined = .false.      !< one of these was not understood
       type(id_map_t) :: deck_elements                  !< refined: places of the deck's elements in its own mesh
       type(token_t), allocatable :: ties(:)            !< of each the slave
       type(token_t), allocatable :: surfaces(:), materials(:), poisson(:), sections(:), interactions(:), slaves(:), masters(:)
-      type(token_t), allocatable :: amplitudes(:)
+      type(token_t), allocatable :: amplitudes(:), orientations(:)
+      real(wp), allocatable :: orientation_axis(:, :)  !< (2, orientations) first axis of the material; 0: the card is faulty
       logical, allocatable :: elastic_given(:), elastic_invalid(:)  !< for each material
+      logical :: membranes_told = .false.                    !< the note of M3D elements
       logical :: sections_undetermined = .false.             !< a *SOLID SECTION could not be understood
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
+      integer(ip), allocatable :: loose_held(:, :)     !< (2, n_nodes) LOOSE_*: supports of nodes of no element
       integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in open%supports; 0: free
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
       integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it
@@ -127,13 +91,18 @@ contains
       allocate (context%blocks(64), context%set_card(0))
       allocate (context%nodes%place(64), context%elements%place(64))
       allocate (context%surfaces(0), context%materials(0), context%poisson(0), context%sections(0), context%interactions(0))
-      allocate (context%slaves(0), context%masters(0), context%amplitudes(0))
+      allocate (context%slaves(0), context%masters(0), context%amplitudes(0), context%orientations(0))
+      allocate (context%mesh_shift(size(deck%meshes)), source=-1_ip)
       allocate (context%card_done(deck%n_cards), source=.false.)
       allocate (context%block_of_card(deck%n_cards), source=0_ip)
       if (.not. has_errors()) return
+      if (allocated(deck%scopes)) then
+         if (size(deck%scopes) == 1) call note_undetermined_mesh(context)
+      end if
       do i = 1, deck%n_cards
          call note_nameless(deck%cards(i), context)
          if (deck%cards(i)%ok .and. len(keyword_name(deck%cards(i))) > 0) cycle
+         if (any(keyword_name(deck%cards(i)) == ['ELEMENT', 'ELSET  '])) context%sections_undetermined = .true.
          call invalidate_options(deck%cards(i), context)
          if (len(keyword_name(deck%cards(i))) == 0) call invalidate_numbers(deck%cards(i), context)
       end do
@@ -174,14 +143,36 @@ contains
       case ('ELSET')
          if (is_nameless(context%deck, card, 'ELSET')) call note_undetermined(context, 'element set')
       case ('BLOCK')
-         if (.not. is_nameless(context%deck, card, 'ELSET')) return
-         call note_undetermined(context, 'node set')
-         call note_undetermined(context, 'earlier node set')
-         call note_undetermined(context, 'element set')
-         call note_undetermined(context, 'earlier element set')
-         call note_undetermined(context, 'surface')
+         if (is_nameless(context%deck, card, 'ELSET')) call note_undetermined_mesh(context)
+      case ('INCLUDE')
+         if (.not. card%ok) call note_undetermined_file(context)
       end select
    end subroutine note_nameless
+
+   !> Nodes, elements, sets and surfaces of a mesh; a deck in parts without an instance has none.
+   subroutine note_undetermined_mesh(context)
+      type(build_context_t), intent(inout) :: context
+
+      call note_undetermined(context, 'node set')
+      call note_undetermined(context, 'earlier node set')
+      call note_undetermined(context, 'element set')
+      call note_undetermined(context, 'earlier element set')
+      call note_undetermined(context, 'surface')
+      call note_undetermined(context, 'node')
+      call note_undetermined(context, 'element')
+   end subroutine note_undetermined_mesh
+
+   !> A file that could not be read may have defined anything.
+   subroutine note_undetermined_file(context)
+      type(build_context_t), intent(inout) :: context
+
+      call note_undetermined_mesh(context)
+      call note_undetermined(context, 'material')
+      call note_undetermined(context, 'amplitude')
+      call note_undetermined(context, 'surface interaction')
+      context%sections_undetermined = .true.
+      context%pairs_undetermined = .true.
+   end subroutine note_undetermined_file
 
    !> The option that names a thing is not there or cannot be read; misspelt options are left to invalidate_options.
    logical function is_nameless(deck, card, option)
@@ -282,23 +273,29 @@ contains
       text = token_text(deck, deck%tokens(line%first_token))
       text = text(verify(text//' ', '-'):)             ! -6 and 6.0 are meant to be 6
       call read_integer(text(:scan(text//'.', '.') - 1), id, outcome)
-      if (outcome == NUMBER_OK .and. id > 0) call add_id(numbered%invalid, id, 1_ip, known)
+      if (outcome /= NUMBER_OK) return
+      id = model_number(deck, deck%tokens(line%first_token), id)
+      if (id > 0) call add_id(numbered%invalid, id, 1_ip, known)
    end subroutine spoil_number
 
-   !> True when a name, or that of the block whose side or copy it is, is to be passed over in silence.
-   logical function is_invalid(context, name)
+   !> True when a name, or that of the block whose side or copy it is, is to be passed over in silence; of a name of an instance,
+   !> when the instance is.
+   recursive logical function is_invalid(context, name) result(invalid)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: name
       integer :: i, k
 
-      is_invalid = .false.
+      invalid = .false.
       if (.not. has_errors()) return
-      is_invalid = is_invalid_block(context, name)
+      invalid = is_invalid_block(context, name)
       do i = 1, size(BLOCK_SIDES)
          k = len(name) - len_trim(BLOCK_SIDES(i))
-         if (is_invalid .or. k < 0) cycle
-         if (same_name(name(k + 1:), BLOCK_SIDES(i))) is_invalid = is_invalid_block(context, name(:k))
+         if (invalid .or. k < 0) cycle
+         if (same_name(name(k + 1:), BLOCK_SIDES(i))) invalid = is_invalid_block(context, name(:k))
       end do
+      k = index(name, '.')
+      if (invalid .or. k == 0 .or. .not. allocated(context%deck%scopes)) return
+      invalid = is_invalid_block(context, name(:k - 1)) .or. is_invalid(context, name(k + 1:))
    end function is_invalid
 
    !> The name itself, or without the -2-3 of a copy.
@@ -326,6 +323,13 @@ contains
       is_undetermined = .false.
       if (has_errors()) is_undetermined = has_name(context%undetermined, noun)
    end function is_undetermined
+
+   !> Elements are missing, which has been told: what belongs to none may belong to one of them.
+   logical function has_lost_elements(context)
+      type(build_context_t), intent(in) :: context
+
+      has_lost_elements = has_errors() .and. (context%elements%invalid%n > 0 .or. is_undetermined(context, 'element'))
+   end function has_lost_elements
 
    logical function has_errors()
       has_errors = count_messages(SEVERITY_ERROR) > 0
@@ -367,7 +371,8 @@ contains
 
       if (known) then
          token = place_token(deck, place)
-         call report_error(deck, token, 'E-TWICE', noun//' '//to_text(id)//' is given twice, first in '// &
+         call report_error(deck, token, 'E-TWICE', noun//' '//to_text(id - scope_shift(deck, token))//scope_text(deck, token)// &
+                           ' is given twice, first in '// &
                            place_text(deck, place_token(deck, numbered%place(i)), token), &
                            expected=trim(merge('an', 'a ', noun == 'element'))//' '//noun//' number that is free', keyword=keyword)
       else

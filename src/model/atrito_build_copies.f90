@@ -3,28 +3,19 @@ module atrito_build_copies
    use atrito_build_elements, only: copy_element_once
    use atrito_build_nodes, only: place_node, put_node_set
    use atrito_build_sets, only: try_set_card
-   use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, option_t, line_item, is_empty_token, keyword_name
+   use atrito_deck, only: deck_t, card_t, token_t, option_t, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, invalidate_block
-   use atrito_items, only: get_real, find_option, option_integer, option_text
+   use atrito_items, only: find_option, option_integer, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_model_memory, only: fits_memory
+   use atrito_motion, only: motion_t, read_shift, read_rotation, moved
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set, grow_set
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: read_ncopy_card, read_elcopy_card
-
-   !> A translation, then a rotation about a point of the plane.
-   type :: motion_t
-      real(wp) :: shift(2) = 0.0_wp                  !< [L]
-      real(wp) :: centre(2) = 0.0_wp                 !< [L]
-      real(wp) :: angle = 0.0_wp                     !< [degrees], counter-clockwise
-   end type motion_t
-
-   real(wp), parameter :: HALF_TURN = 180.0_wp
 
 contains
 
@@ -79,24 +70,6 @@ contains
                            to_text(id), expected='positive node numbers that are not too large', keyword='NCOPY')
       end if
    end subroutine copy_node
-
-   pure function moved(motion, x) result(y)
-      type(motion_t), intent(in) :: motion
-      real(wp), intent(in) :: x(2)                   !< [L]
-      real(wp) :: y(2), d(2), c, s
-
-      y = x + motion%shift
-      if (.not. abs(motion%angle) > 0.0_wp) return
-      ! quarter turns are exact
-      c = cos(motion%angle*(acos(-1.0_wp)/HALF_TURN))
-      s = sin(motion%angle*(acos(-1.0_wp)/HALF_TURN))
-      if (.not. abs(modulo(motion%angle, HALF_TURN/2)) > 0.0_wp) then
-         c = anint(c)
-         s = anint(s)
-      end if
-      d = y - motion%centre
-      y = motion%centre + [c*d(1) - s*d(2), s*d(1) + c*d(2)]
-   end function moved
 
    !> An integer option that must be there.
    subroutine read_number(deck, card, name, number, ok)
@@ -172,63 +145,12 @@ contains
          ok = ok .and. deck%lines(k)%ok
       end do
       if (.not. ok) return
-      call read_shift(deck, deck%lines(card%first_line), motion, ok)
+      call read_shift(deck, deck%lines(card%first_line), 'NCOPY', motion, ok)
       if (card%n_lines > 1) then
-         call read_rotation(deck, deck%lines(card%first_line + 1), motion, good)
+         call read_rotation(deck, deck%lines(card%first_line + 1), 'NCOPY', real(times, wp), motion, good)
          ok = ok .and. good
       end if
-      motion%angle = motion%angle*real(times, wp)
    end subroutine read_motion
-
-   subroutine read_shift(deck, line, motion, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(motion_t), intent(inout) :: motion
-      logical, intent(out) :: ok
-      real(wp) :: z
-      logical :: good(3)
-
-      call get_coordinate(deck, line_item(deck, line, 1_ip), 'translation along x, a real [L]', motion%shift(1), good(1), 'NCOPY')
-      call get_coordinate(deck, line_item(deck, line, 2_ip), 'translation along y, a real [L]', motion%shift(2), good(2), 'NCOPY')
-      z = 0.0_wp
-      good(3) = .true.
-      if (.not. is_empty_token(line_item(deck, line, 3_ip))) then
-         call get_coordinate(deck, line_item(deck, line, 3_ip), 'translation along z, 0 [L]', z, good(3), 'NCOPY')
-      end if
-      ok = all(good)
-      if (.not. ok .or. .not. abs(z) > 0.0_wp) return
-      ok = .false.
-      call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', 'the scene is plane: the translation along z is not 0', &
-                        expected='0 [L], or no third item', keyword='NCOPY')
-   end subroutine read_shift
-
-   !> The axis stands upright on the plane; the angle is positive round its direction.
-   subroutine read_rotation(deck, line, motion, ok)
-      type(deck_t), intent(in) :: deck
-      type(data_line_t), intent(in) :: line
-      type(motion_t), intent(inout) :: motion
-      logical, intent(out) :: ok
-      real(wp) :: axis(6), angle
-      integer(ip) :: k
-      logical :: good
-
-      ok = .true.
-      do k = 1, 6
-         call get_coordinate(deck, line_item(deck, line, k), 'coordinate of the axis, a real [L]', axis(k), good, 'NCOPY')
-         ok = ok .and. good
-      end do
-      call get_real(deck, line_item(deck, line, 7_ip), 'angle, a real [degrees]', angle, good, keyword='NCOPY')
-      ok = ok .and. good
-      if (.not. ok) return
-      ok = .not. any(abs(axis(4:5) - axis(1:2)) > 0.0_wp) .and. abs(axis(6) - axis(3)) > 0.0_wp
-      if (.not. ok) then
-         call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'the axis does not stand upright on the plane', &
-                           expected='xa, ya, za, xb, yb, zb with xb = xa, yb = ya, zb other than za [L]', keyword='NCOPY')
-         return
-      end if
-      motion%centre = axis(1:2)
-      motion%angle = sign(1.0_wp, axis(6) - axis(3))*angle
-   end subroutine read_rotation
 
    !> *ELCOPY: the elements of a set on other nodes, which are there already.
    subroutine read_elcopy_card(i_card, context)

@@ -1,9 +1,9 @@
 !> *ELEMENT and *ELGEN: the elements of the mesh, in the order of the deck, after all nodes.
 module atrito_build_elements
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item
-   use atrito_diagnostics, only: report_error
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, spoil_number, note_number, has_errors, is_undetermined
-   use atrito_element_table, only: KINDS, kind_named
+   use atrito_element_table, only: KINDS, kind_named, is_membrane
    use atrito_id_map, only: find_id
    use atrito_items, only: get_integer, option_text, option_word
    use atrito_kinds, only: ip, lp, wp
@@ -51,6 +51,7 @@ contains
       first = context%model%mesh%n_elements + 1
       associate (card => context%deck%cards(i_card))
          call read_element_type(context%deck, card, n_nodes, state, ok)
+         if (ok) call note_membrane(card, context)
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (ok .and. context%deck%lines(i)%ok) then
                call read_element_line(context%deck%lines(i), n_nodes, state, context)
@@ -61,6 +62,19 @@ contains
          call put_named_set(context%deck, card, context%model, [(i, i=first, context%model%mesh%n_elements)])
       end associate
    end subroutine read_element_card
+
+   !> Membranes are taken as plane stress, which is told once.
+   subroutine note_membrane(card, context)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: name
+
+      name = option_word(context%deck, card, 'TYPE')
+      if (.not. is_membrane(name) .or. context%membranes_told) return
+      context%membranes_told = .true.
+      call report_note(context%deck, card%place, 'N-MEMBRANE', 'membranes are taken as plane stress: '//name//' as CPS'//name(4:), &
+                       keyword='ELEMENT')
+   end subroutine note_membrane
 
    subroutine read_element_line(line, n_nodes, state, context)
       type(data_line_t), intent(in) :: line

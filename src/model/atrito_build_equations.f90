@@ -1,7 +1,7 @@
 !> Bilateral rows of *EQUATION.
 module atrito_build_equations
    use atrito_bilateral_rows, only: add_row, ROW_EQUATION
-   use atrito_build_context, only: build_context_t, ids_text
+   use atrito_build_context, only: has_lost_elements, build_context_t, ids_text
    use atrito_build_loads, only: in_no_element
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error
@@ -177,9 +177,10 @@ contains
       logical, intent(out) :: ok
 
       ok = .not. any(in_no_element(context, nodes))
-      if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'node '//ids_text(pack(context%model%mesh%node_id(nodes), &
+      if (ok .or. has_lost_elements(context)) return
+      call report_error(context%deck, place, 'E-NODE', 'node '//ids_text(pack(context%model%mesh%node_id(nodes), &
                                           in_no_element(context, nodes)))//' belongs to no element', expected='nodes of elements', &
-                                      keyword=KEYWORD)
+                        keyword=KEYWORD)
    end subroutine check_nodes
 
    !> On a refined mesh the nodes of sets are put into the order of those of the first.
@@ -241,7 +242,8 @@ contains
       is_empty = .true.
       do i = 1, size(nodes, kind=ip)
          total = [(sum(vectors(axis, :), mask=nodes == nodes(i)), axis=1, 2)]
-         is_empty = is_empty .and. all(total == 0.0_wp)
+         is_empty = all(total == 0.0_wp)
+         if (.not. is_empty) return                      ! a long equation is rarely empty
       end do
    end function is_empty
 

@@ -1,9 +1,9 @@
 !> *CLOAD, *DLOAD and *DSLOAD.
 module atrito_build_loads
-   use atrito_deck, only: data_line_t, token_t, token_text, line_item, keyword_name
+   use atrito_deck, only: is_empty_token, data_line_t, token_t, token_text, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_amplitudes, only: take_amplitude
-   use atrito_build_context, only: build_context_t, carried_t, ids_text, is_invalid
+   use atrito_build_context, only: build_context_t, carried_t, ids_text, is_invalid, has_errors, has_lost_elements
    use atrito_build_rigid_bodies, only: is_reference, ROTATION_DOF
    use atrito_carry_on, only: is_of_step, removes_all, carry_values, carry_loads, list_carried, take_force_place, &
                               take_load_place, remove_load
@@ -11,17 +11,20 @@ module atrito_build_loads
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
    use atrito_local_axes, only: dof_direction, has_local_axes
-   use atrito_load_lists, only: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, trim_nodal_values, &
-                                trim_element_loads, amplitude_of, from_of
-   use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_BODY, LOAD_TRACTION, SURFACE_ELEMENTS
+   use atrito_load_lists, only: add_nodal_value, add_element_load, replace_nodal_value, replace_element_load, replace_source, &
+                                trim_nodal_values, trim_element_loads, amplitude_of, from_of, source_of
+   use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_BODY, LOAD_LINEAR, LOAD_TRACTION, SURFACE_ELEMENTS
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
+   use atrito_plane_state, only: STATES
    use atrito_read_face_load, only: read_face_load, read_direction, has_no_rest, magnitude_of
+   use atrito_read_spin, only: read_spin
    use atrito_references, only: find_nodes, find_elements, check_faces, report_unknown
    use atrito_refined_members, only: is_on_side
    use atrito_refinement, only: is_refined
    use atrito_rigid_motions, only: carry_reference_loads, load_reference, is_prescribed
+   use atrito_sources, only: open_source
    use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
@@ -33,8 +36,10 @@ module atrito_build_loads
 
    !> Of *DSLOAD, and then of *DLOAD: a line of a later step takes the place of a load of the same label.
    integer(ip), parameter :: N_SURFACE_LABELS = 3
-   character(len=6), parameter :: LABELS(18) = [character(len=6) :: 'P', 'TRVEC', 'HP', 'BX', 'BY', 'GRAV', 'P1', 'P2', 'P3', &
-                                                           'P4', 'HP1', 'HP2', 'HP3', 'HP4', 'TRVEC1', 'TRVEC2', 'TRVEC3', 'TRVEC4']
+   character(len=7), parameter :: VOLUME_LABELS(4) = [character(len=7) :: 'BX', 'BY', 'GRAV', 'CENTRIF']
+   character(len=7), parameter :: LABELS(19) = [character(len=7) :: 'P', 'TRVEC', 'HP', 'BX', 'BY', 'GRAV', 'CENTRIF', 'P1', 'P2', &
+                                                             'P3', 'P4', 'HP1', 'HP2', 'HP3', 'HP4', 'TRVEC1', 'TRVEC2', 'TRVEC3', &
+                                                                                                                 'TRVEC4']
 
 contains
 
@@ -51,6 +56,9 @@ contains
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
                context%open%line = k
+               if (any(keyword_name(card) == LOAD_KEYWORDS)) then
+                  call open_source(context, keyword_name(card), context%deck%tokens(context%deck%lines(k)%first_token))
+               end if
                if (context%open%old_loads%n > 0) context%open%label = label_place(context, k)
                select case (keyword_name(card))
                case ('CLOAD')
@@ -156,10 +164,14 @@ contains
          place = 0
          if (open%old_loads%n > 0) call take_load_place(element, face, open%label, open%amplitude, open%old_loads, &
                                                         loads, place)
+         if (place > 0) then                           ! a CENTRIF is two loads: the other one is added
+            if (loads%kind(place) /= kind) place = 0
+         end if
          if (place > 0) then
             call replace_element_load(loads, place, value, open%amplitude)
+            loads%source(place) = open%source          ! all loads have one
          else
-            call add_element_load(loads, element, kind, face, value, open%amplitude)
+            call add_element_load(loads, element, kind, face, value, open%amplitude, open%source)
             place = loads%n
          end if
          loads%line(place) = open%line
@@ -208,6 +220,7 @@ contains
       call load_references(line, dof, force, context, nodes)
       if (turns) return
       if (any(in_no_element(context, nodes)) .and. abs(force) > 0.0_wp) then
+         if (has_lost_elements(context)) return
          call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-NODE', 'node '// &
                            ids_text(pack(context%model%mesh%node_id(nodes), in_no_element(context, nodes)))// &
                            ' belongs to no element and cannot carry a force', expected='nodes of elements', keyword='CLOAD')
@@ -252,8 +265,9 @@ contains
          if (open%old_forces%n > 0) call take_force_place(2*node + dof - 2, open%amplitude, open%old_forces, open%forces, place)
          if (place > 0) then
             call replace_nodal_value(open%forces, place, force, open%amplitude)
+            call replace_source(open%forces, place, open%source)
          else
-            call add_nodal_value(open%forces, node, dof, force, amplitude=open%amplitude)
+            call add_nodal_value(open%forces, node, dof, force, amplitude=open%amplitude, source=open%source)
          end if
       end associate
    end subroutine add_force
@@ -276,7 +290,7 @@ contains
             do axis = 1, 2
                if (along(axis) == 0.0_wp .or. (forces%value(i) == 0.0_wp .and. from == 0.0_wp)) cycle
                call add_nodal_value(loads, forces%node(i), axis, forces%value(i)*along(axis), from*along(axis), &
-                                    amplitude_of(forces, i))
+                                    amplitude_of(forces, i), source_of(forces, i))
             end do
          end do
       end associate
@@ -303,13 +317,18 @@ contains
       type(build_context_t), intent(inout) :: context
       character(len=:), allocatable :: label
       integer(ip), allocatable :: elements(:)
-      integer(ip) :: kind
+      integer(ip) :: kind, i
       real(wp) :: magnitude, value(3)
       logical :: ok, good
 
-      call find_elements(context, context%deck%tokens(line%first_token), elements, ok, 'DLOAD')
       label = upper_case(token_text(context%deck, line_item(context%deck, line, 2_ip)))
-      if (label(1:1) /= 'B' .and. label /= 'GRAV') then
+      if (is_empty_token(context%deck%tokens(line%first_token)) .and. any(label == VOLUME_LABELS)) then
+         elements = [(i, i=1, context%model%mesh%n_elements)]
+         ok = .true.
+      else
+         call find_elements(context, context%deck%tokens(line%first_token), elements, ok, 'DLOAD')
+      end if
+      if (.not. any(label == VOLUME_LABELS)) then
          call read_face_load(line, context, label, 'DLOAD', kind, value, good)
          if (ok .and. good) call load_faces(line, context, elements, label, kind, value)
          return
@@ -323,6 +342,8 @@ contains
          if (ok) call pull_elements(context, elements, [0.0_wp, magnitude])
       case ('GRAV')
          call weigh_elements(line, context, elements, magnitude, ok)
+      case ('CENTRIF')
+         call spin_elements(line, context, elements, magnitude, ok)
       end select
    end subroutine read_dload_line
 
@@ -386,6 +407,30 @@ contains
       end do
    end subroutine weigh_elements
 
+   !> Of CENTRIF: density times the square of the angular velocity times the way from the axis, S (x - x0), as a linear and a
+   !> constant force per volume.
+   subroutine spin_elements(line, context, elements, square, good)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: elements(:)
+      real(wp), intent(in) :: square                   !< of the angular velocity [1/T^2]
+      logical, intent(in) :: good                      !< elements and square are known
+      real(wp) :: way(3), there(2), force
+      integer(ip) :: i
+      logical :: ok, is_ring
+
+      is_ring = .false.
+      if (size(elements) > 0) is_ring = STATES(context%model%mesh%state(elements(1)))%has_hoop
+      call read_spin(line, context, square, is_ring, way, there, ok)
+      if (.not. (ok .and. good)) return
+      call need_density(line, context, elements)
+      do i = 1, size(elements, kind=ip)
+         force = density_of(context%model, elements(i))*square
+         call add_load(context, elements(i), LOAD_LINEAR, 0_ip, force*way)
+         if (any(abs(there) > 0.0_wp)) call add_load(context, elements(i), LOAD_BODY, 0_ip, force*there)
+      end do
+   end subroutine spin_elements
+
    pure real(wp) function density_of(model, element) result(density)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: element
@@ -435,7 +480,8 @@ contains
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
                               ' is a drawn line, which carries no pressure', expected='a surface of TYPE=ELEMENT', &
                               keyword='DSLOAD')
-         else if (surface%faces%n == 0 .and. .not. is_invalid(context, surface%name)) then
+         else if (surface%faces%n == 0) then
+            if (is_invalid(context, surface%name) .or. has_errors()) return   ! elements are missing, and that was told
             call report_error(context%deck, token, 'E-SURFACE', 'surface '//surface%name// &
                               ' has no faces: others join it everywhere', expected='a surface on the outline of a body', &
                               keyword='DSLOAD')

@@ -1,13 +1,17 @@
 !> *MATERIAL with *ELASTIC, *DENSITY and *EXPANSION, and *SOLID SECTION.
 module atrito_build_materials
-   use atrito_deck, only: deck_t, card_t, token_t, line_item, keyword_name
-   use atrito_diagnostics, only: report_error
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name, is_empty_token
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, place_text, keep_token, define_name, count_cards, ids_text, has_errors
-   use atrito_items, only: get_real, option_text, option_word
+   use atrito_build_orientations, only: build_orientations
+   use atrito_build_thickness, only: taper_elements
+   use atrito_items, only: get_real, has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: material_t, section_t, FORMULATION_BBAR
+   use atrito_motion, only: turned
    use atrito_name_list, only: find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_read_elastic, only: read_elastic_card, check_constant
    use atrito_references, only: report_unknown
    use atrito_sets, only: find_set
    use atrito_strings, only: to_text
@@ -45,12 +49,13 @@ contains
             if (current > 0) call read_expansion_card(context%deck, context%deck%cards(i), context%model%materials(current))
          case ('')
             ! a misspelt *ELASTIC: the material is not blamed for missing it
-            if (is_open .and. has_errors()) context%elastic_invalid(current) = .true.
+            if (is_open .and. has_errors() .and. .not. context%deck%cards(i)%is_ignored) context%elastic_invalid(current) = .true.
          case default
             is_open = .false.
          end select
       end do
       context%model%materials = context%model%materials(:context%material_names%n)
+      call build_orientations(context)
       n_sections = 0
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SOLID SECTION') then
@@ -58,6 +63,7 @@ contains
          end if
       end do
       context%model%sections = context%model%sections(:n_sections)
+      call taper_elements(context)
    end subroutine build_materials
 
    subroutine read_material_card(card, context, current)
@@ -73,43 +79,6 @@ contains
       call keep_token(context%poisson, current, context%materials(current))
    end subroutine read_material_card
 
-   subroutine read_elastic_card(card, material, context, i)
-      type(card_t), intent(in) :: card
-      type(material_t), intent(inout) :: material
-      type(build_context_t), intent(inout) :: context
-      integer(ip), intent(in) :: i                     !< place of the material
-      character(len=*), parameter :: WHAT_E = "Young's modulus E, a real > 0 [F/L^2]"
-      character(len=*), parameter :: WHAT_MU = "Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]"
-      logical :: ok(2)
-
-      if (context%elastic_given(i)) then
-         if (card%ok) call report_error(context%deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
-                                        expected='one *ELASTIC a material', keyword='ELASTIC')
-         return
-      end if
-      context%elastic_given(i) = .true.
-      context%elastic_invalid(i) = .true.
-      if (card%n_lines == 0) return
-      associate (line => context%deck%lines(card%first_line))
-         if (.not. line%ok) return
-         call get_real(context%deck, line_item(context%deck, line, 1_ip), WHAT_E, material%young, ok(1), keyword='ELASTIC')
-         call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT_MU, material%poisson, ok(2), keyword='ELASTIC')
-         if (ok(1) .and. material%young <= 0.0_wp) then
-            ok(1) = .false.
-            call report_error(context%deck, line_item(context%deck, line, 1_ip), 'E-VALUE', 'E = '//to_text(material%young)// &
-                              ' is not positive', expected=WHAT_E, keyword='ELASTIC')
-         end if
-         if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
-            ok(2) = .false.
-            call report_error(context%deck, line_item(context%deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson, &
-                                                                                                             15)// &
-                              ' is out of range', expected=WHAT_MU, keyword='ELASTIC')
-         end if
-         context%poisson(i) = line_item(context%deck, line, 2_ip)
-      end associate
-      context%elastic_invalid(i) = .not. all(ok)
-   end subroutine read_elastic_card
-
    subroutine read_density_card(deck, card, material)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
@@ -124,7 +93,27 @@ contains
          if (ok .and. material%density < 0.0_wp) call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', &
                                         'the density '//to_text(material%density)//' is negative', expected=WHAT, keyword='DENSITY')
       end associate
+      if (ok) call check_decimal_comma(deck, deck%lines(card%first_line), ok)
+      if (ok) call check_constant(deck, card, [material%density], 'densities', ok)
    end subroutine read_density_card
+
+   !> `2,5` is a decimal comma, `7850, 20` and `7.85e-9,20` have a temperature.
+   subroutine check_decimal_comma(deck, line, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      logical, intent(inout) :: ok
+      type(token_t) :: density, temperature
+      character(len=*), parameter :: DIGITS = '0123456789'
+
+      if (line%n_tokens < 2) return
+      density = line_item(deck, line, 1_ip)
+      temperature = line_item(deck, line, 2_ip)
+      if (temperature%first /= density%last + 2 .or. is_empty_token(temperature)) return
+      if (verify(token_text(deck, density)//token_text(deck, temperature), DIGITS) > 0) return
+      ok = .false.
+      call report_error(deck, temperature, 'E-ITEMS', '2 items, where 1 belongs', &
+                        expected='mass per volume [F T^2/L^4]; a temperature behind it as 20.', keyword='DENSITY')
+   end subroutine check_decimal_comma
 
    subroutine read_expansion_card(deck, card, material)
       type(deck_t), intent(in) :: deck
@@ -138,8 +127,10 @@ contains
       material%has_expansion = .true.
       if (card%n_lines == 0) return
       associate (line => deck%lines(card%first_line))
-         if (line%ok) call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%expansion, ok, keyword='EXPANSION')
+         if (.not. line%ok) return
+         call get_real(deck, line_item(deck, line, 1_ip), WHAT, material%expansion, ok, keyword='EXPANSION')
       end associate
+      if (ok) call check_constant(deck, card, [material%expansion], 'coefficients of expansion', ok)
    end subroutine read_expansion_card
 
    !> *SOLID SECTION.
@@ -160,6 +151,7 @@ contains
       ok = i_set > 0 .and. card%ok
       if (option_word(context%deck, card, 'FORMULATION') == 'BBAR') section%formulation = FORMULATION_BBAR
       call read_thickness(context%deck, card, section%thickness, ok)
+      call take_nodal_thickness(context%deck, card, section)
       if (i_set == 0) context%sections_undetermined = .true.
 
       call option_text(context%deck, card, 'MATERIAL', material, named, place)
@@ -167,6 +159,7 @@ contains
       if (named .and. section%material == 0) call report_unknown(context, place, 'material', 'E-MATERIAL', context%material_names, &
                                                                  'SOLID SECTION')
       ok = ok .and. section%material > 0
+      call take_orientation(card, context, section, ok)
       number = SECTION_INVALID
       if (ok) then
          n_sections = n_sections + 1
@@ -176,6 +169,52 @@ contains
       end if
       if (i_set > 0) call assign_section(card, context, context%model%element_sets%sets(i_set)%members, number)
    end subroutine read_section_card
+
+   !> The axes of the material, where it has any.
+   subroutine take_orientation(card, context, section, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(inout) :: context
+      type(section_t), intent(inout) :: section
+      logical, intent(inout) :: ok                     !< the section has been understood so far
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      integer(ip) :: i
+      logical :: named
+
+      if (has_option(context%deck, card, 'ORIENTATION')) then
+         call option_text(context%deck, card, 'ORIENTATION', name, named, place)
+         if (.not. named) return
+         i = find_name(context%orientation_names, name)
+         if (i == 0) call report_unknown(context, place, 'orientation', 'E-ORIENTATION', context%orientation_names, 'SOLID SECTION')
+         if (i > 0) section%axis = context%orientation_axis(:, i)
+         ok = ok .and. i > 0 .and. any(abs(section%axis) > 0.0_wp)
+         if (ok) call note_orientation(context, place, name, context%model%materials(section%material)%is_orthotropic)
+      end if
+      if (.not. ok) return
+      if (.not. context%model%materials(section%material)%is_orthotropic) return
+      ! the axes of a part turn with its instance, also those that no *ORIENTATION gives
+      if (card%scope > 0) section%axis = turned(context%motions(card%scope), section%axis)
+      if (section%formulation /= FORMULATION_BBAR) return
+      ok = .false.
+      call report_error(context%deck, card%place, 'E-FORMULATION', 'FORMULATION=BBAR is for isotropic materials', &
+                        expected='FORMULATION=STANDARD for an orthotropic material', keyword='SOLID SECTION')
+   end subroutine take_orientation
+
+   !> Other programs print stresses along the axes of the material.
+   subroutine note_orientation(context, place, name, turns)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      character(len=*), intent(in) :: name
+      logical, intent(in) :: turns                     !< the material is not isotropic
+
+      if (turns) then
+         call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name// &
+                          ' turns the material; stresses are along x and y', keyword='ORIENTATION')
+      else
+         call report_note(context%deck, place, 'N-ORIENTATION', 'the orientation '//name// &
+                          ' turns nothing that is isotropic, and stresses are along x and y', keyword='ORIENTATION')
+      end if
+   end subroutine note_orientation
 
    subroutine read_thickness(deck, card, thickness, ok)
       type(deck_t), intent(in) :: deck
@@ -197,6 +236,21 @@ contains
          ok = ok .and. good
       end associate
    end subroutine read_thickness
+
+   !> Where the nodes have the thickness, a line with another has no effect.
+   subroutine take_nodal_thickness(deck, card, section)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(section_t), intent(inout) :: section
+
+      section%is_tapered = has_option(deck, card, 'NODAL THICKNESS')
+      if (.not. section%is_tapered) return
+      if (abs(section%thickness - 1) > 0.0_wp) then
+         call report_note(deck, card%place, 'N-THICKNESS', 'the thickness '//to_text(section%thickness) &
+                          //' of the section has no effect: that of the nodes counts', keyword='SOLID SECTION')
+      end if
+      section%thickness = 1.0_wp
+   end subroutine take_nodal_thickness
 
    !> Gives elements their section; those that have one already are an error, told in one message.
    subroutine assign_section(card, context, elements, number)

@@ -7,9 +7,16 @@ module atrito_build_model
    use atrito_build_block, only: read_block_card, place_block_elements
    use atrito_build_contact, only: build_contact
    use atrito_build_copies, only: read_ncopy_card, read_elcopy_card
+   use atrito_build_curves, only: read_curves
    use atrito_build_elements, only: read_element_card, read_elgen_card
+   use atrito_build_cuts, only: place_cuts
    use atrito_build_equations, only: build_equations
    use atrito_build_loads, only: build_loads
+   use atrito_build_pretension, only: build_pretension, add_pretension_rows
+   use atrito_build_gmsh, only: read_mesh_nodes
+   use atrito_build_gmsh_elements, only: read_mesh_elements
+   use atrito_build_lines, only: is_line_card, read_lines, turn_elements
+   use atrito_build_instances, only: build_instances
    use atrito_build_materials, only: build_materials
    use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
    use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
@@ -19,6 +26,7 @@ module atrito_build_model
    use atrito_build_sets, only: try_set_card, read_set_card
    use atrito_build_supports, only: build_supports
    use atrito_build_temperatures, only: read_temperatures, check_temperatures
+   use atrito_build_thickness, only: read_node_thickness
    use atrito_build_ties, only: read_ties, check_ties, build_ties
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
@@ -42,6 +50,7 @@ module atrito_build_model
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_rigid_motions, only: keep_reference_lists
+   use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports
    implicit none (type, external)
@@ -80,6 +89,7 @@ contains
       if (present(shape)) kind = shape
       own = 0
       if (present(state)) own = state
+      if (deck%is_outside) return                      ! an error, and the others would follow from it
       mark = mark_messages()
       call build_once(deck, 0_ip, 0_ip, 0_ip, limit, model)
       if (has_errors()) return
@@ -113,15 +123,19 @@ contains
       call take_parameters(deck, model)
       call build_steps(context)
       call build_amplitudes(context)
+      call build_instances(context)
       call build_nodes(context)
       call build_elements(context)
       call trim_mesh(model%mesh)
       context%around = list_node_elements(model%mesh)
+      call read_curves(context)
       call read_temperatures(context)
+      call read_node_thickness(context)
       if (levels > 0 .or. shape > 0) call refine_model(levels, shape, context)
       if (state > 0) model%mesh%state = state
       call build_surfaces(context)
       call build_rigid_bodies(context)
+      call build_pretension(context)
       call build_materials(context)
       call check_temperatures(context)
       call build_contact(context)
@@ -133,6 +147,7 @@ contains
       call fill_steps(context)
       call build_equations(context)
       call build_springs(context)
+      call add_pretension_rows(context)
       call check_mesh(model, context)
       call check_axis(model, context)
       call order_slaves(model, chains)
@@ -153,6 +168,7 @@ contains
       call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)
       call set_interferences(interferences, context)
+      call place_cuts(context)
       call make_solver_mesh(model)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
@@ -172,6 +188,7 @@ contains
          call keep_reference_lists(context)
          call build_requests(context)
       end do
+      call keep_sources(context)
    end subroutine fill_steps
 
    subroutine take_titles(deck, model)
@@ -226,10 +243,13 @@ contains
             call read_ncopy_card(i, context)
          case ('BLOCK')
             call read_block_card(i, context)
+         case ('INCLUDE')
+            call read_mesh_nodes(i, context)
          case ('NSET')
             call try_set_card(i, context)
          end select
       end do
+      call read_lines(context)
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) /= 'NSET' .or. context%card_done(i)) cycle
          call read_set_card(i, context)
@@ -244,15 +264,19 @@ contains
       do i = 1, context%deck%n_cards
          select case (keyword_name(context%deck%cards(i)))
          case ('ELEMENT')
-            if (.not. is_spring_card(context, context%deck%cards(i))) call read_element_card(i, context)
+            if (is_spring_card(context, context%deck%cards(i)) .or. is_line_card(context, context%deck%cards(i))) cycle
+            call read_element_card(i, context)
          case ('ELGEN')
             call read_elgen_card(i, context)
          case ('ELCOPY')
             call read_elcopy_card(i, context)
+         case ('INCLUDE')
+            call read_mesh_elements(i, context)
          case ('BLOCK')
             call place_block_elements(i, context)
          end select
       end do
+      call turn_elements(context)
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) /= 'ELSET' .or. context%card_done(i)) cycle
          call read_set_card(i, context)

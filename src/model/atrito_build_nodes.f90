@@ -8,6 +8,7 @@ module atrito_build_nodes
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
    use atrito_model_memory, only: fits_memory
+   use atrito_motion, only: moved
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_sets, only: grow_set, set_count
    use atrito_strings, only: to_text
@@ -45,8 +46,8 @@ contains
       ok = line%ok
       if (line%ok) then
          call get_id(context%deck, context%deck%tokens(line%first_token), 'node number', id, ok(1), 'NODE')
-         call get_coordinate(context%deck, line_item(context%deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE')
-         call get_coordinate(context%deck, line_item(context%deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE')
+         call get_coordinate(context%deck, line_item(context%deck, line, 2_ip), 'x, a real [L]', x(1), ok(2), 'NODE', 0.0_wp)
+         call get_coordinate(context%deck, line_item(context%deck, line, 3_ip), 'y, a real [L]', x(2), ok(3), 'NODE', 0.0_wp)
          if (line%n_tokens > 3) then
             call get_real(context%deck, line_item(context%deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, &
                           'NODE')
@@ -58,6 +59,9 @@ contains
          end if
       end if
       if (all(ok)) then
+         associate (scope => context%deck%tokens(line%first_token)%scope)
+            if (scope > 0) x = moved(context%motions(scope), x)
+         end associate
          call place_node(context, id, x, line%first_token, ok(1), 'NODE')
       else
          call spoil_number(context%deck, line, context%nodes)

@@ -3,6 +3,7 @@ module atrito_build_requests
    use atrito_deck, only: deck_t, card_t, token_t, token_text, option_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
+   use atrito_build_cuts, only: read_cut_card
    use atrito_carry_on, only: is_of_step
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
@@ -15,6 +16,7 @@ module atrito_build_requests
    public :: build_requests, refuse_field_files
 
    real(wp), parameter :: LARGEST_TOLERANCE = 0.1_wp
+   character(len=*), parameter :: AT_NODES = 'AVERAGED AT NODES'
    character(len=*), parameter :: WHAT_TOLERANCE = 'tolerance of the outer iteration, 0 < r <= 0.1 [-]'
    character(len=*), parameter :: WHAT_MAXIT = 'most outer iterations, an integer >= 1'
    character(len=*), parameter :: WHAT_RELAXATION = 'part of each change that is taken, 0 < r <= 1 [-]'
@@ -24,7 +26,7 @@ contains
    !> Controls and requests of a step: those of the step before, and what its own cards change. Cards of a keyword take the place
    !> of what the same keyword asked for in the steps before.
    subroutine build_requests(context)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       integer(ip) :: i
 
       associate (steps => context%model%steps, k => context%open%number)
@@ -41,10 +43,11 @@ contains
    end subroutine build_requests
 
    subroutine read_card(context, card, step)
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       type(card_t), intent(in) :: card
       type(step_t), intent(inout) :: step
 
+      if (asks_for_nothing(context%deck, card)) return
       associate (requests => step%requests, every => step%requests%every)
          select case (keyword_name(card))
          case ('CONTROLS')
@@ -54,8 +57,13 @@ contains
             if (asks_for(context%deck, card, 'U')) call read_frequency(context%deck, card, every%nodes)
             if (asks_for(context%deck, card, 'RF')) call read_frequency(context%deck, card, every%reactions)
          case ('EL PRINT')
-            call read_request_card(card, context, requests%requested_t)
-            call read_frequency(context%deck, card, every%stress)
+            if (option_word(context%deck, card, 'POSITION') == AT_NODES) then
+               call read_nodal_stress(card, context, requests)
+               call read_frequency(context%deck, card, every%nodal_stress)
+            else
+               call read_request_card(card, context, requests%requested_t)
+               call read_frequency(context%deck, card, every%stress)
+            end if
          case ('CONTACT PRINT')
             requests%contact = .true.
             call read_frequency(context%deck, card, every%contact)
@@ -65,6 +73,9 @@ contains
          case ('JOINT PRINT')
             requests%joints = .true.
             call read_frequency(context%deck, card, every%joints)
+         case ('SECTION PRINT')
+            call read_cut_card(context, card, requests)
+            call read_frequency(context%deck, card, every%sections)
          case ('NODE FILE', 'EL FILE')
             call read_request_card(card, context, requests%fields)
             call read_frequency(context%deck, card, every%fields)
@@ -75,13 +86,23 @@ contains
       end associate
    end subroutine read_card
 
+   !> FREQUENCY=0: what earlier steps asked for is not printed any more.
+   logical function asks_for_nothing(deck, card)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(option_t) :: option
+
+      call find_option(deck, card, 'FREQUENCY', option, asks_for_nothing)
+      if (asks_for_nothing) asks_for_nothing = verify(token_text(deck, option%value), '0') == 0
+   end function asks_for_nothing
+
    !> FREQUENCY= of a table or of the field file, one in a step.
    subroutine read_frequency(deck, card, every)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       integer(ip), intent(inout) :: every              !< 0: no card of the step has given it
-      character(len=*), parameter :: WHAT = 'increments from one print to the next, an integer >= 1; the end of the step is '// &
-                                     'printed always'
+      character(len=*), parameter :: WHAT = 'increments from one print to the next, an integer >= 1; 0: nothing is printed; '// &
+                                     'else the end of the step is printed always'
       type(option_t) :: option
       integer(ip) :: n
       logical :: found
@@ -121,6 +142,9 @@ contains
          case ('EL PRINT')
             call forget_stress(requests%requested_t)
             requests%every%stress = 0
+            requests%nodal_stress = .false.
+            if (allocated(requests%node_s)) deallocate (requests%node_s)
+            requests%every%nodal_stress = 0
          case ('EL FILE')
             call forget_stress(requests%fields)
             requests%every%fields = 0
@@ -132,6 +156,9 @@ contains
             requests%every%bodies = 0
          case ('JOINT PRINT')
             requests%every%joints = 0
+         case ('SECTION PRINT')
+            if (allocated(requests%cuts)) deallocate (requests%cuts)
+            requests%every%sections = 0
          end select
       end do
    end subroutine forget_replaced
@@ -234,15 +261,34 @@ contains
       associate (model => context%model)
          if (index(keyword_name(card), 'NODE') == 1) then
             call choose_members(card, 'NSET', 'node set', model%node_sets, model%mesh%n_nodes, context, chosen, ok)
+            if (ok .and. asks_for(context%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
+            if (ok .and. asks_for(context%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
          else
             call choose_members(card, 'ELSET', 'element set', model%element_sets, model%mesh%n_elements, context, chosen, ok)
+            if (ok .and. asks_for(context%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
          end if
       end associate
-      if (.not. ok) return
-      if (asks_for(context%deck, card, 'U')) call ask_for(chosen, requested%nodes, requested%node_u)
-      if (asks_for(context%deck, card, 'RF')) call ask_for(chosen, requested%reactions, requested%node_rf)
-      if (asks_for(context%deck, card, 'S')) call ask_for(chosen, requested%stress, requested%element_s)
    end subroutine read_request_card
+
+   !> *EL PRINT, POSITION=AVERAGED AT NODES: the nodes of the elements.
+   subroutine read_nodal_stress(card, context, requests)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      type(requests_t), intent(inout) :: requests
+      logical, allocatable :: elements(:), nodes(:)
+      integer(ip) :: e
+      logical :: ok
+
+      associate (mesh => context%model%mesh)
+         call choose_members(card, 'ELSET', 'element set', context%model%element_sets, mesh%n_elements, context, elements, ok)
+         if (.not. ok .or. .not. asks_for(context%deck, card, 'S')) return
+         allocate (nodes(mesh%n_nodes), source=.false.)
+         do e = 1, mesh%n_elements
+            if (elements(e)) nodes(mesh%nodes(:mesh%shape(e), e)) = .true.
+         end do
+         call ask_for(nodes, requests%nodal_stress, requests%node_s)
+      end associate
+   end subroutine read_nodal_stress
 
    !> Adds members to those asked for before.
    pure subroutine ask_for(chosen, wanted, mask)

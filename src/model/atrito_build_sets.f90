@@ -1,7 +1,9 @@
 !> *NSET and *ELSET: lists of numbers and earlier sets, or ranges of numbers (GENERATE).
 module atrito_build_sets
+   use atrito_build_lines, only: is_line_item
    use atrito_build_nodes, only: put_node_set
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name, &
+                          scope_shift, scope_text, model_number
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_id_map, only: id_map_t, find_id
@@ -65,7 +67,7 @@ contains
             if (is_id_token(deck, deck%tokens(t))) then
                call read_integer(token_text(deck, deck%tokens(t)), id, outcome)
                known = outcome == NUMBER_OK
-               if (known) known = find_id(map, id) > 0
+               if (known) known = find_id(map, model_number(deck, deck%tokens(t), id)) > 0
             else
                known = find_set(sets, token_text(deck, deck%tokens(t))) > 0
             end if
@@ -91,6 +93,9 @@ contains
          end do
          known = known .and. range(3) > 0
          if (.not. known) return
+         do k = 1, 2
+            range(k) = model_number(deck, deck%tokens(deck%lines(i)%first_token), range(k))
+         end do
          do k = range(1), range(2), range(3)
             known = find_id(map, k) > 0
             if (.not. known) return
@@ -103,6 +108,7 @@ contains
       integer(ip), intent(in) :: i_card                !< place in the deck's cards
       type(build_context_t), intent(inout) :: context
       type(number_list_t) :: members
+      type(id_map_t) :: none
       character(len=:), allocatable :: name, keyword
       integer(ip) :: i
       logical :: found
@@ -116,19 +122,17 @@ contains
             if (.not. has_option(context%deck, card, 'GENERATE')) then
                call read_items(context%deck%lines(i), i_card, context, members)
             else if (keyword == 'NSET') then
-               call read_range(context%deck, context%deck%lines(i), context%model%mesh%node_map, context%nodes%invalid, 'node', &
-                               keyword, &
-                               members)
+               call read_range(context%deck, context%deck%lines(i), context%model%mesh%node_map, context%nodes%invalid, none, &
+                               'node', members)
             else
                call read_range(context%deck, context%deck%lines(i), context%model%mesh%element_map, context%elements%invalid, &
-                               'element', &
-                               keyword, members)
+                               context%lines%ids, 'element', members)
             end if
          end do
       end associate
       if (keyword == 'NSET') then
          call put_node_set(context, i_card, name, numbers_of(members))
-      else
+      else if (members%n > 0 .or. find_set(context%lines%sets, name) == 0) then
          call grow_set(context%model%element_sets, name, numbers_of(members))
       end if
    end subroutine read_set_card
@@ -136,7 +140,7 @@ contains
    subroutine read_items(line, i_card, context, members)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: i_card
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       type(number_list_t), intent(inout) :: members
       type(token_t) :: token
       integer(ip), allocatable :: found(:)
@@ -148,8 +152,11 @@ contains
          if (keyword_name(context%deck%cards(i_card)) == 'NSET') then
             call find_nodes(context, token, found, ok, 'NSET')
             if (ok) ok = is_earlier(token, i_card, context)
+         else if (is_line_item(context, token)) then
+            cycle                                      ! read_lines has it
          else
             call find_elements(context, token, found, ok, 'ELSET')
+            if (.not. ok) context%sections_undetermined = .true.
          end if
          if (ok) call add_numbers(members, found)
       end do
@@ -174,23 +181,27 @@ contains
    end function is_earlier
 
    !> A line of GENERATE: first number, last number, increment.
-   subroutine read_range(deck, line, map, invalid, noun, keyword, members)
+   subroutine read_range(deck, line, map, invalid, others, noun, members)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       type(id_map_t), intent(in) :: map, invalid       !< known numbers, and those that an error invalid
+      type(id_map_t), intent(in) :: others             !< numbers that are passed over
       character(len=*), intent(in) :: noun             !< 'node' or 'element'
-      character(len=*), intent(in) :: keyword
       type(number_list_t), intent(inout) :: members
+      character(len=:), allocatable :: keyword
       type(number_list_t) :: missing
+      type(token_t) :: token
       integer(ip) :: first, last, step, k
       logical :: ok(3)
 
-      call get_id(deck, line_item(deck, line, 1_ip), 'first '//noun//' number', first, ok(1), keyword)
+      keyword = trim(merge('NSET ', 'ELSET', noun == 'node'))
+      token = line_item(deck, line, 1_ip)
+      call get_id(deck, token, 'first '//noun//' number', first, ok(1), keyword)
       call get_id(deck, line_item(deck, line, 2_ip), 'last '//noun//' number', last, ok(2), keyword)
       call get_integer(deck, line_item(deck, line, 3_ip), 'increment, a positive integer', step, ok(3), 1_ip, keyword)
       if (.not. all(ok)) return
       if (.not. is_range(deck, line, first, last, step, keyword)) return
-      if ((last - first)/step >= map%n + invalid%n) then
+      if ((last - first)/step >= map%n + invalid%n + others%n) then
          call report_error(deck, line_item(deck, line, 1_ip), 'E-'//trim(merge('NODE   ', 'ELEMENT', noun == 'node')), &
                            'there are only '//to_text(map%n)//' '//noun//'s', expected='numbers that all exist', keyword=keyword)
          return
@@ -198,13 +209,16 @@ contains
       do k = first, last, step
          if (find_id(map, k) > 0) then
             call add_number(members, find_id(map, k))
+         else if (find_id(others, k) > 0) then
+            cycle                                      ! a line, which read_lines has
          else if (find_id(invalid, k) == 0 .or. .not. has_errors()) then
             call add_number(missing, k)
          end if
       end do
       if (missing%n == 0) return
       call report_error(deck, line_item(deck, line, 1_ip), 'E-'//trim(merge('NODE   ', 'ELEMENT', noun == 'node')), &
-                        'no such '//noun//' in this range: '//ids_text(numbers_of(missing)), &
+                        'no such '//noun//' in this range: '//ids_text(numbers_of(missing) - scope_shift(deck, token))// &
+                        scope_text(deck, token), &
                         expected='numbers that all exist', keyword=keyword)
    end subroutine read_range
 
@@ -213,12 +227,15 @@ contains
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: first, last, step
       character(len=*), intent(in) :: keyword
+      integer(ip) :: shift
 
+      shift = scope_shift(deck, line_item(deck, line, 1_ip))
       is_range = step > 0 .and. last >= first
       if (is_range) is_range = modulo(last - first, step) == 0
-      if (.not. is_range) call report_error(deck, line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), 'E-VALUE', &
-                                          'steps of '//to_text(step)//' do not lead from '//to_text(first)//' to '//to_text(last), &
-                                      expected='first <= last, and an increment > 0 that divides their difference', keyword=keyword)
+      if (is_range) return
+      call report_error(deck, line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), 'E-VALUE', 'steps of '// &
+                        to_text(step)//' do not lead from '//to_text(first - shift)//' to '//to_text(last - shift), &
+                        expected='first <= last, and an increment > 0 that divides their difference', keyword=keyword)
    end function is_range
 
 end module atrito_build_sets

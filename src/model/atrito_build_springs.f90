@@ -1,15 +1,15 @@
-!> *ELEMENT, TYPE=SPRING1 and SPRING2, and *SPRING: bilateral rows with a compliance.
+!> *ELEMENT, TYPE=SPRING1, SPRING2 and SPRINGA, and *SPRING: bilateral rows with a compliance.
 module atrito_build_springs
    use atrito_bilateral_rows, only: add_row, ROW_SPRING
-   use atrito_build_context, only: build_context_t
+   use atrito_build_context, only: has_lost_elements, build_context_t, has_errors, LOOSE_HELD
    use atrito_turn_supports, only: row_weight
    use atrito_build_loads, only: in_no_element
-   use atrito_deck, only: card_t, data_line_t, token_t, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_items, only: get_integer, get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
-   use atrito_local_axes, only: dof_direction
+   use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_mesh, only: find_element
    use atrito_model, only: spring_t
    use atrito_name_list, only: name_list_t, add_name, find_name, names_of
@@ -27,6 +27,7 @@ module atrito_build_springs
       integer(ip) :: n = 0                             !< springs so far
       integer(ip), allocatable :: set(:)               !< of each spring
       logical, allocatable :: given(:)                 !< (sets) *SPRING has come
+      logical, allocatable :: is_axial(:)              !< of each spring: SPRINGA
       type(token_t), allocatable :: place(:)           !< of each spring
    end type reading_t
 
@@ -53,6 +54,7 @@ contains
       end do
       allocate (context%model%springs(n), reading%place(n))
       allocate (reading%set(n), source=0_ip)
+      allocate (reading%is_axial(n), source=.false.)
       do i = 1, context%deck%n_cards
          if (.not. is_spring_card(context, context%deck%cards(i))) cycle
          call read_elements(context%deck%cards(i), context, reading)
@@ -63,6 +65,10 @@ contains
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SPRING') call read_spring_card(context%deck%cards(i), context, reading)
       end do
+      ! a misspelt *SPRING: its springs are not blamed for missing it
+      associate (cards => context%deck%cards)
+         if (any(cards%name == '' .and. .not. cards%is_ignored) .and. has_errors()) return
+      end associate
       do k = 1, reading%sets%n
          if (reading%given(k)) cycle
          i = findloc(reading%set, k, dim=1, kind=ip)
@@ -77,7 +83,7 @@ contains
       type(build_context_t), intent(inout) :: context
       type(reading_t), intent(inout) :: reading
       character(len=:), allocatable :: name
-      integer(ip) :: i, set, n_ends
+      integer(ip) :: i, set, n_ends, before
       logical :: found
 
       call option_text(context%deck, card, 'ELSET', name, found)
@@ -92,9 +98,11 @@ contains
          set = reading%sets%n
       end if
       n_ends = merge(1_ip, 2_ip, option_word(context%deck, card, 'TYPE') == 'SPRING1')
+      before = reading%n
       do i = card%first_line, card%first_line + card%n_lines - 1
          if (context%deck%lines(i)%ok) call read_element_line(context%deck%lines(i), n_ends, set, context, reading)
       end do
+      reading%is_axial(before + 1:reading%n) = option_word(context%deck, card, 'TYPE') == 'SPRINGA'
    end subroutine read_elements
 
    subroutine read_element_line(line, n_ends, set, context, reading)
@@ -111,7 +119,7 @@ contains
       call get_id(context%deck, place, 'element number', spring%id, ok, 'SPRING')
       do i = 1, n_ends
          call find_one_node(context, line_item(context%deck, line, i + 1), spring%node(i), good, 'SPRING')
-         if (good) call check_node(context, line_item(context%deck, line, i + 1), spring%node(i), good)
+         if (good .and. n_ends == 1) call check_node(context, line_item(context%deck, line, i + 1), spring%node(i), good)
          ok = ok .and. good
       end do
       if (.not. ok) return
@@ -152,9 +160,10 @@ contains
       logical, intent(out) :: ok
 
       ok = .not. any(in_no_element(context, [node]))
-      if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node))// &
-                                      ' belongs to no element', expected='nodes of elements that are not springs', &
-                                      keyword='SPRING')
+      if (ok .or. has_lost_elements(context)) return
+      call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node))// &
+                        ' belongs to no element', expected='nodes of elements that are not springs', &
+                        keyword='SPRING')
    end subroutine check_node
 
    !> *SPRING: dofs, stiffness.
@@ -181,8 +190,19 @@ contains
       end if
       ok = .not. reading%given(set)
       reading%given(set) = .true.
-      if (ok) call read_constants(card, context, dof, stiffness, ok)
-      if (ok) call add_springs(context, pack_places(reading%set == set), dof, stiffness)
+      if (.not. ok) return
+      if (any(reading%is_axial .and. reading%set == set)) then
+         call read_axial(card, context, stiffness, ok)
+         dof = 0
+         if (any(.not. reading%is_axial .and. reading%set == set)) then
+            ok = .false.
+            call report_error(context%deck, place, 'E-SPRING', 'the springs of '//name//' are SPRINGA and others', &
+                              expected='a set for each type', keyword='SPRING')
+         end if
+      else
+         call read_constants(card, context, dof, stiffness, ok)
+      end if
+      if (ok) call add_springs(context, pack_places(reading%set == set), reading%place, dof, stiffness)
    end subroutine read_spring_card
 
    subroutine read_constants(card, context, dof, stiffness, ok)
@@ -191,12 +211,13 @@ contains
       integer(ip), intent(out) :: dof(2)
       real(wp), intent(out) :: stiffness               !< [F/L]
       logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)', WHAT = 'stiffness, a real > 0 [F/L]'
-      type(token_t) :: place
+      character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
       logical :: good(3)
       integer(ip) :: i
 
       ok = .false.
+      if (card%ok .and. card%n_lines < 2) call report_error(context%deck, card%place, 'E-LINES', '*SPRING needs 2 data lines', &
+                                                            expected='dofs, and below them the stiffness', keyword='SPRING')
       if (card%n_lines < 2 .or. .not. card%ok) return
       associate (deck => context%deck, line => context%deck%lines(card%first_line))
          if (.not. (line%ok .and. deck%lines(card%first_line + 1)%ok)) return
@@ -209,37 +230,121 @@ contains
                               expected=WHAT_DOF, keyword='SPRING')
             if (i == 1 .and. dof(2) == dof(1)) exit
          end do
-         place = line_item(deck, deck%lines(card%first_line + 1), 1_ip)
-         call get_real(deck, place, WHAT, stiffness, good(3), keyword='SPRING')
-         if (good(3) .and. .not. (stiffness > 1.0_wp/huge(1.0_wp) .and. 1.0_wp/stiffness > 0.0_wp)) then
-            good(3) = .false.
-            call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT, keyword='SPRING')
-         end if
+         call read_stiffness(deck, line_item(deck, deck%lines(card%first_line + 1), 1_ip), stiffness, good(3))
       end associate
       ok = all(good)
    end subroutine read_constants
 
-   !> Rows of the springs at some places.
-   subroutine add_springs(context, places, dof, stiffness)
+   !> Of SPRINGA the last line has the stiffness; one before it says nothing.
+   subroutine read_axial(card, context, stiffness, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      real(wp), intent(out) :: stiffness               !< [F/L]
+      logical, intent(out) :: ok
+
+      ok = card%ok .and. card%n_lines > 0
+      if (.not. ok) return
+      associate (line => context%deck%lines(card%first_line + card%n_lines - 1))
+         ok = line%ok
+         if (ok) call read_stiffness(context%deck, line_item(context%deck, line, 1_ip), stiffness, ok)
+      end associate
+   end subroutine read_axial
+
+   subroutine read_stiffness(deck, place, stiffness, ok)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      real(wp), intent(out) :: stiffness
+      logical, intent(out) :: ok
+      character(len=*), parameter :: WHAT = 'stiffness, a real > 0 [F/L]'
+
+      call get_real(deck, place, WHAT, stiffness, ok, keyword='SPRING')
+      if (.not. ok .or. (stiffness > 1.0_wp/huge(1.0_wp) .and. 1.0_wp/stiffness > 0.0_wp)) return
+      ok = .false.
+      call report_error(deck, place, 'E-VALUE', to_text(stiffness)//' is out of range', expected=WHAT, keyword='SPRING')
+   end subroutine read_stiffness
+
+   !> Rows of the springs at some places. The first end gets the direction, the second one the opposite; along SPRINGA both point
+   !> outwards, so that the force is a tension. An end that is the ground has no part in the row.
+   subroutine add_springs(context, places, tokens, dof, stiffness)
       type(build_context_t), intent(inout) :: context
       integer(ip), intent(in) :: places(:), dof(2)
+      type(token_t), intent(in) :: tokens(:)           !< of all springs
       real(wp), intent(in) :: stiffness
       integer(ip) :: i, group, n
       real(wp) :: vectors(2, 2)
+      logical :: ok
 
       group = context%model%bilateral%n_groups + 1
       do i = 1, size(places, kind=ip)
          associate (spring => context%model%springs(places(i)))
             spring%dof = dof
             spring%stiffness = stiffness
+            call find_directions(context, spring, tokens(places(i)), vectors, ok)
+            if (ok) call ground_ends(context, tokens(places(i)), spring, vectors, ok)
+            if (.not. ok) cycle
             n = count(spring%node > 0, kind=ip)
-            vectors(:, 1) = dof_direction(context, spring%node(1), dof(1))
-            if (n == 2) vectors(:, 2) = -dof_direction(context, spring%node(2), dof(2))
             call add_row(spring%node(:n), vectors(:, :n), 0.0_wp, 1/stiffness, row_weight(context%model), &
                          [ROW_SPRING, group, places(i)], context%model%bilateral)
          end associate
       end do
    end subroutine add_springs
+
+   subroutine find_directions(context, spring, place, vectors, ok)
+      type(build_context_t), intent(in) :: context
+      type(spring_t), intent(in) :: spring
+      type(token_t), intent(in) :: place
+      real(wp), intent(out) :: vectors(2, 2)
+      logical, intent(out) :: ok
+      real(wp) :: way(2)
+
+      ok = .true.
+      vectors = 0.0_wp
+      if (spring%dof(1) > 0) then
+         vectors(:, 1) = dof_direction(context, spring%node(1), spring%dof(1))
+         if (spring%node(2) > 0) vectors(:, 2) = -dof_direction(context, spring%node(2), spring%dof(2))
+         return
+      end if
+      way = context%model%mesh%x(:, spring%node(2)) - context%model%mesh%x(:, spring%node(1))
+      ok = norm2(way) > 0.0_wp
+      if (ok) vectors = reshape([-way, way], [2, 2])/norm2(way)
+      if (.not. ok) call report_error(context%deck, place, 'E-SHAPE', 'both ends of spring '//to_text(spring%id)// &
+                                      ' lie at one place', expected='two places: the force is along the line between them', &
+                                      keyword='SPRING')
+   end subroutine find_directions
+
+   !> Ends that belong to no element: held at 0 in all steps they are the ground.
+   subroutine ground_ends(context, place, spring, vectors, ok)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      type(spring_t), intent(inout) :: spring
+      real(wp), intent(inout) :: vectors(2, 2)
+      logical, intent(out) :: ok
+      logical :: is_ground(2), is_held(2)
+      integer(ip) :: i
+
+      ok = .true.
+      if (spring%node(2) == 0) return                  ! SPRING1: its node has been looked at
+      is_ground = in_no_element(context, spring%node)
+      do i = 1, 2
+         if (.not. is_ground(i)) cycle
+         is_held = context%loose_held(:, spring%node(i)) == LOOSE_HELD
+         if (all(is_held .or. (abs(vectors(:, i)) <= 0.0_wp .and. .not. has_local_axes(context, spring%node(i))))) cycle
+         call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(spring%node(i)))// &
+                           ' belongs to no element and is not held', expected='nodes of elements that are not springs, or ' &
+                           //'the ground: a node that *BOUNDARY holds at 0 in all steps', keyword='SPRING')
+         ok = .false.
+         return
+      end do
+      ok = .not. all(is_ground)
+      if (.not. ok) call report_error(context%deck, place, 'E-NODE', 'no end of spring '//to_text(spring%id)// &
+                                      ' belongs to an element', expected='a node of an element', keyword='SPRING')
+      if (.not. ok .or. .not. any(is_ground)) return
+      i = merge(2_ip, 1_ip, is_ground(1))
+      vectors(:, 1) = vectors(:, i)
+      if (i == 2 .and. spring%dof(1) > 0) vectors(:, 1) = -vectors(:, 1)
+      spring%node = [spring%node(i), 0_ip]
+      spring%dof = [spring%dof(i), 0_ip]
+   end subroutine ground_ends
 
    pure function pack_places(mask) result(places)
       logical, intent(in) :: mask(:)

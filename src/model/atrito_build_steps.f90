@@ -3,7 +3,8 @@ module atrito_build_steps
    use atrito_build_context, only: build_context_t, place_text
    use atrito_deck, only: deck_t, card_t, data_line_t, option_t, keyword_name, last_item, token_t, token_text, line_item, &
                           is_empty_token
-   use atrito_diagnostics, only: report_error
+   use atrito_diagnostics, only: report_error, report_note, report_outside, report_warning
+   use atrito_foreign_keywords, only: LINEAR_STEP
    use atrito_items, only: find_option, get_real, has_option, option_integer, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t, step_t, increments_t
@@ -14,12 +15,13 @@ module atrito_build_steps
 
    !> The least increment where the deck gives none, in parts of the period.
    real(wp), parameter :: LEAST_PART = 1.0e-5_wp
+   real(wp), parameter :: ROUND_OFF = 1.0e-6_wp    !< of a sum of increments
    character(len=*), parameter :: WHAT_INITIAL = 'first increment, a real > 0 and not longer than the step [time]'
    character(len=*), parameter :: WHAT_PERIOD = 'length of the step, a real > 0 [time]'
    character(len=*), parameter :: WHAT_LEAST = 'least increment, a real > 0 and not longer than the first [time]'
-   character(len=*), parameter :: WHAT_GREATEST = 'greatest increment, a real not less than the first [time]'
+   character(len=*), parameter :: WHAT_GREATEST = 'greatest increment, a real > 0 [time]'
    character(len=*), parameter :: WHAT_MOST = 'most increments of the step, an integer >= 1'
-   character(len=*), parameter :: WHAT_EVERY = 'increments between two restart files, an integer >= 1'
+   character(len=*), parameter :: WHAT_EVERY = 'increments between two restart files, an integer >= 1; 0: none is written'
 
 contains
 
@@ -37,6 +39,8 @@ contains
             select case (keyword_name(card))
             case ('STEP')
                call read_step_card(context%deck, card, step)
+               call read_nlgeom(context%deck, card, context%model)
+               call check_perturbation(context%deck, card, size(context%model%steps, kind=ip))
             case ('STATIC')
                call read_static_card(context%deck, i, step%increments)
             case ('RESTART')
@@ -61,6 +65,35 @@ contains
          step%title = step%title//line_text(deck, deck%lines(k))
       end do
    end subroutine read_step_card
+
+   !> Small displacements are solved whatever a step asks for; whether that mattered is known at the end. Told once: in other
+   !> programs later steps go on with large ones.
+   subroutine read_nlgeom(deck, card, model)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(model_t), intent(inout) :: model
+      type(option_t) :: option
+      logical :: found
+
+      call find_option(deck, card, 'NLGEOM', option, found)
+      if (.not. found .or. model%asks_nlgeom) return
+      model%asks_nlgeom = option_word(deck, card, 'NLGEOM') == 'YES'
+      if (model%asks_nlgeom) call report_warning(deck, option%name, 'W-NLGEOM', 'small displacements are solved, not large '// &
+                                                 'ones; at the end W-LARGE tells where that matters, or N-SMALL that it does not', &
+                                                 keyword='STEP')
+   end subroutine read_nlgeom
+
+   !> A step alone has no state that it could be a perturbation of.
+   subroutine check_perturbation(deck, card, n_steps)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(in) :: n_steps
+      type(option_t) :: option
+      logical :: found
+
+      call find_option(deck, card, 'PERTURBATION', option, found)
+      if (found .and. n_steps > 1) call report_outside(deck, option%name, 'PERTURBATION in one of several steps', LINEAR_STEP)
+   end subroutine check_perturbation
 
    subroutine refuse_option(deck, card, name, what)
       type(deck_t), intent(in) :: deck
@@ -119,26 +152,58 @@ contains
       logical :: ok(4)
 
       associate (this => increments)
-         call get_real(deck, line_item(deck, line, 2_ip), WHAT_PERIOD, this%period, ok(2), 1.0_wp, 'STATIC')
-         if (ok(2)) call check_time(deck, line, 2_ip, this%period > 0.0_wp, this%period, WHAT_PERIOD, ok(2))
-         call get_real(deck, line_item(deck, line, 1_ip), WHAT_INITIAL, this%initial, ok(1), this%period, 'STATIC')
-         if (all(ok(:2))) call check_time(deck, line, 1_ip, this%initial > 0.0_wp .and. this%initial <= this%period, &
-                                          this%initial, WHAT_INITIAL, ok(1))
+         call get_time(deck, line, 2_ip, WHAT_PERIOD, 1.0_wp, this%period, ok(2))
+         call get_time(deck, line, 1_ip, WHAT_INITIAL, this%period, this%initial, ok(1))
+         if (all(ok(:2))) call check_time(deck, line, 1_ip, this%initial <= this%period, this%initial, WHAT_INITIAL, ok(1))
          if (.not. all(ok(:2))) return
          if (is_direct) then
-            call check_direct(deck, line)
+            call note_direct(deck, line)
             this%least = this%initial
             this%greatest = this%initial
             return
          end if
-         call get_real(deck, line_item(deck, line, 3_ip), WHAT_LEAST, this%least, ok(3), min(this%initial, &
-                                                                                             LEAST_PART*this%period), 'STATIC')
-         if (ok(3)) call check_time(deck, line, 3_ip, this%least > 0.0_wp .and. this%least <= this%initial, this%least, &
-                                    WHAT_LEAST, ok(3))
-         call get_real(deck, line_item(deck, line, 4_ip), WHAT_GREATEST, this%greatest, ok(4), this%initial, 'STATIC')
-         if (ok(4)) call check_time(deck, line, 4_ip, this%greatest >= this%initial, this%greatest, WHAT_GREATEST, ok(4))
+         call get_time(deck, line, 4_ip, WHAT_GREATEST, default_greatest(this), this%greatest, ok(4))
+         if (ok(4)) call bound_first(deck, line, this)
+         call get_time(deck, line, 3_ip, WHAT_LEAST, min(this%initial, LEAST_PART*this%period), this%least, ok(3))
+         if (ok(3)) call check_time(deck, line, 3_ip, this%least <= this%initial, this%least, WHAT_LEAST, ok(3))
       end associate
    end subroutine read_times
+
+   !> The first increment; where as many as the step may have do not reach its end, they may grow, as in Abaqus and CalculiX.
+   pure real(wp) function default_greatest(increments) result(greatest)
+      type(increments_t), intent(in) :: increments
+
+      greatest = increments%period
+      if (real(increments%most, wp)*increments%initial >= (1.0_wp - ROUND_OFF)*increments%period) greatest = increments%initial
+   end function default_greatest
+
+   !> A first increment longer than the greatest is the greatest, as in CalculiX.
+   subroutine bound_first(deck, line, increments)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(increments_t), intent(inout) :: increments
+
+      if (increments%initial <= increments%greatest) return
+      call report_note(deck, line_item(deck, line, 4_ip), 'N-INCREMENT', 'the first increment, '// &
+                       to_text(increments%initial)//', is longer than the greatest, '//to_text(increments%greatest)// &
+                       ', and becomes it')
+      increments%initial = increments%greatest
+   end subroutine bound_first
+
+   !> A time; 0 is its default, as in Abaqus and CalculiX.
+   subroutine get_time(deck, line, item, what, default, time, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: item
+      character(len=*), intent(in) :: what
+      real(wp), intent(in) :: default
+      real(wp), intent(out) :: time
+      logical, intent(out) :: ok
+
+      call get_real(deck, line_item(deck, line, item), what, time, ok, default, 'STATIC')
+      if (ok) call check_time(deck, line, item, time >= 0.0_wp, time, what, ok)
+      if (ok .and. .not. time > 0.0_wp) time = default
+   end subroutine get_time
 
    subroutine check_time(deck, line, item, in_range, time, what, ok)
       type(deck_t), intent(in) :: deck
@@ -154,19 +219,19 @@ contains
                                       expected=what, keyword='STATIC')
    end subroutine check_time
 
-   !> DIRECT: all increments are like the first.
-   subroutine check_direct(deck, line)
+   !> DIRECT: all increments are like the first, whatever the least and the greatest are said to be.
+   subroutine note_direct(deck, line)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
       integer(ip) :: i
 
       do i = 3, line%n_tokens
          if (is_empty_token(line_item(deck, line, i))) cycle
-         call report_error(deck, line_item(deck, line, i), 'E-ITEMS', 'with DIRECT all increments are like the first', &
-                           expected='first increment, length of the step [time]', keyword='STATIC')
+         call report_note(deck, line_item(deck, line, i), 'N-IGNORED', 'with DIRECT all increments are like the first: no '// &
+                          'least or greatest')
          return
       end do
-   end subroutine check_direct
+   end subroutine note_direct
 
    !> WRITE[, FREQUENCY=]; the last card counts.
    subroutine read_restart_card(deck, card, model)
@@ -189,7 +254,7 @@ contains
       end if
       model%restart_every = 1
       call option_integer(deck, card, 'FREQUENCY', WHAT_EVERY, model%restart_every, found)
-      if (found .and. model%restart_every < 1) call refuse_option(deck, card, 'FREQUENCY', WHAT_EVERY)
+      if (found .and. model%restart_every < 0) call refuse_option(deck, card, 'FREQUENCY', WHAT_EVERY)
    end subroutine read_restart_card
 
    !> Begins with what a step holds.
@@ -199,9 +264,7 @@ contains
       integer(ip) :: i
 
       context%open%number = number
-      context%open%first_token = 0
       context%open%amplitude = 0
-      if (number == 1) return
       context%open%first_token = huge(1_ip)
       do i = 1, context%deck%n_cards
          if (context%deck%cards(i)%step /= number .or. context%deck%cards(i)%n_lines == 0) cycle

@@ -6,17 +6,20 @@ module atrito_build_supports
    use atrito_carry_on, only: carry_values, removes_all
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name, is_empty_token, LEVEL_MODEL
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
+   use atrito_build_context, only: build_context_t, references_t, place_text, ids_text, has_errors, LOOSE_HELD, &
+                                   LOOSE_RELEASED, LOOSE_MOVES
    use atrito_items, only: get_integer, get_real, has_option
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, replace_nodal_value, trim_nodal_values, amplitude_of
+   use atrito_load_lists, only: add_nodal_value, replace_nodal_value, replace_source, trim_nodal_values, amplitude_of
    use atrito_model, only: nodal_values_t
    use atrito_parameters, only: evaluate_function
    use atrito_references, only: find_nodes
    use atrito_refinement, only: edge_place, is_refined
    use atrito_number_list, only: number_list_t, add_number, numbers_of
-   use atrito_rigid_motions, only: prescribe_reference
+   use atrito_rigid_motions, only: prescribe_reference, is_prescribed
+   use atrito_sources, only: open_source
    use atrito_strings, only: to_text
+   use atrito_support_words, only: is_support_word, find_dofs_of_word
    implicit none (type, external)
    private
    public :: build_supports
@@ -36,29 +39,33 @@ module atrito_build_supports
 
 contains
 
-   !> All prescribed displacements of a step, along the dofs of the deck: those of the model, which hold in every step, those that
-   !> are carried on, and its own.
+   !> All prescribed displacements of a step, along the dofs of the deck: those of the model, which are there before the first,
+   !> those that are carried on, and its own.
    subroutine build_supports(context)
       type(build_context_t), intent(inout) :: context
       type(by_number_t) :: numbered
       type(nodal_values_t) :: before
+      type(references_t) :: motions_before
 
       if (context%open%number == 1) then
          allocate (context%dof_entry(PLANE_DOFS, context%model%mesh%n_nodes), &
-                   context%dof_token(PLANE_DOFS, context%model%mesh%n_nodes), source=0_ip)
+                   context%dof_token(PLANE_DOFS, context%model%mesh%n_nodes), &
+                   context%loose_held(PLANE_DOFS, context%model%mesh%n_nodes), source=0_ip)
          call read_cards(context, 0_ip, numbered)
-         context%open%n_fixed = context%open%supports%n
-         context%open%references%n_fixed = context%open%references%prescribed%n
       else
          call carry_values(context, context%open%supports, keeps_zeros=.true.)
-         if (removes_all(context, 'BOUNDARY')) then
-            before = context%open%supports
-            call release_all(context)
-         end if
          call carry_values(context, context%open%references%prescribed, keeps_zeros=.true.)
       end if
+      where (context%loose_held == LOOSE_RELEASED) context%loose_held = LOOSE_MOVES
+      if (removes_all(context, 'BOUNDARY')) then
+         before = context%open%supports
+         motions_before = context%open%references
+         call release_all(context)
+         where (context%loose_held == LOOSE_HELD) context%loose_held = LOOSE_RELEASED
+      end if
       call read_cards(context, context%open%number, numbered)
-      if (before%n > 0) call begin_where_it_was(before, context)
+      if (allocated(before%from)) call begin_where_it_was(before, context)
+      if (before%n + motions_before%prescribed%n > 0) call note_released(before, motions_before, context)
    end subroutine build_supports
 
    !> A displacement that is given anew by OP=NEW begins with what it has come to.
@@ -69,27 +76,63 @@ contains
 
       associate (supports => context%open%supports)
          if (.not. allocated(supports%from)) allocate (supports%from(size(supports%value)), source=0.0_wp)
-         do i = context%open%n_fixed + 1, before%n
+         do i = 1, before%n
             entry = context%dof_entry(before%dof(i), before%node(i))
-            if (entry > context%open%n_fixed) supports%from(entry) = before%from(i)
+            if (entry > 0) supports%from(entry) = before%from(i)
          end do
       end associate
       call trim_nodal_values(context%open%supports)
    end subroutine begin_where_it_was
 
-   !> OP=NEW leaves those of the model.
+   !> OP=NEW lets go of those of the model, too.
    pure subroutine release_all(context)
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i
 
       associate (supports => context%open%supports)
-         do i = context%open%n_fixed + 1, supports%n
+         do i = 1, supports%n
             context%dof_entry(supports%dof(i), supports%node(i)) = 0
          end do
-         supports%n = context%open%n_fixed
+         supports%n = 0
       end associate
-      context%open%references%prescribed%n = context%open%references%n_fixed
+      context%open%references%prescribed%n = 0
    end subroutine release_all
+
+   !> What stands before the first *STEP holds in every step, until OP=NEW lets go of it: that is told.
+   subroutine note_released(before, motions_before, context)
+      type(nodal_values_t), intent(in) :: before
+      type(references_t), intent(in) :: motions_before
+      type(build_context_t), intent(in) :: context
+      type(number_list_t) :: released
+      type(token_t) :: place
+      integer(ip) :: i, of_model
+
+      of_model = 0                                     ! last token of the lines of the model
+      do i = context%deck%n_cards, 1, -1
+         associate (card => context%deck%cards(i))
+            if (keyword_name(card) /= 'BOUNDARY') cycle
+            if (card%step == context%open%number) place = card%place
+            if (card%step > 0 .or. card%n_lines == 0) cycle
+            of_model = max(of_model, context%deck%lines(card%first_line + card%n_lines - 1)%first_token)
+         end associate
+      end do
+      do i = 1, before%n
+         if (context%dof_entry(before%dof(i), before%node(i)) > 0) cycle
+         associate (token => context%dof_token(before%dof(i), before%node(i)))
+            if (token > 0 .and. token <= of_model) call add_number(released, context%model%mesh%node_id(before%node(i)))
+         end associate
+      end do
+      do i = 1, motions_before%prescribed%n
+         if (motions_before%token(i) > of_model) cycle
+         associate (node => motions_before%prescribed%node(i))
+            if (is_prescribed(context, node, motions_before%prescribed%dof(i))) cycle
+            call add_number(released, context%model%mesh%node_id(node))
+         end associate
+      end do
+      if (released%n > 0 .and. .not. has_errors()) call report_note(context%deck, place, 'N-RELEASED', &
+                                        'OP=NEW lets go of what is held before *STEP, too: node '//ids_text(numbers_of(released)), &
+                                            expected='its supports again in this step, or OP=MOD, to keep them', keyword='BOUNDARY')
+   end subroutine note_released
 
    !> The cards of a step; 0: of the model.
    subroutine read_cards(context, step, numbered)
@@ -106,6 +149,7 @@ contains
             call begin_numbers(context, numbered)
             do k = card%first_line, card%first_line + card%n_lines - 1
                if (.not. context%deck%lines(k)%ok) cycle
+               call open_source(context, 'BOUNDARY', context%deck%tokens(context%deck%lines(k)%first_token))
                if (has_option(context%deck, card, 'FUNCTION')) then
                   call read_function_line(context%deck%lines(k), card%level == LEVEL_MODEL .and. card%ok, context, &
                                           numbered)
@@ -119,7 +163,7 @@ contains
       call trim_nodal_values(context%open%supports)
    end subroutine read_cards
 
-   !> Node or set, first dof[, last dof[, value]].
+   !> Node or set, and a word in the place of the dofs, or first dof[, last dof[, value]].
    subroutine read_line(line, in_model, context, numbered)
       type(data_line_t), intent(in) :: line
       logical, intent(in) :: in_model                  !< before *STEP
@@ -130,6 +174,10 @@ contains
       integer(ip) :: first, last, dof, i
       logical :: ok(4), turns
 
+      if (is_support_word(context%deck, line)) then
+         call read_word_line(line, context, numbered)
+         return
+      end if
       call read_place(line, context, nodes, first, last, ok(:3))
       call get_real(context%deck, line_item(context%deck, line, 4_ip), 'displacement, a real [L]', value, ok(4), 0.0_wp, 'BOUNDARY')
       if (.not. all(ok(2:))) return
@@ -149,6 +197,30 @@ contains
       if (last == ROTATION_DOF) call prescribe_references(line, nodes, ROTATION_DOF, [(value, i=1, size(nodes, kind=ip))], context)
       if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
+
+   !> Node or set, and a word for some dofs.
+   subroutine read_word_line(line, context, numbered)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(inout) :: context
+      type(by_number_t), intent(inout) :: numbered
+      integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: zeros(:)
+      integer(ip) :: dof
+      logical :: held(ROTATION_DOF), ok
+
+      call find_dofs_of_word(context%deck, line, held, ok)
+      if (.not. ok) return
+      call find_nodes(context, context%deck%tokens(line%first_token), nodes, ok, 'BOUNDARY')
+      if (.not. ok) return
+      allocate (zeros(size(nodes)), source=0.0_wp)
+      call note_loose(line, context, nodes)
+      do dof = 1, PLANE_DOFS
+         if (.not. held(dof)) cycle
+         call prescribe(line, nodes, dof, zeros, context)
+         if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), dof, dof, 0.0_wp, numbered)
+      end do
+      if (held(ROTATION_DOF)) call prescribe_references(line, nodes, ROTATION_DOF, zeros, context)
+   end subroutine read_word_line
 
    !> Node or set, first dof[, last dof]: what both kinds of line begin with.
    subroutine read_place(line, context, nodes, first, last, ok)
@@ -238,6 +310,7 @@ contains
                if (any(numbered%token(dof, fine%edge_node(:n, edge)) == 0)) cycle
                line%first_token = numbered%token(dof, fine%edge_node(1, edge))
                line%n_tokens = 1
+               call open_source(context, 'BOUNDARY', context%deck%tokens(line%first_token))
                do k = fine%edge_first(edge), fine%edge_first(edge + 1) - 1
                   call prescribe(line, [k], dof, [edge_value(numbered%value(dof, fine%edge_node(:n, edge)), edge_place(fine, edge, &
                                                                                                                        k))], &
@@ -296,11 +369,10 @@ contains
       logical :: loose(size(nodes))
 
       loose = in_no_element(context, nodes) .and. .not. is_reference(context, nodes)
-      if (any(loose) .and. .not. has_errors()) call report_note(context%deck, line_item(context%deck, line, 1_ip), 'N-NODE', &
-                                                                'node '// &
-                                                                ids_text(pack(context%model%mesh%node_id(nodes), &
-                                                               loose))//' belongs to no element; the support has no effect there', &
-                                                                keyword='BOUNDARY')
+      if (.not. any(loose) .or. has_errors()) return
+      call report_note(context%deck, line_item(context%deck, line, 1_ip), 'N-NODE', 'node '// &
+                       ids_text(pack(context%model%mesh%node_id(nodes), loose))// &
+                       ' belongs to no element; the support has no effect there but on springs', keyword='BOUNDARY')
    end subroutine note_loose
 
    !> Prescribes a dof of those of some nodes that are reference nodes.
@@ -316,6 +388,21 @@ contains
          if (is_reference(context, nodes(i))) call prescribe_reference(context, line%first_token, nodes(i), dof, value(i))
       end do
    end subroutine prescribe_references
+
+   !> A node of no element that is held at 0 in all steps is the ground, for springs.
+   pure subroutine hold_loose(context, node, dof, value)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: node, dof
+      real(wp), intent(in) :: value
+
+      associate (held => context%loose_held(dof, node))
+         if (abs(value) > 0.0_wp .or. (held == 0 .and. context%open%number > 1)) then
+            held = LOOSE_MOVES
+         else if (held /= LOOSE_MOVES) then
+            held = LOOSE_HELD
+         end if
+      end associate
+   end subroutine hold_loose
 
    !> Prescribes a dof of some nodes. A value that differs from an earlier one is an error, told once a line.
    subroutine prescribe(line, nodes, dof, value, context)
@@ -333,13 +420,18 @@ contains
       scale = 0.0_wp
       if (size(nodes) > 0) scale = maxval(abs(value))
       do i = 1, size(nodes, kind=ip)
-         if (loose(i)) cycle
+         if (loose(i)) then
+            call hold_loose(context, nodes(i), dof, value(i))
+            cycle
+         end if
          entry = context%dof_entry(dof, nodes(i))
+         if (entry > 0) call replace_source(context%open%supports, entry, context%open%source)
          if (entry == 0) then
-            call add_nodal_value(context%open%supports, nodes(i), dof, value(i), amplitude=context%open%amplitude)
+            call add_nodal_value(context%open%supports, nodes(i), dof, value(i), amplitude=context%open%amplitude, &
+                                 source=context%open%source)
             context%dof_entry(dof, nodes(i)) = context%open%supports%n
             context%dof_token(dof, nodes(i)) = line%first_token
-         else if (entry > context%open%n_fixed .and. context%dof_token(dof, nodes(i)) < context%open%first_token) then
+         else if (context%dof_token(dof, nodes(i)) < context%open%first_token) then
             call replace_nodal_value(context%open%supports, entry, value(i), context%open%amplitude)
             context%dof_token(dof, nodes(i)) = line%first_token
          else if (.not. is_same(context%open%supports%value(entry), value(i), scale)) then
@@ -378,7 +470,7 @@ contains
                         ids_text(context%model%mesh%node_id(nodes))//' is '//to_text(value, digits)//' here but '//to_text(other, &
                                                                                 digits)//' in '//place_text(context%deck, earlier, &
                                                                                            context%deck%tokens(line%first_token)), &
-                        expected='one value for each dof [L]; those before *STEP hold in every step', keyword='BOUNDARY')
+                        expected='one value for each dof in a step [L]', keyword='BOUNDARY')
    end subroutine report_clash
 
    !> One displacement with two amplitudes.

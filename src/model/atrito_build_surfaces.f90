@@ -1,8 +1,9 @@
 !> *SURFACE, and the surfaces that a *BLOCK has by itself.
 module atrito_build_surfaces
    use atrito_arcs, only: centre_arc
+   use atrito_build_curves, only: put_curve_surfaces, take_node_surface, add_surface, keep_once
    use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, keyword_name
+   use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, block_t, BLOCK_SIDES, invalidate_name, place_text, keep_token, count_cards, &
                                    ids_text
@@ -13,11 +14,13 @@ module atrito_build_surfaces
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: elements_of_square
    use atrito_model, only: surface_t, SURFACE_SEGMENTS
+   use atrito_motion, only: motion_t, moved
    use atrito_name_list, only: add_name, find_name
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_numbers, only: read_integer
    use atrito_references, only: find_elements, check_faces
    use atrito_refined_members, only: fine_elements, is_on_side
+   use atrito_sets, only: find_set
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -28,15 +31,15 @@ contains
    !> All surfaces of a model.
    subroutine build_surfaces(context)
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: i
+      integer(ip) :: i, n
 
       ! each block may have four sides of its own, and those of all copies are of their *BLOCK
-      allocate (context%model%surfaces((context%n_blocks + count_cards(context%deck, 'BLOCK'))*size(BLOCK_SIDES, &
-                                                                                              kind=ip) + count_cards(context%deck, &
-                                                                                                                        'SURFACE')))
+      n = (context%n_blocks + count_cards(context%deck, 'BLOCK'))*size(BLOCK_SIDES, kind=ip)
+      allocate (context%model%surfaces(n + context%curves%n + count_cards(context%deck, 'SURFACE')))
       do i = 1, context%n_blocks
          call put_block_surfaces(context%blocks(i), context)
       end do
+      call put_curve_surfaces(context)
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) == 'SURFACE') call read_surface_card(context%deck%cards(i), context)
       end do
@@ -98,16 +101,6 @@ contains
 
    end subroutine put_block_surfaces
 
-   subroutine add_surface(context, surface, place)
-      type(build_context_t), intent(inout) :: context
-      type(surface_t), intent(in) :: surface
-      type(token_t), intent(in) :: place               !< where it is defined
-
-      call add_name(context%surface_names, surface%name)
-      context%model%surfaces(context%surface_names%n) = surface
-      call keep_token(context%surfaces, context%surface_names%n, place)
-   end subroutine add_surface
-
    !> *SURFACE.
    subroutine read_surface_card(card, context)
       type(card_t), intent(in) :: card
@@ -131,9 +124,12 @@ contains
          ! the reader has not checked the words of its lines
       else if (option_word(context%deck, card, 'TYPE') == 'ELEMENT') then
          call read_faces(card, context, surface%faces, ok)
+      else if (option_word(context%deck, card, 'TYPE') == 'NODE') then
+         call take_node_surface(surface%name, context, surface%faces, ok)
       else
          surface%kind = SURFACE_SEGMENTS
          call read_segments(context%deck, card, surface, ok)
+         if (ok .and. card%scope > 0) call move_segments(context%motions(card%scope), surface)
       end if
       if (.not. ok) call invalidate_name(context, surface%name)
       call add_surface(context, surface, place)
@@ -146,38 +142,59 @@ contains
       logical, intent(out) :: ok
       integer(ip), allocatable :: elements(:)
       integer(ip) :: i
-      logical :: good
+      logical :: good, is_cut
 
       ok = .true.
+      is_cut = is_section(context, card)
       do i = card%first_line, card%first_line + card%n_lines - 1
          good = context%deck%lines(i)%ok
+         if (good) good = is_no_node_set(context, line_item(context%deck, context%deck%lines(i), 1_ip))
          if (good) call find_elements(context, line_item(context%deck, context%deck%lines(i), 1_ip), elements, good, 'SURFACE')
-         if (good) call take_faces(context%deck%lines(i), context, elements, faces, good)
+         if (good) call take_faces(context%deck%lines(i), context, elements, is_cut, faces, good)
          ok = ok .and. good
       end do
       call keep_once(faces)
    end subroutine read_faces
 
-   !> Faces that several lines name are faces of the surface once: a pressure would act twice on them.
-   pure subroutine keep_once(faces)
-      type(face_list_t), intent(inout) :: faces
-      type(id_map_t) :: seen(MOST_SIDES)               ! the elements, by their face
-      type(face_list_t) :: once
+   !> Whether a *PRE-TENSION SECTION cuts along a surface: its faces lie inside the mesh.
+   logical function is_section(context, card)
+      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card               !< of the surface
+      character(len=:), allocatable :: name, surface
       integer(ip) :: i
-      logical :: known
+      logical :: found
 
-      do i = 1, faces%n
-         call add_id(seen(faces%face(i)), faces%element(i), i, known)
-         if (.not. known) call add_face(once, faces%element(i), faces%face(i))
+      is_section = .false.
+      call option_text(context%deck, card, 'NAME', name, found)
+      do i = 1, context%deck%n_cards
+         if (is_section) return
+         if (keyword_name(context%deck%cards(i)) /= 'PRE-TENSION SECTION') cycle
+         call option_text(context%deck, context%deck%cards(i), 'SURFACE', surface, found)
+         is_section = found .and. same_name(name, surface)
       end do
-      faces = once
-   end subroutine keep_once
+   end function is_section
+
+   !> A node set makes a surface of another type.
+   logical function is_no_node_set(context, token)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token
+      character(len=:), allocatable :: name
+
+      is_no_node_set = is_id_token(context%deck, token)
+      if (is_no_node_set) return
+      name = token_text(context%deck, token)
+      is_no_node_set = find_set(context%model%element_sets, name) > 0 .or. find_set(context%model%node_sets, name) == 0
+      if (.not. is_no_node_set) call report_error(context%deck, token, 'E-SET', name//' is a node set', &
+                                                  expected='an element set; or TYPE=NODE, the faces between its nodes', &
+                                                  keyword='SURFACE')
+   end function is_no_node_set
 
    !> The face of each element that a line names, or all their outer faces.
-   subroutine take_faces(line, context, elements, faces, ok)
+   subroutine take_faces(line, context, elements, may_be_inside, faces, ok)
       type(data_line_t), intent(in) :: line
       type(build_context_t), intent(in) :: context
       integer(ip), intent(in) :: elements(:)
+      logical, intent(in) :: may_be_inside
       type(face_list_t), intent(inout) :: faces
       logical, intent(out) :: ok
       type(number_list_t) :: inside
@@ -200,7 +217,9 @@ contains
       if (.not. ok) return
       do i = 1, size(elements, kind=ip)
          if (.not. is_on_side(context%refinement, elements(i), face)) cycle
-         if (is_outer_face(context%model%mesh, context%around, elements(i), face)) then
+         if (may_be_inside) then
+            call add_face(faces, elements(i), face)
+         else if (is_outer_face(context%model%mesh, context%around, elements(i), face)) then
             call add_face(faces, elements(i), face)
          else
             call add_number(inside, context%model%mesh%element_id(elements(i)))
@@ -250,6 +269,20 @@ contains
       call report_error(deck, card%place, 'E-MISSING', 'the surface has no segment', &
                         expected='START, x, y and LINE, x, y or CIRCL, x, y, xc, yc [L]', keyword='SURFACE')
    end subroutine read_segments
+
+   !> A line that is drawn in a part stands where the instance is.
+   pure subroutine move_segments(motion, surface)
+      type(motion_t), intent(in) :: motion
+      type(surface_t), intent(inout) :: surface
+      integer(ip) :: i
+
+      do i = 1, size(surface%points, 2, kind=ip)
+         surface%points(:, i) = moved(motion, surface%points(:, i))
+      end do
+      do i = 1, size(surface%centre, 2, kind=ip)
+         if (surface%is_arc(i)) surface%centre(:, i) = moved(motion, surface%centre(:, i))
+      end do
+   end subroutine move_segments
 
    !> One line: where it ends, and the centre of an arc.
    subroutine read_segment(deck, card, i, x, is_arc, centre, ok)

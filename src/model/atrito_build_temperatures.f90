@@ -13,14 +13,14 @@ module atrito_build_temperatures
    use atrito_items, only: get_real
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, step_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_references, only: find_nodes
    use atrito_refinement, only: map_element
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_temperatures, refine_temperatures, check_temperatures
+   public :: read_temperatures, refine_temperatures, refine_field, check_temperatures, double_temperatures
 
    !> Two values of one node are the same when they differ by less than this part of them: expressions are rounded.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
@@ -214,6 +214,7 @@ contains
       end do
    end subroutine refine_temperatures
 
+   !> Values of the deck's nodes, interpolated at the new ones.
    subroutine refine_field(coarse, context, values)
       type(mesh_t), intent(in) :: coarse
       type(build_context_t), intent(in) :: context
@@ -234,6 +235,18 @@ contains
       end do
       values = value(1, :)
    end subroutine refine_field
+
+   !> New nodes behind the others, as warm as those that they double.
+   pure subroutine double_temperatures(steps, nodes)
+      type(step_t), intent(inout) :: steps(:)
+      integer(ip), intent(in) :: nodes(:)
+      integer(ip) :: i
+
+      do i = 1, size(steps, kind=ip)
+         if (allocated(steps(i)%heating)) steps(i)%heating = [steps(i)%heating, steps(i)%heating(nodes)]
+         if (allocated(steps(i)%heating_from)) steps(i)%heating_from = [steps(i)%heating_from, steps(i)%heating_from(nodes)]
+      end do
+   end subroutine double_temperatures
 
    !> What grows warmer and has no *EXPANSION is told; where nothing expands there are no temperatures.
    subroutine check_temperatures(context)

@@ -183,21 +183,31 @@ contains
    subroutine build_ties(context)
       type(build_context_t), intent(inout) :: context
       type(contact_points_t), allocatable :: points(:)
+      logical, allocatable :: from_behind(:)
       integer(ip) :: i, tied_by(context%model%mesh%n_nodes)
       logical :: moved
 
       if (size(context%model%ties) == 0) return
       call set_tolerances(context%model)
       call pair_ties(context%model, points)
+      from_behind = points%n == 0
+      if (any(from_behind)) then
+         call pair_ties(context%model, points, from_behind)
+         do i = 1, size(points, kind=ip)               ! what lies farther off is no overlap
+            if (from_behind(i)) from_behind(i) = any(is_near(points(i)%gap, context%model%ties(i)%tolerance, points(i)%length))
+         end do
+         call pair_ties(context%model, points, from_behind)
+      end if
       moved = .false.
       do i = 1, size(points, kind=ip)
+         if (from_behind(i)) call warn_of_overlap(context, i)
          call judge_points(context, i, points(i))
          if (context%model%ties(i)%adjusts) call adjust_nodes(context, i, points(i), moved)
       end do
       if (moved) then
          call check_shapes(context%model%mesh, context)
          if (has_errors()) return
-         call pair_ties(context%model, points)
+         call pair_ties(context%model, points, from_behind)
       end if
       tied_by = 0
       do i = 1, size(points, kind=ip)
@@ -205,12 +215,23 @@ contains
       end do
    end subroutine build_ties
 
-   subroutine pair_ties(model, points)
+   subroutine pair_ties(model, points, from_behind)
       type(model_t), intent(in) :: model
       type(contact_points_t), allocatable, intent(out) :: points(:)
+      logical, intent(in), optional :: from_behind(:)  !< (ties) the master looks the same way as the slave
 
-      call pair_surfaces(model, model%ties%slave, model%ties%master, model%ties%quadrature, points)
+      call pair_surfaces(model, model%ties%slave, model%ties%master, model%ties%quadrature, points, from_behind)
    end subroutine pair_ties
+
+   !> Sides that look the same way lie one over the other with their bodies.
+   subroutine warn_of_overlap(context, i)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: i                     !< the tie
+
+      call report_warning(context%deck, context%ties(i), 'W-TIE', 'the surfaces of tie '//context%model%ties(i)%name// &
+                          ' look the same way: their bodies lie over each other, and are tied there', &
+                          expected='a master in front of the slave, its outward normal pointing back', keyword=KEYWORD)
+   end subroutine warn_of_overlap
 
    !> Those that are left out: a part of the mean length of the master's faces.
    pure subroutine set_tolerances(model)

@@ -5,7 +5,7 @@ module atrito_carry_on
    use atrito_build_context, only: build_context_t, carried_t
    use atrito_deck, only: token_t, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_items, only: option_text, option_word
+   use atrito_items, only: has_option, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: replace_nodal_value, replace_element_load
    use atrito_model, only: model_t, nodal_values_t, element_load_t, LOAD_HYDROSTATIC
@@ -23,7 +23,8 @@ contains
       is_of_step = max(context%deck%cards(i)%step, 1_ip) == context%open%number
    end function is_of_step
 
-   !> OP=NEW: the step has nothing of a keyword from the step before. All cards of the keyword in the step say the same.
+   !> OP=NEW: the step has nothing of a keyword from the step before. All cards of the keyword in the step say the same, or
+   !> nothing behind a first one that does: preprocessors write `*DLOAD, OP=NEW` alone, then `*DLOAD` with the lines.
    logical function removes_all(context, keyword)
       type(build_context_t), intent(in) :: context
       character(len=*), intent(in) :: keyword
@@ -39,6 +40,7 @@ contains
          if (keyword_name(context%deck%cards(i)) /= keyword .or. .not. context%deck%cards(i)%ok) cycle
          is_new = option_word(context%deck, context%deck%cards(i), 'OP') == 'NEW'
          if (is_first) removes_all = is_new
+         if (.not. is_first .and. .not. has_option(context%deck, context%deck%cards(i), 'OP')) is_new = removes_all
          is_first = .false.
          if (is_new .eqv. removes_all) cycle
          call option_text(context%deck, context%deck%cards(i), 'OP', word, found, place)
@@ -91,6 +93,7 @@ contains
          list%value(n) = list%value(i)
          list%from(n) = value
          list%amplitude(n) = amplitude
+         if (allocated(list%source)) list%source(n) = list%source(i)
       end do
       list%n = n
    end subroutine carry_values
@@ -131,6 +134,7 @@ contains
          list%value(:, n) = list%value(:, i)
          list%from(:, n) = value
          list%amplitude(n) = amplitude
+         if (allocated(list%source)) list%source(n) = list%source(i)
       end do
       list%n = n
    end subroutine carry_loads

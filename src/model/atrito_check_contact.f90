@@ -275,21 +275,29 @@ contains
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
          if (model%points(i)%n == 0) then
-            call report_blind(context%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, context%slaves(i))
+            call report_blind(context%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, context%slaves(i), &
+                              model%points(i)%n_seeing)
          else
             call judge_points(context, model, i, model%points(i), is_judged(model%pairs(i)%interaction))
          end if
       end do
    end subroutine check_points_of_pairs
 
-   !> No point of the slave finds the master.
-   subroutine report_blind(deck, mesh, slave, place)
+   !> No face of the slave finds the master.
+   subroutine report_blind(deck, mesh, slave, place, n_seeing)
       type(deck_t), intent(in) :: deck
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
       type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: n_seeing              !< faces that see it with a part of them
       real(wp) :: normal(2)
 
+      if (n_seeing > 0) then
+         call report_error(deck, place, 'E-PAIR', 'no face of the slave finds the master with all of its nodes: the master '// &
+                           'ends in front of '//to_text(n_seeing)//trim(merge(' face ', ' faces', n_seeing == 1)), &
+                           expected='a slave with finer faces, or the other surface as the slave', keyword='CONTACT PAIR')
+         return
+      end if
       normal = face_normal(mesh, slave%element(1), slave%face(1))
       call report_error(deck, place, 'E-PAIR', 'no point of the slave finds the master: the outward normal of the slave''s '// &
                         'first face is ('//to_text(normal(1), 3)//', '//to_text(normal(2), 3)// &

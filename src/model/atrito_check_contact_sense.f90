@@ -6,7 +6,7 @@ module atrito_check_contact_sense
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_model, only: model_t, element_load_t, LOAD_BODY
+   use atrito_model, only: model_t, element_load_t, is_on_volume
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_smooth_normals, only: smooth_surface
    use atrito_sorting, only: each_once
@@ -100,7 +100,7 @@ contains
       do i = 1, size(model%steps, kind=ip)
          associate (loads => model%steps(i)%element_loads)
             if (loads%n == 0) cycle
-            if (any(loads%kind /= LOAD_BODY .and. loads%line > told)) call warn_of_loads(model, context, loads, told)
+            if (any(.not. is_on_volume(loads%kind) .and. loads%line > told)) call warn_of_loads(model, context, loads, told)
             told = max(told, maxval(loads%line))
          end associate
       end do
@@ -182,7 +182,7 @@ contains
 
       allocate (first(model%mesh%n_elements + 1), source=0_ip)
       do i = 1, loads%n
-         if (loads%kind(i) /= LOAD_BODY) first(loads%element(i) + 1) = first(loads%element(i) + 1) + 1
+         if (.not. is_on_volume(loads%kind(i))) first(loads%element(i) + 1) = first(loads%element(i) + 1) + 1
       end do
       first(1) = 1
       do e = 1, model%mesh%n_elements
@@ -191,7 +191,7 @@ contains
       next = first
       allocate (load(first(model%mesh%n_elements + 1) - 1))
       do i = 1, loads%n
-         if (loads%kind(i) == LOAD_BODY) cycle
+         if (is_on_volume(loads%kind(i))) cycle
          load(next(loads%element(i))) = i
          next(loads%element(i)) = next(loads%element(i)) + 1
       end do

@@ -15,15 +15,16 @@ module atrito_coordinates
 contains
 
    !> The coordinate that an item is.
-   subroutine get_coordinate(deck, token, what, x, ok, keyword)
+   subroutine get_coordinate(deck, token, what, x, ok, keyword, default)
       type(deck_t), intent(in) :: deck
       type(token_t), intent(in) :: token
       character(len=*), intent(in) :: what             !< e.g. 'x, a real [L]'
       real(wp), intent(out) :: x
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
+      real(wp), intent(in), optional :: default        !< of an empty item [L]
 
-      call get_real(deck, token, what, x, ok, keyword=keyword)
+      call get_real(deck, token, what, x, ok, default, keyword)
       if (.not. ok .or. abs(x) <= LARGEST_COORDINATE) return
       ok = .false.
       call report_error(deck, token, 'E-VALUE', 'a coordinate of '//to_text(x), expected=what//', at most '// &

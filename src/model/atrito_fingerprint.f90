@@ -90,6 +90,7 @@ contains
       call add_to(digest, mesh%shape(:mesh%n_elements))
       call add_to(digest, mesh%state(:mesh%n_elements))
       call add_to(digest, mesh%nodes(:, :mesh%n_elements))
+      if (allocated(mesh%thickness)) call add_to(digest, mesh%thickness)
    end function digest_of_mesh
 
    pure function digest_of_materials(model) result(digest)
@@ -101,12 +102,15 @@ contains
          associate (material => model%materials(i))
             call add_to(digest, [material%young, material%poisson, material%density, material%expansion])
             call add_to(digest, material%has_expansion)
+            call add_to(digest, material%is_orthotropic)
+            if (material%is_orthotropic) call add_to(digest, material%stiffness)
          end associate
       end do
       do i = 1, size(model%sections)
          call add_to(digest, model%sections(i)%material)
          call add_to(digest, model%sections(i)%thickness)
          call add_to(digest, model%sections(i)%formulation)
+         call add_to(digest, model%sections(i)%axis)
       end do
       call add_allocated(digest, model%section_of)
    end function digest_of_materials
@@ -223,7 +227,7 @@ contains
          call add_allocated(overlaps, step%overlap)
          call add_allocated(overlaps, step%overlap_from)
          call add_way(way, step)
-         call add_requests(requests, step)
+         call add_requests(requests, model, step)
       end associate
       associate (step => model%steps(i))
          call add_part(fingerprint, 'prescribed displacements of step '//to_text(i), &
@@ -311,16 +315,28 @@ contains
    end subroutine add_way
 
    !> What is printed decides which increments are kept.
-   pure subroutine add_requests(digest, step)
+   pure subroutine add_requests(digest, model, step)
       type(digest_t), intent(inout) :: digest
+      type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step
+      integer(ip) :: i
 
       call add_requested(digest, step%requests%requested_t)
       call add_requested(digest, step%requests%fields)
-      call add_to(digest, [step%requests%bodies, step%requests%joints])
+      call add_to(digest, [step%requests%bodies, step%requests%joints, step%requests%nodal_stress])
+      call add_allocated(digest, step%requests%node_s)
       associate (every => step%requests%every)
-         call add_to(digest, [every%nodes, every%reactions, every%stress, every%contact, every%bodies, every%joints, every%fields])
+         call add_to(digest, [every%nodes, every%reactions, every%stress, every%nodal_stress, every%contact, every%bodies, &
+                              every%joints, every%sections, every%fields])
       end associate
+      if (.not. allocated(step%requests%cuts)) return
+      do i = 1, size(step%requests%cuts, kind=ip)
+         associate (cut => model%cuts(step%requests%cuts(i)))
+            call add_to(digest, cut%name)
+            call add_to(digest, cut%ends)
+            call add_to(digest, cut%elset)
+         end associate
+      end do
    end subroutine add_requests
 
    pure subroutine add_requested(digest, requested)

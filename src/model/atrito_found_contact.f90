@@ -69,7 +69,7 @@ contains
 
       call find_bodies(context%model%mesh, search%bodies)
       call name_bodies(context%model, search%bodies)
-      call list_outlines(context%model%mesh, context%around, search%bodies%of_element, search%outlines)
+      call list_outlines(context%model%mesh, context%around, search%bodies%of_element, search%outlines, context%cut_faces)
       associate (n => search%outlines%faces%n)
          call list_holders(search%bodies%n, reshape(search%outlines%body, [1_ip, n]), search%first, search%of_body)
          allocate (search%other(n), search%law(n), source=0_ip)

@@ -5,6 +5,7 @@ module atrito_local_axes
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real, option_text, option_word
    use atrito_kinds, only: ip, wp
+   use atrito_motion, only: moved, turned
    use atrito_references, only: find_nodes
    implicit none (type, external)
    private
@@ -78,6 +79,16 @@ contains
       end associate
       ok = all(good)
       if (ok) call check_plane(card, context, b - a, z, ok)
+      if (.not. ok .or. card%scope == 0) return
+      associate (motion => context%motions(card%scope))
+         if (option_word(context%deck, card, 'TYPE') == 'R') then  ! directions
+            a = turned(motion, a)
+            b = turned(motion, b)
+         else
+            a = moved(motion, a)
+            b = moved(motion, b)
+         end if
+      end associate
    end subroutine read_points
 
    !> R: both points lie in the plane. C: they lie on an axis across it.

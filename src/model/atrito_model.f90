@@ -1,9 +1,13 @@
 !> What a deck means: one model_t, all that the solver and the writers need, no deck text.
 module atrito_model
    use atrito_bilateral_rows, only: bilateral_rows_t
+   use atrito_cross_section, only: cross_section_t
    use atrito_kinds, only: ip, wp
+   use atrito_orthotropy, only: SPATIAL
    use atrito_plane_state, only: FORMULATION_STANDARD, FORMULATION_BBAR
    use atrito_points, only: contact_points_t
+   use atrito_patched_text, only: named_text_t
+   use atrito_provenance, only: provenance_t
    use atrito_strings, only: string_t
    use atrito_mesh, only: mesh_t
    use atrito_sets, only: set_list_t
@@ -12,14 +16,14 @@ module atrito_model
    implicit none (type, external)
    private
    public :: model_t, step_t, material_t, section_t, surface_t, interaction_t, pair_t, nodal_values_t, element_load_t
-   public :: rigid_body_t
+   public :: rigid_body_t, instance_t, source_t, cut_t
    public :: amplitude_t, increments_t, frequencies_t, spring_t, tie_t, controls_t, requests_t, requested_t, parameter_value_t
    public :: SURFACE_ELEMENTS, SURFACE_SEGMENTS, FORMULATION_STANDARD, FORMULATION_BBAR, FORMULATION_NAME
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    public :: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
    public :: is_due
-   public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC
+   public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, is_on_volume
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
    character(len=8), parameter :: FORMULATION_NAME(2) = ['STANDARD', 'BBAR    ']
@@ -28,7 +32,7 @@ module atrito_model
    character(len=8), parameter :: METHOD_NAME(3) = ['ANDERSON', 'PICARD  ', 'NEWTON  ']
    character(len=8), parameter :: FRICTION_NAME(0:2) = ['none    ', 'LOCAL   ', 'NONLOCAL']
    character(len=6), parameter :: KERNEL_NAME(2) = ['POINTS', 'LINE  ']
-   integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2, LOAD_TRACTION = 3, LOAD_HYDROSTATIC = 4
+   integer(ip), parameter :: LOAD_PRESSURE = 1, LOAD_BODY = 2, LOAD_TRACTION = 3, LOAD_HYDROSTATIC = 4, LOAD_LINEAR = 5
 
    type :: material_t
       character(len=:), allocatable :: name
@@ -37,13 +41,17 @@ module atrito_model
       real(wp) :: density = 0.0_wp             !< mass per volume
       real(wp) :: expansion = 0.0_wp           !< alpha [1/temperature]
       logical :: has_expansion = .false.       !< it is given
+      logical :: is_orthotropic = .false.      !< E is the mean of E1 and E2 then, mu is nothing
+      real(wp) :: stiffness(SPATIAL, SPATIAL) = 0.0_wp  !< then, along the axes of the material: 11, 22, 33, 12 [F/L^2]
    end type material_t
 
    type :: section_t
       character(len=:), allocatable :: elset   !< name of its element set
       integer(ip) :: material = 0              !< place in model%materials
       real(wp) :: thickness = 1.0_wp           !< [L], > 0
+      logical :: is_tapered = .false.          !< the nodes have the thickness, and that of the section is 1
       integer(ip) :: formulation = FORMULATION_STANDARD
+      real(wp) :: axis(2) = [1.0_wp, 0.0_wp]   !< the first axis of the material: *ORIENTATION
    end type section_t
 
    !> A surface of element faces (a connected chain when it is a slave) or of rigid segments, straight ones and arcs.
@@ -80,6 +88,12 @@ module atrito_model
       integer(ip) :: outline = 0    !< of *CONTACT: the same for slaves that continue each other, which S_rho does not cut; 0: none
    end type pair_t
 
+   !> What a line of a support or a load acts on, as the deck names it: a row of resultants.tab.
+   type :: source_t
+      character(len=:), allocatable :: keyword      !< BOUNDARY, CLOAD, DLOAD or DSLOAD
+      character(len=:), allocatable :: name         !< of a set or a surface, or the number of a node or an element
+   end type source_t
+
    !> Values at single dofs: prescribed displacements [L], or forces [F] for the whole thickness.
    type :: nodal_values_t
       integer(ip) :: n = 0
@@ -87,12 +101,14 @@ module atrito_model
       real(wp), allocatable :: value(:)             !< at the end of a step, or what an amplitude multiplies
       real(wp), allocatable :: from(:)              !< at the beginning of a step; not allocated: 0
       integer(ip), allocatable :: amplitude(:)      !< place in model%amplitudes; 0, or not allocated: none
+      integer(ip), allocatable :: source(:)         !< place in model%sources; 0, or not allocated: no line of the deck
    end type nodal_values_t
 
    !> A rigid surface that moves with a reference node, as a body does that turns about it.
    type :: rigid_body_t
       integer(ip) :: surface = 0, node = 0          !< places; the node belongs to no element
       real(wp) :: size = 1.0_wp                     !< largest distance of the surface from the node [L]
+      logical :: is_section = .false.               !< a *PRE-TENSION SECTION: its node moves along 1 alone
    end type rigid_body_t
 
    type :: tie_t
@@ -104,7 +120,7 @@ module atrito_model
       integer(ip) :: n_nodes = 0, n_far = 0         !< of the slave that are tied, and that are not
    end type tie_t
 
-   !> SPRING1 holds one node, SPRING2 two.
+   !> SPRING1 holds one node, SPRING2 and SPRINGA two; dof 0: along the line between them.
    type :: spring_t
       integer(ip) :: id = 0                         !< the user's number
       integer(ip) :: node(2) = 0, dof(2) = 0        !< second node 0: the ground
@@ -116,10 +132,12 @@ module atrito_model
       integer(ip) :: n = 0
       integer(ip), allocatable :: element(:)
       integer(ip), allocatable :: kind(:)           !< LOAD_*
-      integer(ip), allocatable :: face(:)           !< 1..4; LOAD_BODY: 0
+      integer(ip), allocatable :: face(:)           !< 1..4; LOAD_BODY and LOAD_LINEAR: 0
       integer(ip), allocatable :: line(:)           !< of the deck, that gives it
+      integer(ip), allocatable :: source(:)         !< place in model%sources; 0, or not allocated: not known
       real(wp), allocatable :: value(:, :)          !< (3, n): pressure [F/L^2] in the first; force per volume [F/L^3] or traction
-      !< [F/L^2] in two; LOAD_HYDROSTATIC: pressure at a level x2, the level where it is 0, and that level [F/L^2], [L]
+      !< [F/L^2] in two; LOAD_HYDROSTATIC: pressure at a level x2, the level where it is 0, and that level [F/L^2], [L];
+      !< LOAD_LINEAR: force per volume A x, x from the origin: A11, A12 = A21, A22 [F/L^4]
       real(wp), allocatable :: from(:, :)           !< (3, n) the same at the beginning of a step; not allocated: 0, with the levels
       !< of LOAD_HYDROSTATIC as they are in value
       integer(ip), allocatable :: amplitude(:)      !< (n) place in model%amplitudes; 0, or not allocated: none
@@ -153,7 +171,8 @@ module atrito_model
 
    !> How often what is asked for is printed: every so many increments; 0: at the end of the step, as it always is.
    type :: frequencies_t
-      integer(ip) :: nodes = 0, reactions = 0, stress = 0, contact = 0, bodies = 0, joints = 0, fields = 0
+      integer(ip) :: nodes = 0, reactions = 0, stress = 0, nodal_stress = 0, contact = 0, bodies = 0, joints = 0
+      integer(ip) :: sections = 0, fields = 0
    end type frequencies_t
 
    !> Nodes, elements and contact that were asked for.
@@ -164,16 +183,34 @@ module atrito_model
 
    !> What is to be printed, and what goes into the field file.
    type, extends(requested_t) :: requests_t
-      logical :: bodies = .false., joints = .false.
+      logical :: bodies = .false., joints = .false., nodal_stress = .false.
+      logical, allocatable :: node_s(:)             !< nodes whose stresses were asked for; allocated when they were
+      integer(ip), allocatable :: cuts(:)           !< places in model%cuts; not allocated: none
       type(requested_t) :: fields
       type(frequencies_t) :: every
    end type requests_t
+
+   !> A cut through bodies, of which the forces in the cross-section are told: *SECTION PRINT.
+   type :: cut_t
+      character(len=:), allocatable :: name
+      real(wp) :: ends(2, 2) = 0.0_wp               !< two points of its line [L]
+      integer(ip) :: elset = 0                      !< place of the element set that chooses crossings; 0: all
+      type(cross_section_t) :: section              !< of the mesh as it is solved
+   end type cut_t
 
    type :: parameter_value_t
       character(len=:), allocatable :: name
       real(wp) :: value = 0.0_wp
       logical :: overridden = .false.               !< by --set
    end type parameter_value_t
+
+   !> An instance of a part.
+   type :: instance_t
+      character(len=:), allocatable :: name, part
+      integer(ip) :: first_number = 1               !< that of the part's node or element 1
+      real(wp) :: shift(2) = 0.0_wp                 !< [L], before the rotation
+      real(wp) :: angle = 0.0_wp                    !< [degrees]
+   end type instance_t
 
    !> A step of the history: all that acts in it, what was carried on from earlier steps too, and what it asks for. From the
    !> beginning of the step to its end values go linearly with the time, or at once; those with an amplitude follow it.
@@ -198,7 +235,10 @@ module atrito_model
       character(len=:), allocatable :: deck_path    !< as the user wrote it
       character(len=:), allocatable :: deck_name    !< without folder and .inp
       type(string_t), allocatable :: heading(:)
+      type(provenance_t) :: provenance              !< for the heads of tables; empty: nothing is told
+      type(named_text_t), allocatable :: as_run(:)  !< the deck as it is run, for the writer alone; not allocated: it is not kept
       type(parameter_value_t), allocatable :: parameters(:)
+      type(instance_t), allocatable :: instances(:)
       type(mesh_t) :: mesh
       integer(ip) :: levels = 0                     !< of --refine: each element of the deck is 4**levels of the mesh
       type(set_list_t) :: node_sets, element_sets
@@ -213,15 +253,26 @@ module atrito_model
       type(pair_t), allocatable :: pairs(:)
       type(contact_points_t), allocatable :: points(:) !< of each pair
       type(bilateral_rows_t) :: bilateral           !< of ties, equations, supports along other directions, springs
+      type(nodal_values_t) :: inclined              !< the supports among them, along directions that are no axis
       type(nodal_values_t) :: equations             !< node, dof and coefficient of the first term of each
       type(spring_t), allocatable :: springs(:)
       type(tie_t), allocatable :: ties(:)
       type(amplitude_t), allocatable :: amplitudes(:)
+      type(source_t), allocatable :: sources(:)     !< of supports and loads of all steps, in the order of the deck
+      type(cut_t), allocatable :: cuts(:)           !< of all steps; not allocated: none
       type(step_t), allocatable :: steps(:)         !< the history, >= 1
+      logical :: asks_nlgeom = .false.              !< a step asks for large displacements; small ones are solved
       integer(ip) :: restart_every = 0              !< increments between two restart files; 0: none is written
    end type model_t
 
 contains
+
+   !> Whether a load acts on the volume of an element, not on a face.
+   pure elemental logical function is_on_volume(kind)
+      integer(ip), intent(in) :: kind               !< LOAD_*
+
+      is_on_volume = kind == LOAD_BODY .or. kind == LOAD_LINEAR
+   end function is_on_volume
 
    !> Whether an increment is printed.
    pure elemental logical function is_due(every, increment, ends_step)

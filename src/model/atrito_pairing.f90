@@ -2,12 +2,13 @@
 module atrito_pairing
    use atrito_faces, only: face_list_t, chain_report_t, order_chain
    use atrito_kinds, only: ip, wp
-   use atrito_master, only: master_t, master_of_faces, master_of_segments
+   use atrito_master, only: master_t, master_of_faces, master_of_segments, turn_master
    use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_mortar_points, only: pair_by_mortar
    use atrito_nodal_points, only: pair_with_master
-   use atrito_plane_state, only: elastic_t, compliance_matrix, COMPONENTS
+   use atrito_plane_state, only: compliance_matrix, COMPONENTS
    use atrito_points, only: contact_points_t
+   use atrito_section_elasticity, only: elasticity_of
    implicit none (type, external)
    private
    public :: order_slaves, pair_all, pair_surfaces, element_thickness, make_master
@@ -43,13 +44,15 @@ contains
    end subroutine pair_all
 
    !> The same of any pairs of surfaces, by their places.
-   subroutine pair_surfaces(model, slaves, partners, quadrature, points)
+   subroutine pair_surfaces(model, slaves, partners, quadrature, points, from_behind)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: slaves(:), partners(:) !< slaves and masters
       integer(ip), intent(in) :: quadrature(:)         !< QUADRATURE_*
       type(contact_points_t), allocatable, intent(out) :: points(:)
+      logical, intent(in), optional :: from_behind(:)  !< the master's outside is taken for its inside; default: nowhere
       type(master_t), allocatable :: masters(:)        ! of the surfaces
-      logical :: is_master(size(model%surfaces))
+      type(master_t) :: turned
+      logical :: is_master(size(model%surfaces)), turns
       real(wp), allocatable :: thickness(:)
       integer(ip) :: i
 
@@ -64,7 +67,15 @@ contains
       do i = 1, size(points, kind=ip)
          associate (slave => model%surfaces(slaves(i))%faces, surface => model%surfaces(partners(i)), &
                     master => masters(partners(i)))
-            call make_points(model, thickness, quadrature(i), slave, surface%faces, master, points(i))
+            turns = .false.
+            if (present(from_behind)) turns = from_behind(i)
+            if (turns) then
+               turned = master
+               call turn_master(turned)
+               call make_points(model, thickness, quadrature(i), slave, surface%faces, turned, points(i))
+            else
+               call make_points(model, thickness, quadrature(i), slave, surface%faces, master, points(i))
+            end if
          end associate
       end do
    end subroutine pair_surfaces
@@ -109,11 +120,11 @@ contains
 
       do i = 1, faces%n
          associate (e => faces%element(i))
-            associate (material => model%materials(model%sections(model%section_of(e))%material))
-               c = compliance_matrix(elastic_t(material%young, material%poisson), model%mesh%state(e))
+            associate (section => model%sections(model%section_of(e)))
+               c = compliance_matrix(elasticity_of(section, model%materials(section%material)), model%mesh%state(e))
             end associate
          end associate
-         compliance(i) = c(1, 1)
+         compliance(i) = 0.5_wp*(c(1, 1) + c(2, 2))    ! of an isotropic material they are the same
       end do
    end function face_compliance
 

@@ -64,6 +64,8 @@ contains
          rest = ', level of zero pressure, level of the magnitude [L]'
       else if (label(1:1) == 'T' .or. label(1:1) == 'G') then
          most = 6
+      else if (label(1:1) == 'C') then
+         most = 9
       end if
       has_no_rest = line%n_tokens <= most
       if (has_no_rest) return
@@ -85,6 +87,8 @@ contains
          what = 'pressure at the second level, a real [F/L^2]'
       case ('B')
          what = 'force per volume, a real [F/L^3]'
+      case ('C')
+         what = 'square of the angular velocity, a real >= 0 [1/T^2]'
       case default
          what = 'acceleration, a real [L/T^2]'
       end select

@@ -1,7 +1,7 @@
 !> What the items of a deck refer to: nodes and elements by their numbers or the names of their sets; and the message for what is
 !> not there.
 module atrito_references
-   use atrito_deck, only: deck_t, token_t, token_text, is_id_token
+   use atrito_deck, only: deck_t, token_t, token_text, is_id_token, scope_shift, scope_text
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, numbered_t, is_invalid, is_undetermined, has_errors, ids_text
    use atrito_id_map, only: find_id
@@ -31,11 +31,51 @@ contains
       character(len=*), intent(in) :: keyword
 
       call get_integer(deck, token, what//', a positive integer', id, ok, keyword=keyword)
-      if (.not. ok .or. id > 0) return
-      ok = .false.
-      call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=what//', a positive integer', &
-                        keyword=keyword)
+      if (ok .and. id <= 0) then
+         ok = .false.
+         call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=what//', a positive integer', &
+                           keyword=keyword)
+      else if (ok .and. allocated(deck%scopes)) then
+         call take_scope(deck, token, what, id, ok, keyword)
+      end if
    end subroutine get_id
+
+   !> The number in the model of a node or element of an instance, or of the assembly.
+   subroutine take_scope(deck, token, what, id, ok, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=*), intent(in) :: what
+      integer(ip), intent(inout) :: id
+      logical, intent(out) :: ok
+      character(len=*), intent(in) :: keyword
+      character(len=:), allocatable :: noun
+
+      associate (scope => deck%scopes(token%scope))
+         ok = scope%ok                                 ! if not, that is told
+         if (.not. ok) return
+         ok = id <= scope%span
+         if (ok) then
+            id = id + scope%shift
+            return
+         end if
+      end associate
+      noun = 'node'
+      if (index(what, noun) == 0) noun = 'element'
+      call report_error(deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id)//scope_text(deck, token)//' does not exist', &
+                        expected=what//scope_text(deck, token)//scope_hint(deck, token), keyword=keyword)
+   end subroutine take_scope
+
+   !> Outside of parts a bare number is that of the assembly.
+   pure function scope_hint(deck, token) result(text)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (.not. allocated(deck%scopes) .or. token%scope > 0) return
+      text = '; here a bare number is one of the assembly, that of an instance is instance.number'
+      if (size(deck%scopes) > 1) text = text//', as '//deck%scopes(1)%name//'.1'
+   end function scope_hint
 
    !> The place of the node whose number an item is.
    subroutine find_one_node(context, token, node, ok, keyword)
@@ -89,10 +129,12 @@ contains
       if (has_errors() .and. find_id(numbered%invalid, id) > 0 .or. is_undetermined(context, noun)) return
       makers = '*NODE, *NGEN, *NFILL or *BLOCK'
       if (noun == 'element') makers = '*ELEMENT, *ELGEN or *BLOCK'
-      known = to_text(n)//' '//noun//'s, the greatest '//to_text(numbered%greatest)
-      if (n == 0) known = 'there is none'
-      call report_error(context%deck, token, 'E-'//upper_case(noun), noun//' '//to_text(id)//' does not exist', &
-                        expected='the number of '//article(noun)//noun//' that '//makers//' defines ('//known//')', keyword=keyword)
+      known = ' that '//makers//' defines ('//to_text(n)//' '//noun//'s, the greatest '//to_text(numbered%greatest)//')'
+      if (n == 0) known = ' that '//makers//' defines (there is none)'
+      if (allocated(context%deck%scopes)) known = scope_text(context%deck, token)//scope_hint(context%deck, token)
+      call report_error(context%deck, token, 'E-'//upper_case(noun), noun//' '// &
+                        to_text(id - scope_shift(context%deck, token))//scope_text(context%deck, token)//' does not exist', &
+                        expected='the number of '//article(noun)//noun//known, keyword=keyword)
    end subroutine report_missing
 
    !> The places of the nodes that an item names: a number or a node set.
@@ -166,6 +208,12 @@ contains
       if (is_invalid(context, token_text(context%deck, token)) .or. is_undetermined(context, noun)) return
       expected = 'name of '//article(noun)//noun//' of this deck'
       if (known%n == 0) expected = expected//'; there is none'
+      if (noun == 'surface') then
+         if (find_set(context%model%node_sets, token_text(context%deck, token)) > 0) then
+            expected = expected//'; this is a node set: on the outline '// &
+                       '*SURFACE, TYPE=NODE makes a surface of it, inside the mesh there are no faces'
+         end if
+      end if
       if (has_room(SEVERITY_ERROR)) then
          call report_error(context%deck, token, id, 'unknown '//noun//' '//token_text(context%deck, token), expected=expected, &
                            known=names_of(known), keyword=keyword)

@@ -3,6 +3,7 @@
 module atrito_refine_model
    use atrito_build_nodes, only: MOST_NODES
    use atrito_build_temperatures, only: refine_temperatures
+   use atrito_build_thickness, only: refine_thickness
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_deck_error
    use atrito_build_context, only: build_context_t, note_place
@@ -51,6 +52,7 @@ contains
       call refine_mesh(coarse, context%around, pieces, shape, context%model%mesh, context%refinement)
       call place_on_arcs(coarse, context)
       call refine_temperatures(coarse, context)
+      call refine_thickness(coarse, context)
       context%model%levels = levels
       do i = 1, set_count(context%model%node_sets)
          associate (set => context%model%node_sets%sets(i))

@@ -6,7 +6,8 @@ module atrito_results
    implicit none (type, external)
    private
    public :: results_t, contact_result_t, iteration_t, body_result_t, scene_t, pair_scene_t, balance_t, unsettled_t
-   public :: body_motion_t, rigid_result_t, joint_t, extreme_t, history_t, history_row_t, ending_t, last_frame
+   public :: body_motion_t, rigid_result_t, joint_t, cut_force_t, extreme_t, history_t, history_row_t, ending_t, last_frame
+   public :: observed_t, observed_list_t
    public :: POINT_OPEN, POINT_STICK, POINT_SLIP
 
    integer(ip), parameter :: POINT_OPEN = 0, POINT_STICK = 1, POINT_SLIP = 2   !< column status of contact.tab
@@ -112,10 +113,12 @@ module atrito_results
       character(len=:), allocatable :: name         !< of the surface
       integer(ip) :: node = 0                       !< the user's number
       real(wp) :: size = 0.0_wp                     !< largest distance of the surface from the node [L]
+      logical :: is_section = .false.               !< a pre-tension section: u1 is what its sides approach by
       logical :: is_prescribed(3) = .false.         !< u1, u2, rotation
       real(wp) :: u(2) = 0.0_wp                     !< of the node [L]
       real(wp) :: rotation = 0.0_wp                 !< about it, counter-clockwise [rad]
       real(wp) :: reaction(2) = 0.0_wp              !< [F]; 0 where nothing is prescribed
+      real(wp) :: force = 0.0_wp                    !< in a section, that of its load and its reaction [F]
       real(wp) :: moment = 0.0_wp                   !< about the node [F L]; 0 where the rotation is free
    end type rigid_result_t
 
@@ -132,13 +135,30 @@ module atrito_results
       real(wp) :: u(2) = 0.0_wp                     !< displacement of the slave at the place [L]
    end type joint_t
 
+   !> A row of sections.tab: what the part ahead of a cut does to the part behind it.
+   type :: cut_force_t
+      character(len=:), allocatable :: name
+      real(wp) :: middle(2) = 0.0_wp                !< of the cross-section [L]
+      real(wp) :: length = 0.0_wp                   !< of it [L]
+      real(wp) :: n = 0.0_wp, v = 0.0_wp            !< along the normal, tension positive, and along the cut [F]
+      real(wp) :: m = 0.0_wp                        !< about the middle, counter-clockwise [F L]
+      real(wp) :: terms(2) = 0.0_wp                 !< sizes of all that is summed in them [F], [F L]: what rounding is measured by
+   end type cut_force_t
+
    !> The largest of a field, and where.
    type :: extreme_t
       real(wp) :: value = 0.0_wp
       integer(ip) :: id = 0                         !< the user's number of the element or node
       real(wp) :: x(2) = 0.0_wp                     !< [L]
       logical :: is_node = .false.                  !< id is that of a node
+      character(len=16) :: quantity = ''            !< in extremes.tab; '': none of it
    end type extreme_t
+
+   !> A quantity that the user asked for by --observe.
+   type :: observed_t
+      character(len=32) :: name = ''                !< as the user wrote it
+      real(wp) :: value = 0.0_wp                    !< nan: it is not defined
+   end type observed_t
 
    !> An increment of a history, or a run of one.
    type :: results_t
@@ -161,6 +181,7 @@ module atrito_results
       real(wp), allocatable :: stress(:, :)         !< (5, n_stress): s11 s22 s33 s12 mises [F/L^2]
       real(wp), allocatable :: nodal_stress(:, :)   !< (5, n_nodes): s11 s22 s33 s12 mises recovered at the nodes [F/L^2]
       real(wp) :: error_estimate = 0.0_wp           !< of the stresses, in the energy norm, relative [%]; Zienkiewicz and Zhu
+      real(wp), allocatable :: element_error(:)     !< (n_elements) shares of the estimate, the root of the sum of their squares [%]
       type(iteration_t), allocatable :: iterations(:)
       integer(ip) :: outer_iterations = 0, linear_solves = 0, factorisations = 0
       type(unsettled_t), allocatable :: unsettled(:)    !< of a run that did not converge, the most restless first
@@ -168,11 +189,14 @@ module atrito_results
       real(wp) :: contraction_estimate = 0.0_wp     !< of the Picard map from its matrix; from 1 on there may be several solutions
       real(wp) :: equilibrium_residual = 0.0_wp
       real(wp) :: strain_energy = 0.0_wp, external_work = 0.0_wp   !< [F L]
+      type(extreme_t), allocatable :: extremes(:)   !< rows of extremes.tab
       type(extreme_t) :: large_strain, large_rotation, large_slip  !< where they pass what a linear theory knows; 0: they do not
       type(balance_t) :: balance
       type(body_motion_t), allocatable :: bodies(:) !< when asked for
       type(rigid_result_t), allocatable :: rigid(:) !< rigid surfaces with a reference node; not allocated: there are none
       type(joint_t), allocatable :: joints(:)       !< by pair, then along s
+      type(observed_t), allocatable :: observed(:)  !< not allocated: nothing is
+      type(cut_force_t), allocatable :: cuts(:)     !< when asked for
    end type results_t
 
    !> A row of history.tab: what a pair transmits at the end of an increment, of what is on the slave. NaN: not defined.
@@ -190,6 +214,14 @@ module atrito_results
       real(wp) :: mean_slip = 0.0_wp                !< of u_T over the area of all points, open ones too [L]; drawn alone
    end type history_row_t
 
+   !> What was observed at the end of each increment, printed or not.
+   type :: observed_list_t
+      integer(ip) :: n = 0                          !< increments; the arrays may be longer
+      integer(ip), allocatable :: step(:), increment(:)
+      real(wp), allocatable :: time(:)              !< of the history
+      real(wp), allocatable :: values(:, :)         !< (observed, n)
+   end type observed_list_t
+
    !> How a history ended before its end.
    type :: ending_t
       logical :: is_early = .false.
@@ -203,6 +235,7 @@ module atrito_results
       type(results_t), allocatable :: frames(:)     !< in the order of time; of a run that ended well the last is its end
       type(history_row_t), allocatable :: rows(:)
       type(iteration_t), allocatable :: iterations(:) !< of all increments
+      type(observed_list_t) :: observed
       type(ending_t) :: ending
       integer(ip) :: factorisations = 0             !< of all increments that were tried
    end type history_t

@@ -6,7 +6,7 @@ module atrito_rigid_motions
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, amplitude_of, replace_nodal_value, trim_nodal_values
+   use atrito_load_lists, only: add_nodal_value, amplitude_of, replace_nodal_value, replace_source, trim_nodal_values
    use atrito_local_axes, only: has_local_axes
    use atrito_mesh, only: is_revolved
    use atrito_model, only: nodal_values_t
@@ -34,6 +34,11 @@ contains
          can = .false.
          call report_error(context%deck, place, 'E-NODE', 'reference node '//to_text(context%model%mesh%node_id(node)) &
                            //' has local axes', expected='a reference node without *TRANSFORM', keyword=keyword)
+      else if (context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, node, dim=1))%is_section) then
+         can = dof == 1 .or. abs(value) <= 0.0_wp
+         if (.not. can) call report_error(context%deck, place, 'E-DOF', 'the node of a pre-tension section has no dof ' &
+                                          //to_text(dof), expected='dof 1: what the sides approach by, or the force', &
+                                          keyword=keyword)
       else if (is_revolved(context%model%mesh) .and. dof /= 2 .and. abs(value) > 0.0_wp) then
          can = .false.
          call report_error(context%deck, place, 'E-DOF', 'a rigid surface round an axis moves along it alone, not by dof ' &
@@ -72,16 +77,17 @@ contains
       if (.not. can_move(context, context%deck%tokens(token), node, dof, value, 'BOUNDARY')) return
       associate (open => context%open, list => context%open%references%prescribed)
          entry = entry_of(open%references, node, dof)
+         if (entry > 0) call replace_source(list, entry, open%source)
          if (entry == 0) then
-            call add_nodal_value(list, node, dof, value, amplitude=open%amplitude)
+            call add_nodal_value(list, node, dof, value, amplitude=open%amplitude, source=open%source)
             if (.not. allocated(open%references%token)) allocate (open%references%token(0))
             open%references%token = [open%references%token(:list%n - 1), token]
-         else if (entry > open%references%n_fixed .and. open%references%token(entry) < open%first_token) then
+         else if (open%references%token(entry) < open%first_token) then
             call replace_nodal_value(list, entry, value, open%amplitude)
             open%references%token(entry) = token
          else if (abs(list%value(entry) - value) > SAME_VALUE*max(abs(list%value(entry)), abs(value))) then
             call report_clash(context, token, entry, 'is '//to_text(value)//' here but '//to_text(list%value(entry))//' in ', &
-                              'one value for each dof [L]; those before *STEP hold in every step')
+                              'one value for each dof in a step [L]')
          else if (abs(value) > 0.0_wp .and. amplitude_of(list, entry) /= open%amplitude) then
             call report_clash(context, token, entry, 'has another amplitude here than in ', &
                               'one AMPLITUDE= for each dof in a step')
@@ -119,8 +125,9 @@ contains
                                                                references%old_loads, references%loads, place)
          if (place > 0) then
             call replace_nodal_value(references%loads, place, value, open%amplitude)
+            call replace_source(references%loads, place, open%source)
          else
-            call add_nodal_value(references%loads, node, dof, value, amplitude=open%amplitude)
+            call add_nodal_value(references%loads, node, dof, value, amplitude=open%amplitude, source=open%source)
          end if
       end associate
    end subroutine load_reference

@@ -5,7 +5,7 @@ module atrito_turn_supports
    use atrito_deck, only: token_t, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, trim_nodal_values, amplitude_of, from_of
+   use atrito_load_lists, only: add_nodal_value, trim_nodal_values, amplitude_of, from_of, source_of
    use atrito_local_axes, only: dof_direction, has_local_axes
    use atrito_model, only: model_t, nodal_values_t
    use atrito_strings, only: to_text
@@ -22,6 +22,7 @@ contains
       weight = norm2(maxval(model%mesh%x(:, :model%mesh%n_nodes), dim=2) - minval(model%mesh%x(:, :model%mesh%n_nodes), dim=2))
       if (.not. weight > 0.0_wp) weight = 1.0_wp
       if (size(model%sections) > 0) weight = weight*model%sections(1)%thickness
+      if (allocated(model%mesh%thickness)) weight = weight*maxval(model%mesh%thickness)
    end function row_weight
 
    !> Prescribed displacements of a step along local axes: both of a node become prescribed ones along x and y, a single one a row,
@@ -50,7 +51,8 @@ contains
                axis = merge(2_ip, 1_ip, direction(1) == 0.0_wp)
                call add_part(local, i, axis, direction(axis), turned)
             else
-               call add_nodal_value(inclined, local%node(i), local%dof(i), local%value(i), amplitude=amplitude_of(local, i))
+               call add_nodal_value(inclined, local%node(i), local%dof(i), local%value(i), amplitude=amplitude_of(local, i), &
+                                    source=source_of(local, i))
             end if
          end do
       end associate
@@ -67,7 +69,8 @@ contains
       real(wp), intent(in) :: part
       type(nodal_values_t), intent(inout) :: turned
 
-      call add_nodal_value(turned, local%node(i), axis, local%value(i)*part, from_of(local, i)*part, amplitude_of(local, i))
+      call add_nodal_value(turned, local%node(i), axis, local%value(i)*part, from_of(local, i)*part, amplitude_of(local, i), &
+                           source_of(local, i))
    end subroutine add_part
 
    !> Both displacements of a node.
@@ -86,7 +89,7 @@ contains
          if (amplitude_of(local, i) /= amplitude_of(local, other)) call refuse_inclined(context, local, i, &
                                                                      'two displacements along local axes with different amplitudes')
          do axis = 1, 2
-            call add_nodal_value(turned, local%node(i), axis, value(axis), from(axis), amplitude_of(local, i))
+            call add_nodal_value(turned, local%node(i), axis, value(axis), from(axis), amplitude_of(local, i), source_of(local, i))
          end do
       end associate
    end subroutine add_both
@@ -108,7 +111,7 @@ contains
                       inclined%value(i), 0.0_wp, row_weight(context%model), [ROW_SUPPORT, 1_ip, inclined%dof(i)], &
                       context%model%bilateral)
       end do
-      context%open%inclined = inclined
+      context%model%inclined = inclined
    end subroutine keep_inclined
 
    !> What is along inclined axes in this step is so in the first.
@@ -118,7 +121,7 @@ contains
       character(len=*), parameter :: WHAT = 'a displacement along an inclined axis that changes after the first step'
       integer(ip) :: i
 
-      associate (first => context%open%inclined)
+      associate (first => context%model%inclined)
          do i = 1, min(inclined%n, first%n)
             if (inclined%node(i) == first%node(i) .and. inclined%dof(i) == first%dof(i) &
                 .and. inclined%value(i) == first%value(i) .and. amplitude_of(inclined, i) == 0) cycle

@@ -13,7 +13,7 @@ module atrito_archive
    implicit none (type, external)
    private
    public :: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_vector, exchange_numbers, &
-             exchange_word, exchange_size, demand, is_sound, close_archive
+             exchange_word, exchange_length, demand, is_sound, close_archive
 
    type :: archive_t
       logical :: is_reading = .false.
@@ -351,21 +351,23 @@ contains
       if (archive%is_reading .and. .not. is_ok(archive%status)) value = 0
    end subroutine exchange_integer
 
-   !> The number of the elements of a list of a derived type, each of which has a value in this part; n is 0 where there is none.
-   subroutine exchange_size(archive, name, is_there, n)
+   !> The number of the elements of a list of a derived type, each of which has a value in this part; < 0: it is not allocated.
+   subroutine exchange_length(archive, name, n, list)
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
-      logical, intent(inout) :: is_there              !< the list is allocated
-      integer(ip), intent(inout) :: n
+      integer(ip), intent(out) :: n
+      type(*), intent(in), optional :: list(:)        !< what is written; one that is not allocated is absent
+      logical :: is_there
 
+      is_there = present(list)
+      n = 0
+      if (is_there) n = size(list, kind=ip)
       call exchange(archive, name//' is there', is_there)
       call exchange(archive, name, n)
       call demand(archive, n >= 0, name)
       if (archive%is_reading) call demand(archive, n <= size(archive%longs, kind=lp) - archive%n_longs, name)
-      if (is_ok(archive%status)) return
-      is_there = .false.
-      n = 0
-   end subroutine exchange_size
+      if (.not. (is_there .and. is_ok(archive%status))) n = -1
+   end subroutine exchange_length
 
    subroutine exchange_integers(archive, name, values)
       type(archive_t), intent(inout) :: archive

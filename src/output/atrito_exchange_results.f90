@@ -1,10 +1,10 @@
 !> What of the results goes into an archive, or comes out of it (atrito_archive): all of an increment, bit by bit.
 module atrito_exchange_results
-   use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_numbers, exchange_word, exchange_size
+   use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_numbers, exchange_word, exchange_length
    use atrito_exchange_scene, only: exchange_scene
    use atrito_kinds, only: ip
    use atrito_results, only: results_t, contact_result_t, unsettled_t, balance_t, body_motion_t, rigid_result_t, joint_t, &
-                             extreme_t, iteration_t
+                             cut_force_t, extreme_t, iteration_t, observed_t
    implicit none (type, external)
    private
    public :: exchange_results, exchange_iteration_list
@@ -37,6 +37,7 @@ contains
       call exchange(archive, 'stress', results%stress)
       call exchange(archive, 'nodal_stress', results%nodal_stress)
       call exchange(archive, 'error_estimate', results%error_estimate)
+      call exchange(archive, 'element_error', results%element_error)
       call exchange_iteration_list(archive, 'iterations', results%iterations)
       call exchange(archive, 'outer_iterations', results%outer_iterations)
       call exchange(archive, 'linear_solves', results%linear_solves)
@@ -47,6 +48,7 @@ contains
       call exchange(archive, 'equilibrium_residual', results%equilibrium_residual)
       call exchange(archive, 'strain_energy', results%strain_energy)
       call exchange(archive, 'external_work', results%external_work)
+      call exchange_extreme_list(archive, 'extremes', results%extremes)
       call exchange_extreme(archive, results%large_strain)
       call exchange_extreme(archive, results%large_rotation)
       call exchange_extreme(archive, results%large_slip)
@@ -54,23 +56,18 @@ contains
       call exchange_motion_list(archive, 'bodies', results%bodies)
       call exchange_rigid_list(archive, 'rigid', results%rigid)
       call exchange_joint_list(archive, 'joints', results%joints)
+      call exchange_observed(archive, 'observed', results%observed)
+      call exchange_cut_list(archive, 'cuts', results%cuts)
    end subroutine exchange_results
 
    subroutine exchange_contact_list(archive, name, list)
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(contact_result_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n, i
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
       do i = 1, n
          call exchange_contact(archive, list(i))
       end do
@@ -103,17 +100,10 @@ contains
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(unsettled_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n, i
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
       do i = 1, n
          call exchange_unsettled(archive, list(i))
       end do
@@ -134,17 +124,10 @@ contains
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(body_motion_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n, i
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
       do i = 1, n
          call exchange_motion(archive, list(i))
       end do
@@ -169,17 +152,10 @@ contains
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(rigid_result_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n, i
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
       do i = 1, n
          call exchange_rigid(archive, list(i))
       end do
@@ -193,6 +169,8 @@ contains
       call exchange(archive, 'name', body%name)
       call exchange(archive, 'node', body%node)
       call exchange(archive, 'size', body%size)
+      call exchange(archive, 'is_section', body%is_section)
+      call exchange(archive, 'force', body%force)
       do i = 1, size(body%is_prescribed)
          call exchange(archive, 'is_prescribed', body%is_prescribed(i))
       end do
@@ -206,17 +184,10 @@ contains
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(joint_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n, i
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
       do i = 1, n
          call exchange_joint(archive, list(i))
       end do
@@ -240,22 +211,55 @@ contains
       call exchange_vector(archive, 'u', joint%u)
    end subroutine exchange_joint
 
+   subroutine exchange_observed(archive, name, list)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      type(observed_t), allocatable, intent(inout) :: list(:)
+      integer(ip) :: n, i
+
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      do i = 1, n
+         call exchange_word(archive, 'name', list(i)%name)
+         call exchange(archive, 'value', list(i)%value)
+      end do
+   end subroutine exchange_observed
+
+   subroutine exchange_cut_list(archive, name, list)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      type(cut_force_t), allocatable, intent(inout) :: list(:)
+      integer(ip) :: n, i
+
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      do i = 1, n
+         call exchange_cut(archive, list(i))
+      end do
+   end subroutine exchange_cut_list
+
+   subroutine exchange_cut(archive, cut)
+      type(archive_t), intent(inout) :: archive
+      type(cut_force_t), intent(inout) :: cut
+
+      call exchange(archive, 'name', cut%name)
+      call exchange_vector(archive, 'middle', cut%middle)
+      call exchange(archive, 'length', cut%length)
+      call exchange(archive, 'n', cut%n)
+      call exchange(archive, 'v', cut%v)
+      call exchange(archive, 'm', cut%m)
+      call exchange_vector(archive, 'terms', cut%terms)
+   end subroutine exchange_cut
+
    subroutine exchange_iteration_list(archive, name, list)
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(iteration_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
-      if (is_there) call exchange_iterations(archive, list)
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      if (n >= 0) call exchange_iterations(archive, list)
    end subroutine exchange_iteration_list
 
    !> Column by column: there may be thousands, in every file.
@@ -276,6 +280,19 @@ contains
       call exchange_vector(archive, 'residual', list%residual)
    end subroutine exchange_iterations
 
+   subroutine exchange_extreme_list(archive, name, list)
+      type(archive_t), intent(inout) :: archive
+      character(len=*), intent(in) :: name
+      type(extreme_t), allocatable, intent(inout) :: list(:)
+      integer(ip) :: n, i
+
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      do i = 1, n
+         call exchange_extreme(archive, list(i))
+      end do
+   end subroutine exchange_extreme_list
+
    subroutine exchange_extreme(archive, extreme)
       type(archive_t), intent(inout) :: archive
       type(extreme_t), intent(inout) :: extreme
@@ -284,6 +301,7 @@ contains
       call exchange(archive, 'id', extreme%id)
       call exchange_vector(archive, 'x', extreme%x)
       call exchange(archive, 'is_node', extreme%is_node)
+      call exchange_word(archive, 'quantity', extreme%quantity)
    end subroutine exchange_extreme
 
    subroutine exchange_balance(archive, balance)

@@ -1,6 +1,6 @@
 !> What of a scene goes into an archive, or comes out of it: atrito_archive.
 module atrito_exchange_scene
-   use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_size
+   use atrito_archive, only: archive_t, exchange, exchange_vector, exchange_length
    use atrito_kinds, only: ip
    use atrito_results, only: body_result_t, pair_scene_t, scene_t
    use atrito_strings, only: string_t
@@ -48,16 +48,10 @@ contains
    subroutine provide_bodies(archive, bodies)
       type(archive_t), intent(inout) :: archive
       type(body_result_t), allocatable, intent(inout) :: bodies(:)
-      logical :: is_there
       integer(ip) :: n
 
-      is_there = allocated(bodies)
-      n = 0
-      if (is_there) n = size(bodies, kind=ip)
-      call exchange_size(archive, 'bodies', is_there, n)
-      if (.not. archive%is_reading) return
-      if (allocated(bodies)) deallocate (bodies)
-      if (is_there) allocate (bodies(n))
+      call exchange_length(archive, 'bodies', n, bodies)
+      if (archive%is_reading .and. n >= 0) allocate (bodies(n))
    end subroutine provide_bodies
 
    subroutine exchange_body(archive, body)
@@ -89,16 +83,10 @@ contains
    subroutine provide_pairs(archive, pairs)
       type(archive_t), intent(inout) :: archive
       type(pair_scene_t), allocatable, intent(inout) :: pairs(:)
-      logical :: is_there
       integer(ip) :: n
 
-      is_there = allocated(pairs)
-      n = 0
-      if (is_there) n = size(pairs, kind=ip)
-      call exchange_size(archive, 'pairs', is_there, n)
-      if (.not. archive%is_reading) return
-      if (allocated(pairs)) deallocate (pairs)
-      if (is_there) allocate (pairs(n))
+      call exchange_length(archive, 'pairs', n, pairs)
+      if (archive%is_reading .and. n >= 0) allocate (pairs(n))
    end subroutine provide_pairs
 
    subroutine exchange_pair(archive, pair)
@@ -124,17 +112,10 @@ contains
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(string_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n, i
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
       do i = 1, n
          call exchange(archive, name, list(i)%s)
       end do

@@ -1,11 +1,13 @@
-!> The tables with rows of one increment each, docs/user/tables.md: contact, nodes, reactions, stress, bodies, joints, by
+!> The tables with rows of one increment each, docs/user/tables.md: contact, nodes, reactions, stress, bodies, joints, sections, by
 !> atrito_rigid_report rigid, and by atrito_row_tables ties, equations, springs.
 module atrito_frame_tables
+   use atrito_extreme_report, only: build_extremes
    use atrito_kinds, only: ip, wp
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_strings, only: string_t
    use atrito_model, only: model_t, requests_t, is_due
    use atrito_results, only: results_t, history_t, contact_result_t, body_motion_t
+   use atrito_resultant_report, only: has_resultants, build_resultants
    use atrito_rigid_report, only: build_rigid_table
    use atrito_row_tables, only: has_rows, build_row_table
    use atrito_summary, only: scales_t, pair_count
@@ -38,13 +40,20 @@ contains
       do i = 1, n
          associate (frame => history%frames(i))
             is_in(i) = has_table(model, frame, name)
-            if (is_in(i) .and. i < n) then
+            if (is_in(i) .and. i < n .and. .not. is_of_all(name)) then
                is_in(i) = is_due(frequency_of(model%steps(frame%step)%requests, name), frame%increment, frame%ends_step)
             end if
          end associate
       end do
       list = pack([(i, i=1, n)], is_in)
    end function due_frames
+
+   !> Whether a table has rows of every frame.
+   pure logical function is_of_all(name)
+      character(len=*), intent(in) :: name
+
+      is_of_all = name == 'extremes' .or. name == 'resultants'
+   end function is_of_all
 
    !> Whether a frame can have rows in a table, and its step asks for them.
    pure logical function has_table(model, frame, name)
@@ -68,6 +77,14 @@ contains
             has_table = allocated(frame%rigid)
          case ('joints')
             has_table = requests%joints .and. allocated(frame%joints)
+         case ('nodal_stress')
+            has_table = requests%nodal_stress .and. allocated(frame%nodal_stress)
+         case ('extremes')
+            has_table = allocated(frame%extremes)
+         case ('resultants')
+            has_table = has_resultants(model)
+         case ('sections')
+            has_table = allocated(requests%cuts) .and. allocated(frame%cuts)
          case default
             has_table = has_rows(model, frame, name)
          end select
@@ -86,10 +103,14 @@ contains
          every = requests%every%reactions
       case ('stress')
          every = requests%every%stress
+      case ('nodal_stress')
+         every = requests%every%nodal_stress
       case ('bodies')
          every = requests%every%bodies
       case ('joints')
          every = requests%every%joints
+      case ('sections')
+         every = requests%every%sections
       case default
          every = requests%every%contact
       end select
@@ -113,12 +134,20 @@ contains
          call build_reactions(model, frame, scales, table)
       case ('stress')
          call build_stress(model, frame, scales, table)
+      case ('nodal_stress')
+         call build_nodal_stress(model, frame, scales, table)
       case ('bodies')
          call build_bodies(frame, scales, table)
+      case ('extremes')
+         call build_extremes(frame, scales, table)
+      case ('resultants')
+         call build_resultants(model, frame, scales, table)
       case ('rigid')
          call build_rigid_table(frame, scales, table)
       case ('joints')
          call build_joints(frame, scales, own, table)
+      case ('sections')
+         call build_sections(frame, scales, table)
       case default
          call build_row_table(model, frame, scales, name, table)
       end select
@@ -284,6 +313,30 @@ contains
       call add_integers(table, 'increment', [results%increment])
    end subroutine build_stress
 
+   !> The table points at the fields of results and at the model's nodes.
+   subroutine build_nodal_stress(model, results, scales, table)
+      type(model_t), intent(in), target :: model
+      type(results_t), intent(in), target :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      integer :: i
+
+      call begin_table(table, 'nodal_stress', 'a row a node of an element: recovered stresses, the mean of all elements round it', &
+                       model%mesh%n_nodes)
+      if (.not. takes_all(model%steps(results%step)%requests%node_s)) then
+         table%places = places(model%steps(results%step)%requests%node_s, model%mesh%n_nodes)
+         table%n_rows = size(table%places, kind=ip)
+      end if
+      call add_integers(table, 'step', [results%step])
+      call add_integer_field(table, 'node', model%mesh%node_id)
+      call add_field(table, 'x', 'L', model%mesh%x(1, :), scales%length)
+      call add_field(table, 'y', 'L', model%mesh%x(2, :), scales%length)
+      do i = 1, size(STRESS_NAMES)
+         call add_field(table, trim(STRESS_NAMES(i)), 'F/L^2', results%nodal_stress(i, :), scales%nodal_stress)
+      end do
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_nodal_stress
+
    !> A row a body.
    subroutine build_bodies(results, scales, table)
       type(results_t), intent(in) :: results        !< with bodies
@@ -361,5 +414,32 @@ contains
                             ['F  ', 'F  ', 'F*L', 'L  ', 'L  ', 'L  ', 'L  '], field)
       call add_integers(table, 'increment', [results%increment])
    end subroutine build_joints
+
+   !> A row a cut.
+   subroutine build_sections(results, scales, table)
+      type(results_t), intent(in) :: results        !< with cuts
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      type(string_t) :: names(size(results%cuts))
+      real(wp) :: field(size(results%cuts), 6)
+      integer(ip) :: i, n
+
+      n = size(results%cuts, kind=ip)
+      do i = 1, n
+         associate (cut => results%cuts(i))
+            names(i)%s = one_word(cut%name)
+            field(i, :) = [cut%middle, cut%length, cut%n, cut%v, cut%m]
+            call clear_small(scales%length, field(i, 1:3))
+            call clear_small(cut%terms(1), field(i, 4:5))
+            call clear_small(cut%terms(2), field(i, 6:6))
+         end associate
+      end do
+      call begin_table(table, 'sections', 'a row a cut: forces upon what is behind it, moment about its middle', n)
+      call add_integers(table, 'step', [results%step])
+      call add_words(table, 'cut', '-', names, on_the_left=.true.)
+      call add_real_columns(table, [character(len=6) :: 'x', 'y', 'length', 'n', 'v', 'm'], &
+                            ['L  ', 'L  ', 'L  ', 'F  ', 'F  ', 'F*L'], field)
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_sections
 
 end module atrito_frame_tables

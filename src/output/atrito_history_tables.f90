@@ -3,7 +3,7 @@ module atrito_history_tables
    use atrito_kinds, only: ip, wp
    use atrito_increments, only: all_iterations
    use atrito_number_text, only: trimmed_real
-   use atrito_results, only: results_t, history_t, history_row_t, iteration_t
+   use atrito_results, only: results_t, history_t, history_row_t, iteration_t, observed_list_t
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_summary, only: pair_summary_t, quantity_t, scales_t, summarise_pair, pair_quantities, step_quantities, pair_count
    use atrito_table, only: table_t, begin_table, add_reals, add_integers, add_words, abs_is_below, ZERO_SHARE
@@ -124,8 +124,58 @@ contains
       end do
    end subroutine describe_dimensions
 
-   !> A row an increment and pair. What is rounding beside the largest of its pair becomes 0.
-   subroutine build_history(rows, length, table)
+   !> A row an increment and pair, and what is observed; without a pair a row an increment with what is observed.
+   subroutine build_history(history, length, table)
+      type(history_t), intent(in) :: history        !< with rows, or with what was observed
+      real(wp), intent(in) :: length                !< largest coordinate [L]
+      type(table_t), intent(out) :: table
+      integer(ip) :: i
+
+      associate (list => history%observed)
+         if (size(history%rows) > 0) then
+            call build_rows(history%rows, length, table)
+            if (list%n > 0) call add_observed(history, places_of(history%rows, list), table)
+         else
+            call begin_table(table, 'history', 'a row an increment', list%n)
+            call add_integers(table, 'step', list%step(:list%n))
+            call add_integers(table, 'increment', list%increment(:list%n))
+            call add_reals(table, 'time', '-', list%time(:list%n), 0.0_wp)
+            call add_observed(history, [(i, i=1, list%n)], table)
+         end if
+      end associate
+   end subroutine build_history
+
+   !> Where the increment of each row is in the list; both go with the time.
+   pure function places_of(rows, list) result(place)
+      type(history_row_t), intent(in) :: rows(:)
+      type(observed_list_t), intent(in) :: list
+      integer(ip) :: place(size(rows)), i, k
+
+      k = 1
+      do i = 1, size(rows, kind=ip)
+         do while (k < list%n .and. (list%step(k) /= rows(i)%step .or. list%increment(k) /= rows(i)%increment))
+            k = k + 1
+         end do
+         place(i) = k
+      end do
+   end function places_of
+
+   !> A column each of what is observed.
+   subroutine add_observed(history, place, table)
+      type(history_t), intent(in) :: history        !< with frames: they have the names
+      integer(ip), intent(in) :: place(:)           !< (n_rows) in the list
+      type(table_t), intent(inout) :: table
+      integer :: i
+
+      associate (named => history%frames(1)%observed)
+         do i = 1, size(named)
+            call add_reals(table, trim(named(i)%name), 'mixed', history%observed%values(i, place), 0.0_wp)
+         end do
+      end associate
+   end subroutine add_observed
+
+   !> What is rounding beside the largest of its pair becomes 0.
+   subroutine build_rows(rows, length, table)
       type(history_row_t), intent(in) :: rows(:)
       real(wp), intent(in) :: length                !< largest coordinate [L]
       type(table_t), intent(out) :: table
@@ -149,7 +199,7 @@ contains
       call add_integers(table, 'slip', (rows%slip))
       call add_reals(table, 'dissipation', 'F*L', (clean%dissipation), 0.0_wp)
       call add_reals(table, 'elastic_energy', 'F*L', (clean%elastic_energy), 0.0_wp)
-   end subroutine build_history
+   end subroutine build_rows
 
    !> By the largest resultant and pressure of each pair in the history, and that resultant times the length for the moment.
    pure subroutine clear_rounding(length, rows)

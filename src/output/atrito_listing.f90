@@ -1,5 +1,6 @@
 !> The printed listing of a run, <deck name>.lst: made to be read and handed in.
 module atrito_listing
+   use atrito_as_run_names, only: as_run_name
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -8,6 +9,7 @@ module atrito_listing
    use atrito_messages, only: count_messages, get_message, format_message
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
+   use atrito_extreme_report, only: describe_extremes
    use atrito_frame_tables, only: due_frames
    use atrito_increments, only: increment_t, list_increments, has_history, increment_name, ending_text, time_text
    use atrito_libraries, only: library_t, list_libraries, USED, NOT_USED
@@ -16,6 +18,7 @@ module atrito_listing
    use atrito_page, only: page_t, begin_page, add_line, add_blank, add_rule, add_heading, add_entry, add_paragraph, left, right, &
                           number, bytes
    use atrito_model_report, only: describe_model
+   use atrito_resultant_report, only: describe_resultants
    use atrito_row_tables, only: describe_rows
    use atrito_rigid_report, only: describe_rigid_bodies
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
@@ -24,7 +27,7 @@ module atrito_listing
    use atrito_table, only: ZERO_SHARE
    implicit none (type, external)
    private
-   public :: write_listing, compose_listing
+   public :: write_listing, compose_listing, list_used_libraries, date_text
 
    integer, parameter :: WIDTH = 100                !< columns
    integer, parameter :: DIGITS = 6                 !< of numbers for people
@@ -59,6 +62,7 @@ contains
       type(history_t), intent(in) :: history
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that are drawn after the listing, names without ending
+      type(scales_t) :: scales
 
       call begin_page(page, WIDTH)
       call add_title(page, model, history)
@@ -75,11 +79,13 @@ contains
          if (has_history(model, history)) call add_increments(page, history)
          call add_iterations(page, last)
          call add_heading(page, '5  CONTACT')
-         call add_contact(page, model, history)
+         scales = measure_history(model, history)
+         call add_contact(page, model, history, scales)
          call describe_rows(page, model, last)
          call add_heading(page, '6  REACTIONS AND EQUILIBRIUM')
          if (has_history(model, history)) call add_line(page, '   at the end: '//frame_name(last))
-         call add_equilibrium(page, last)
+         call add_equilibrium(page, model, last, scales)
+         call describe_extremes(page, last, scales)
          call add_end(page, last, pictures)
       end associate
    end subroutine compose_listing
@@ -147,18 +153,25 @@ contains
       call add_blank(page)
    end subroutine add_increments
 
-   !> Compiler and libraries; those that this run did not use are told so.
    subroutine add_libraries(page, scene)
       type(page_t), intent(inout) :: page
       type(scene_t), intent(in) :: scene
       type(library_t), allocatable :: list(:)
       integer :: i
 
-      call list_libraries(merge(USED, NOT_USED, uses(scene, 'mumps')), list, is_by_metis(scene))
+      call list_used_libraries(scene, list)
       do i = 1, size(list)
          call add_entry(page, trim(list(i)%name), list(i)%version)
       end do
    end subroutine add_libraries
+
+   !> Compiler and libraries; those that this run did not use are told so.
+   subroutine list_used_libraries(scene, list)
+      type(scene_t), intent(in) :: scene
+      type(library_t), allocatable, intent(out) :: list(:)
+
+      call list_libraries(merge(USED, NOT_USED, uses(scene, 'mumps')), list, is_by_metis(scene))
+   end subroutine list_used_libraries
 
    !> Whether any order of elimination is METIS's.
    pure logical function is_by_metis(scene)
@@ -197,6 +210,9 @@ contains
       do i = 1, size(model%heading)
          call add_paragraph(page, model%heading(i)%s, 6)
       end do
+      if (allocated(model%provenance%options)) call add_line(page, left('options  '//model%provenance%options, WIDTH))
+      if (allocated(model%provenance%digest)) call add_line(page, 'as run  '//as_run_name(model%deck_name)//', digest '// &
+                                                            model%provenance%digest)
       call add_rule(page, '=')
       if (history%ending%is_early) then
          call add_blank(page)
@@ -275,10 +291,11 @@ contains
    end function iteration_line
 
    !> The pairs of each increment whose contact is printed.
-   subroutine add_contact(page, model, history)
+   subroutine add_contact(page, model, history, scales)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
+      type(scales_t), intent(in) :: scales           !< of the history
       type(scales_t), allocatable :: own(:)
       integer(ip), allocatable :: due(:)
       integer :: i
@@ -288,7 +305,7 @@ contains
          call add_line(page, '   no contact pair')
          return
       end if
-      own = pair_scales(measure_history(model, history), history)
+      own = pair_scales(scales, history)
       do i = 1, size(due)
          if (i > 1) call add_blank(page)
          if (has_history(model, history)) call add_line(page, frame_name(history%frames(due(i))))
@@ -340,9 +357,11 @@ contains
       end do
    end function with_blanks
 
-   subroutine add_equilibrium(page, results)
+   subroutine add_equilibrium(page, model, results, scales)
       type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
       type(quantity_t), allocatable :: list(:)
       type(balance_t) :: b
       integer :: i
@@ -360,6 +379,7 @@ contains
       call add_line(page, force_line('from rigid surfaces', -b%rigid))
       if (any(abs(b%rows) > 0.0_wp)) call add_line(page, force_line('from springs and equations', -b%rows))
       call add_line(page, force_line('sum', balance_sum(b)))
+      call describe_resultants(page, model, results, scales)
       call describe_rigid_bodies(page, results)
       call add_blank(page)
       list = step_quantities(results)

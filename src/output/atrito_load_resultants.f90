@@ -1,20 +1,23 @@
 !> Resultants of what acts upon a model.
 module atrito_load_resultants
    use atrito_amplitudes, only: factor_at, time_before
-   use atrito_element_table, only: MOST_CORNERS
+   use atrito_element, only: body_load, pressure_load
+   use atrito_element_table, only: MOST_CORNERS, MOST_NODES
    use atrito_face_loads, only: traction_load, hydrostatic_load
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: face_end, face_nodes, side_count
-   use atrito_model, only: model_t, element_load_t, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC
-   use atrito_plane_state, only: depth_at
+   use atrito_mesh, only: face_end, face_nodes, side_count, depth_places
+   use atrito_model, only: model_t, element_load_t, LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, &
+                           is_on_volume
+   use atrito_plane_state, only: depth_at, IS_TAPERED
    implicit none (type, external)
    private
-   public :: force_t, load_resultants, last_factor
+   public :: force_t, load_resultants, last_factor, add_to, add_element_load
 
    !> A resultant [F] and its moment about the origin [F L].
    type :: force_t
       real(wp) :: f(2) = 0.0_wp
       real(wp) :: moment = 0.0_wp
+      real(wp) :: terms = 0.0_wp                    !< sum of the sizes of what was added [F]
    end type force_t
 
 contains
@@ -64,6 +67,8 @@ contains
 
       associate (loads => model%steps(k)%rigid_loads)
          do i = 1, loads%n
+            ! two forces that balance each other
+            if (model%rigid_bodies(findloc(model%rigid_bodies%node, loads%node(i), dim=1))%is_section) cycle
             value = loads%value(i)
             if (allocated(loads%amplitude)) value = value*last_factor(model, k, loads%amplitude(i))
             f = 0.0_wp
@@ -89,22 +94,51 @@ contains
       integer(ip) :: i
 
       do i = 1, loads%n
-         select case (loads%kind(i))
-         case (LOAD_PRESSURE)
-            call add_pressure(model, loads, i, pressure)
-         case (LOAD_BODY)
-            call add_body_force(model, loads, i, body)
-         case default
-            call add_face_load(model, loads, i, pressure)
-         end select
+         if (is_on_volume(loads%kind(i))) then
+            call add_element_load(model, loads, i, body)
+         else
+            call add_element_load(model, loads, i, pressure)
+         end if
       end do
    end subroutine add_element_loads
 
+   !> Adds the resultant of one load.
+   pure subroutine add_element_load(model, loads, i, force)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: i                  !< place in loads
+      type(force_t), intent(inout) :: force
+      logical :: tapers                             ! no simple formula knows where the resultant goes through
+
+      tapers = IS_TAPERED(model%mesh%state(loads%element(i)))
+      select case (loads%kind(i))
+      case (LOAD_PRESSURE)
+         if (tapers) then
+            call add_face_load(model, loads, i, force)
+         else
+            call add_pressure(model, loads, i, force)
+         end if
+      case (LOAD_BODY)
+         if (tapers) then
+            call add_nodal_forces(model, loads%element(i), loads%value(:2, i), [0.0_wp, 0.0_wp, 0.0_wp], force)
+         else
+            call add_body_force(model, loads, i, force)
+         end if
+      case (LOAD_LINEAR)
+         call add_nodal_forces(model, loads%element(i), [0.0_wp, 0.0_wp], loads%value(:, i), force)
+      case default
+         call add_face_load(model, loads, i, force)
+      end select
+   end subroutine add_element_load
+
+   !> Adds a force at a place.
    pure subroutine add_to(force, f, x)
       type(force_t), intent(inout) :: force
-      real(wp), intent(in) :: f(2), x(2)
+      real(wp), intent(in) :: f(2)                  !< [F]
+      real(wp), intent(in) :: x(2)                  !< [L]
 
       force%f = force%f + f
+      force%terms = force%terms + (abs(f(1)) + abs(f(2)))
       force%moment = force%moment + (x(1)*f(2) - x(2)*f(1))
    end subroutine add_to
 
@@ -132,19 +166,23 @@ contains
       integer(ip), intent(in) :: i                  !< place in the element_loads
       type(force_t), intent(inout) :: force
       integer(ip), allocatable :: nodes(:)
-      real(wp), allocatable :: f(:, :)
+      real(wp), allocatable :: f(:, :), places(:)
       integer(ip) :: e, k
 
       e = loads%element(i)
       nodes = face_nodes(model%mesh, e, loads%face(i))
       allocate (f(2, size(nodes)))
+      places = depth_places(model%mesh, model%mesh%state(e), nodes)
       associate (value => loads%value(:, i), x => model%mesh%x(:, nodes), &
                  thickness => model%sections(model%section_of(e))%thickness)
-         if (loads%kind(i) == LOAD_TRACTION) then
-            call traction_load(x, value(:2), thickness, model%mesh%state(e), f)
-         else
-            call hydrostatic_load(x, value(1), value(2:3), thickness, model%mesh%state(e), f)
-         end if
+         select case (loads%kind(i))
+         case (LOAD_TRACTION)
+            call traction_load(x, value(:2), thickness, model%mesh%state(e), f, places)
+         case (LOAD_HYDROSTATIC)
+            call hydrostatic_load(x, value(1), value(2:3), thickness, model%mesh%state(e), f, places)
+         case default
+            call pressure_load(x, value(1), thickness, model%mesh%state(e), f, places)
+         end select
          do k = 1, size(nodes, kind=ip)
             call add_to(force, f(:, k), x(:, k))
          end do
@@ -170,6 +208,25 @@ contains
          call add_to(force, area*depth_of(model, e, middle(1))*loads%value(:2, i), middle)
       end do
    end subroutine add_body_force
+
+   !> A force per volume, which may be linear in the place, by its nodal forces.
+   pure subroutine add_nodal_forces(model, e, density, slope, force)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: e                  !< element
+      real(wp), intent(in) :: density(2), slope(3)  !< of body_load [F/L^3, F/L^4]
+      type(force_t), intent(inout) :: force
+      real(wp) :: f(2, MOST_NODES)
+      integer(ip) :: k, n
+
+      n = model%mesh%shape(e)
+      associate (nodes => model%mesh%nodes(:n, e), state => model%mesh%state(e))
+         call body_load(model%mesh%x(:, nodes), density, model%sections(model%section_of(e))%thickness, state, f(:, :n), &
+                        slope, depth_places(model%mesh, state, nodes))
+         do k = 1, n
+            call add_to(force, f(:, k), model%mesh%x(:, nodes(k)))
+         end do
+      end associate
+   end subroutine add_nodal_forces
 
    pure real(wp) function depth_of(model, e, x1)
       type(model_t), intent(in) :: model

@@ -7,13 +7,14 @@ module atrito_model_report
    use atrito_rigid_report, only: describe_references
    use atrito_strings, only: to_text
    use atrito_mesh, only: is_revolved
+   use atrito_orthotropy, only: SPATIAL, inverse_of
    use atrito_sets, only: set_count
-   use atrito_model, only: model_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, METHOD_NAME, &
+   use atrito_model, only: model_t, section_t, step_t, requested_t, increments_t, interaction_t, FORMULATION_NAME, METHOD_NAME, &
                            FRICTION_NAME, KERNEL_NAME, FRICTION_NONE, FRICTION_NONLOCAL, LOAD_TRACTION, SURFACE_SEGMENTS
    use atrito_page, only: page_t, add_line, add_blank, add_entry, left, right, number, plural
    implicit none (type, external)
    private
-   public :: describe_model, describe_counts, describe_steps, is_history
+   public :: describe_model, describe_counts, describe_instances, describe_steps, is_history
 
    integer, parameter :: DIGITS = 6                 !< of numbers for people
 
@@ -25,6 +26,7 @@ contains
       type(model_t), intent(in) :: model
 
       call describe_counts(page, model)
+      call describe_instances(page, model)
       call describe_parameters(page, model)
       call describe_materials(page, model)
       call describe_amplitudes(page, model)
@@ -82,6 +84,26 @@ contains
       if (rigid > 0) text = text//' ('//to_text(rigid)//' of rigid segments)'
    end function surface_counts
 
+   !> The instances of parts: what their numbers are here, and where they stand.
+   subroutine describe_instances(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip) :: i
+
+      if (.not. allocated(model%instances)) return
+      if (size(model%instances, kind=ip) == 0) return
+      call add_blank(page)
+      call add_line(page, '   '//left('instance', 24)//left('part', 24)//right('number 1 is', 12)//right('dx [L]', 14)// &
+                    right('dy [L]', 14)//right('turned [deg]', 14))
+      do i = 1, size(model%instances, kind=ip)
+         associate (instance => model%instances(i))
+            call add_line(page, '   '//left(instance%name, 24)//left(instance%part, 24)// &
+                          right(to_text(instance%first_number), 12)//right(number(instance%shift(1), DIGITS), 14)// &
+                          right(number(instance%shift(2), DIGITS), 14)//right(number(instance%angle, DIGITS), 14))
+         end associate
+      end do
+   end subroutine describe_instances
+
    subroutine describe_parameters(page, model)
       type(page_t), intent(inout) :: page
       type(model_t), intent(in) :: model
@@ -113,10 +135,16 @@ contains
       call add_line(page, '   '//left('material', 24)//right('E [F/L^2]', 16)//right('mu', 12)//right('density', 16))
       do i = 1, size(model%materials, kind=ip)
          associate (material => model%materials(i))
-            call add_line(page, '   '//left(material%name, 24)//right(number(material%young, DIGITS), 16)// &
-                          right(number(material%poisson, DIGITS), 12)//right(number(material%density, DIGITS), 16))
+            if (material%is_orthotropic) then
+               call add_line(page, '   '//left(material%name, 24)//right('orthotropic', 16)//right('', 12)// &
+                             right(number(material%density, DIGITS), 16))
+            else
+               call add_line(page, '   '//left(material%name, 24)//right(number(material%young, DIGITS), 16)// &
+                             right(number(material%poisson, DIGITS), 12)//right(number(material%density, DIGITS), 16))
+            end if
          end associate
       end do
+      if (any(model%materials%is_orthotropic)) call describe_orthotropic(page, model)
       if (any(model%materials%has_expansion)) call describe_expansions(page, model)
       call add_blank(page)
       call add_line(page, '   '//left('section of elements', 24)//right('elements', 16)//right('thickness', 12)//'    '// &
@@ -124,11 +152,57 @@ contains
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i))
             call add_line(page, '   '//left(section%elset, 24)//right(to_text(elements(i)), 16)// &
-                          right(number(section%thickness, DIGITS), 12)//'    '//left(model%materials(section%material)%name, 24)// &
+                          right(thickness_text(section), 12)//'    '//left(model%materials(section%material)%name, 24)// &
                           trim(FORMULATION_NAME(section%formulation)))
          end associate
       end do
    end subroutine describe_materials
+
+   !> The thickness of a section, or that it is the nodes'.
+   pure function thickness_text(section) result(text)
+      type(section_t), intent(in) :: section
+      character(len=:), allocatable :: text
+
+      text = number(section%thickness, DIGITS)
+      if (section%is_tapered) text = 'of nodes'
+   end function thickness_text
+
+   !> Moduli and Poisson's ratios of orthotropic materials, and the axes of the sections that have them.
+   subroutine describe_orthotropic(page, model)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      real(wp) :: s(SPATIAL, SPATIAL)
+      integer(ip) :: i
+
+      call add_blank(page)
+      call add_line(page, '   '//left('orthotropic', 16)//right('E1', 12)//right('E2', 12)//right('E3', 12)//right('nu12', 12)// &
+                    right('nu13', 12)//right('nu23', 12)//right('G12', 12))
+      do i = 1, size(model%materials, kind=ip)
+         if (.not. model%materials(i)%is_orthotropic) cycle
+         s = inverse_of(model%materials(i)%stiffness)
+         call add_line(page, '   '//left(model%materials(i)%name, 16)//in_columns([1/s(1, 1), 1/s(2, 2), 1/s(3, 3), &
+                                                                  -s(1, 2)/s(1, 1), -s(1, 3)/s(1, 1), -s(2, 3)/s(2, 2), 1/s(4, 4)]))
+      end do
+      do i = 1, size(model%sections, kind=ip)
+         associate (section => model%sections(i))
+            if (model%materials(section%material)%is_orthotropic) then
+               call add_entry(page, section%elset//', first axis', '('//number(section%axis(1), DIGITS)//', '// &
+                              number(section%axis(2), DIGITS)//')')
+            end if
+         end associate
+      end do
+   end subroutine describe_orthotropic
+
+   function in_columns(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = ''
+      do i = 1, size(values)
+         text = text//right(number(values(i), DIGITS), 12)
+      end do
+   end function in_columns
 
    subroutine describe_expansions(page, model)
       type(page_t), intent(inout) :: page

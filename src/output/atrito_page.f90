@@ -1,12 +1,13 @@
 !> A page of text for people: the listing, the closing summary and the report of `atrito check` are made of these lines.
 module atrito_page
    use atrito_kinds, only: ip, lp, wp, is_nan
+   use atrito_number_text, only: short_real
    use atrito_strings, only: string_t, join, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: page_t, begin_page, begin_report, add_item, add_files, add_line, add_rule, add_heading, add_entry, add_paragraph, &
-             add_blank, print_page
+   public :: page_t, begin_page, begin_report, add_item, add_above_rule, add_files, add_line, add_rule, add_heading, &
+             add_entry, add_paragraph, add_blank, print_page
    public :: left, right, number, bytes, plural, text_width
 
    type :: page_t
@@ -47,6 +48,18 @@ contains
 
       call add_line(page, left(left(label, ITEM_WIDTH)//value, page%width))
    end subroutine add_item
+
+   !> An item before the rule that ends a report.
+   pure subroutine add_above_rule(page, label, value)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: label, value
+      character(len=:), allocatable :: rule
+
+      rule = page%lines(page%n)%s
+      page%n = page%n - 1
+      call add_item(page, label, value)
+      call add_line(page, rule)
+   end subroutine add_above_rule
 
    !> The end of a report: the tables and pictures in a folder.
    pure subroutine add_files(page, folder, tables, pictures)
@@ -227,7 +240,7 @@ contains
       else if (abs(x) > huge(x)) then
          text = 'infinite'
       else
-         text = to_text(x, digits)
+         text = short_real(x, digits)
       end if
    end function number
 

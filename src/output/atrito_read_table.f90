@@ -1,15 +1,15 @@
-!> Reads a table file back, for `atrito compare` and the tests.
+!> Reads a table file back, for `atrito compare`, sweeps and the tests: one with a head of comments, or comma-separated values.
 module atrito_read_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, lower_case, to_text
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_status, only: status_t, set_status, is_ok, STATUS_FILE
-   use atrito_files, only: read_file
-   use atrito_table, only: MARK_COLUMNS, MARK_NOT_CONVERGED
+   use atrito_files, only: read_file, file_exists
+   use atrito_table, only: MARK_COLUMNS, MARK_NOT_CONVERGED, TAB_ENDING, CSV_ENDING
    implicit none (type, external)
    private
-   public :: table_file_t, read_table, parse_table, find_column, item_text
+   public :: table_file_t, read_table, parse_table, table_path, find_column, item_text
    public :: ITEM_WORD, ITEM_INTEGER, ITEM_REAL, ITEM_NAN
 
    integer, parameter :: ITEM_WORD = 0, ITEM_INTEGER = 1, ITEM_REAL = 2, ITEM_NAN = 3
@@ -17,6 +17,7 @@ module atrito_read_table
    !> A table as it stands in its file.
    type :: table_file_t
       character(len=:), allocatable :: name            !< file name without folder
+      logical :: is_csv = .false.                      !< it has no head: whether the run converged it does not tell
       logical :: not_converged = .false.
       type(string_t), allocatable :: columns(:)        !< their names
       integer(ip) :: n_columns = 0, n_rows = 0
@@ -28,8 +29,19 @@ module atrito_read_table
 
    character(len=1), parameter :: LINE_FEED = achar(10), CARRIAGE_RETURN = achar(13), TAB = achar(9)
    character(len=*), parameter :: BLANKS = ' '//TAB//CARRIAGE_RETURN
+   character(len=1), parameter :: QUOTE = '"'
 
 contains
+
+   !> The file of a table in a folder, in the form in which it is there; that with a head where it is there in neither.
+   function table_path(folder, name) result(path)
+      character(len=*), intent(in) :: folder, name     !< name of the table
+      character(len=:), allocatable :: path
+
+      path = folder//'/'//name//TAB_ENDING
+      if (file_exists(path)) return
+      if (file_exists(folder//'/'//name//CSV_ENDING)) path = folder//'/'//name//CSV_ENDING
+   end function table_path
 
    !> Reads a table file. status: STATUS_FILE when it cannot be read or is no table of atrito.
    subroutine read_table(path, table, status)
@@ -54,26 +66,31 @@ contains
 
       table%name = name
       table%text = text
+      table%is_csv = index(name, CSV_ENDING, back=.true.) == max(1, len(name) - len(CSV_ENDING) + 1)
       allocate (table%columns(0))
       if (index(text, achar(0)) > 0) then
          call set_status(status, STATUS_FILE, 'is not a text file')
          return
       end if
-      call read_comments(table, n_rows)
-      table%n_columns = size(table%columns, kind=ip)
-      if (table%n_columns == 0) then
-         call set_status(status, STATUS_FILE, 'is no table of atrito: it has no line `'//MARK_COLUMNS//' ...`')
-         return
+      first = 1
+      if (table%is_csv) then
+         call read_first_row(table, first, n_rows, status)
+      else
+         call read_comments(table, n_rows)
+         if (size(table%columns) == 0) then
+            call set_status(status, STATUS_FILE, 'is no table of atrito: it has no line `'//MARK_COLUMNS//' ...`')
+         end if
       end if
+      if (.not. is_ok(status)) return
+      table%n_columns = size(table%columns, kind=ip)
       allocate (table%first(table%n_columns, n_rows), table%last(table%n_columns, n_rows), source=0_ip)
       allocate (table%kind(table%n_columns, n_rows), source=ITEM_WORD)
       allocate (table%value(table%n_columns, n_rows), source=0.0_wp)
-      first = 1
-      line = 0
+      line = merge(1, 0, table%is_csv)
       do while (first <= len(text) .and. is_ok(status))
          last = end_of_line(text, first)
          line = line + 1
-         if (is_row(text(first:last))) call read_row(table, first, last, line, status)
+         if (is_row(text(first:last), table%is_csv)) call read_row(table, first, last, line, status)
          first = last + 2
       end do
    end subroutine parse_table
@@ -87,15 +104,89 @@ contains
       last = merge(len(text), first + last - 2, last == 0)
    end function end_of_line
 
-   !> A line that is neither blank nor a comment.
-   pure logical function is_row(line)
+   !> A line that is neither blank nor a comment; among comma-separated values there are none.
+   pure logical function is_row(line, is_csv)
       character(len=*), intent(in) :: line
+      logical, intent(in) :: is_csv
       integer :: i
 
       i = verify(line, BLANKS)
       is_row = i > 0
-      if (is_row) is_row = line(i:i) /= '#'
+      if (is_row .and. .not. is_csv) is_row = line(i:i) /= '#'
    end function is_row
+
+   !> The names in the first row of comma-separated values, and how many rows follow.
+   subroutine read_first_row(table, next, n_rows, status)
+      type(table_file_t), intent(inout) :: table
+      integer, intent(out) :: next                  !< first character of the next line
+      integer(ip), intent(out) :: n_rows
+      type(status_t), intent(inout) :: status
+      real(wp) :: value
+      integer :: first, last, ends, outcome
+
+      ends = end_of_line(table%text, 1)
+      next = 1
+      outcome = NUMBER_OK
+      do while (next <= last_of_row(table%text, ends) + 1)
+         call take_csv_item(table%text(:ends), next, first, last)
+         call append_string(table%columns, table%text(first:last))
+         call read_real(table%text(first:last), value, outcome)
+         if (outcome == NUMBER_OK .or. first > last) exit
+      end do
+      if (size(table%columns) == 0 .or. outcome == NUMBER_OK .or. first > last) then
+         call set_status(status, STATUS_FILE, 'is no table of atrito: its first row has no names')
+      end if
+      next = ends + 2
+      n_rows = 0
+      first = next
+      do while (first <= len(table%text))
+         last = end_of_line(table%text, first)
+         if (is_row(table%text(first:last), .true.)) n_rows = n_rows + 1
+         first = last + 2
+      end do
+   end subroutine read_first_row
+
+   !> Place of the last character of a row, the carriage return apart.
+   pure integer function last_of_row(text, ends) result(last)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: ends                   !< of the line; 0: it is empty
+
+      last = ends
+      if (ends == 0) return
+      if (text(ends:ends) == CARRIAGE_RETURN) last = ends - 1
+   end function last_of_row
+
+   !> The item of comma-separated values that begins at `next`, which moves to that behind it: beyond the character after the row
+   !> there is none. Of an item in quotes what stands between them, doubled quotes as single ones.
+   pure subroutine take_csv_item(text, next, first, last)
+      character(len=*), intent(inout) :: text       !< up to the end of the row
+      integer, intent(inout) :: next
+      integer, intent(out) :: first, last
+      integer :: i
+
+      first = next
+      last = last_of_row(text, len(text))
+      next = index(text(first:last), ',')
+      next = merge(first + next, last + 2, next > 0)
+      if (text(first:min(first, last)) /= QUOTE) then
+         last = next - 2
+         return
+      end if
+      first = first + 1
+      i = first
+      next = first                                  ! where the next character goes
+      do while (i <= last)
+         if (text(i:i) == QUOTE) then
+            if (text(i + 1:min(i + 1, last)) /= QUOTE) exit
+            i = i + 1
+         end if
+         text(next:next) = text(i:i)
+         next = next + 1
+         i = i + 1
+      end do
+      last = next - 1
+      next = i + 2
+   end subroutine take_csv_item
 
    !> The column names, the mark of a run that did not converge, and how many rows there are.
    subroutine read_comments(table, n_rows)
@@ -108,7 +199,7 @@ contains
       do while (first <= len(table%text))
          last = end_of_line(table%text, first)
          associate (line => table%text(first:last))
-            if (is_row(line)) n_rows = n_rows + 1
+            if (is_row(line, .false.)) n_rows = n_rows + 1
             if (index(line, MARK_NOT_CONVERGED) == 1) table%not_converged = .true.
             if (index(line, MARK_COLUMNS) == 1) call read_names(line(len(MARK_COLUMNS) + 1:), table%columns)
          end associate
@@ -147,21 +238,26 @@ contains
       integer, intent(in) :: begins, ends           !< the row in table%text
       integer(ip), intent(in) :: line               !< its number, for the message
       type(status_t), intent(inout) :: status
-      integer :: first, last
+      integer :: first, last, next
       integer(ip) :: n
 
       n = 0
-      last = 0
+      last = begins - 1
+      next = begins
       table%n_rows = table%n_rows + 1
       do
-         call next_item(table%text(begins:ends), last, first)
-         if (first > last) exit
+         if (table%is_csv) then
+            if (next > last_of_row(table%text, ends) + 1) exit
+            call take_csv_item(table%text(:ends), next, first, last)
+         else
+            call next_item(table%text(:ends), last, first)
+            if (first > last) exit
+         end if
          n = n + 1
          if (n > table%n_columns) cycle
-         table%first(n, table%n_rows) = int(begins - 1 + first, ip)
-         table%last(n, table%n_rows) = int(begins - 1 + last, ip)
-         call read_item(table%text(begins - 1 + first:begins - 1 + last), table%kind(n, table%n_rows), &
-                        table%value(n, table%n_rows))
+         table%first(n, table%n_rows) = int(first, ip)
+         table%last(n, table%n_rows) = int(last, ip)
+         call read_item(table%text(first:last), table%kind(n, table%n_rows), table%value(n, table%n_rows))
       end do
       if (n /= table%n_columns) then
          call set_status(status, STATUS_FILE, 'line '//to_text(line)//' has '//to_text(n)//' values for '// &

@@ -3,14 +3,14 @@
 !> the file system, so that a run that is killed at any moment leaves the last one that was whole.
 module atrito_restart_file
    use atrito_archive, only: archive_t, create_archive, open_archive, begin_part, end_part, exchange, exchange_numbers, &
-                             exchange_vector, exchange_size, demand, is_sound, close_archive
+                             exchange_vector, exchange_length, demand, is_sound, close_archive
    use atrito_exchange_results, only: exchange_results, exchange_iteration_list
    use atrito_files, only: file_set_t, begin_files, file_exists, judge_file, reserve_file, commit_over, discard_files
    use atrito_fingerprint, only: fingerprint_t, find_difference
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_restart_state, only: restart_state_t, warm_start_t
-   use atrito_results, only: results_t, history_t, history_row_t
+   use atrito_results, only: results_t, history_t, history_row_t, observed_list_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_DECK, STATUS_FILE
    use atrito_strings, only: to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -90,7 +90,6 @@ contains
       type(archive_t), intent(inout) :: archive
       character(len=:), allocatable, intent(out) :: kind, program
       type(fingerprint_t), intent(inout) :: fingerprint
-      logical :: is_there
       integer(ip) :: n, i
 
       kind = FORMAT
@@ -98,12 +97,9 @@ contains
       call begin_part(archive, 'origin')
       call exchange(archive, 'kind', kind)
       call exchange(archive, 'program', program)
-      is_there = allocated(fingerprint%parts)
-      n = 0
-      if (is_there) n = size(fingerprint%parts, kind=ip)
       call exchange(archive, 'n_steps', fingerprint%n_steps)
-      call exchange_size(archive, 'parts', is_there, n)
-      if (archive%is_reading) allocate (fingerprint%parts(n))
+      call exchange_length(archive, 'parts', n, fingerprint%parts)
+      if (archive%is_reading) allocate (fingerprint%parts(max(n, 0_ip)))
       do i = 1, n
          call exchange(archive, 'name', fingerprint%parts(i)%name)
          call exchange(archive, 'size', fingerprint%parts(i)%size)
@@ -140,6 +136,7 @@ contains
       call exchange_results(archive, state%last)
       call exchange_row_list(archive, 'rows', history%rows)
       call exchange_iteration_list(archive, 'iterations', history%iterations)
+      call exchange_observed_list(archive, history%observed)
       if (allocated(history%frames)) frames = history%frames%increment
       call exchange(archive, 'increments of frames', frames)
       call end_part(archive)
@@ -217,22 +214,32 @@ contains
       call exchange(archive, 'changed', start%changed)
    end subroutine exchange_start
 
+   subroutine exchange_observed_list(archive, list)
+      type(archive_t), intent(inout) :: archive
+      type(observed_list_t), intent(inout) :: list
+
+      call exchange(archive, 'observed', list%n)
+      call exchange(archive, 'step', list%step)
+      call exchange(archive, 'increment', list%increment)
+      call exchange(archive, 'time', list%time)
+      call exchange(archive, 'values', list%values)
+      if (list%n == 0 .or. .not. (archive%is_reading .and. is_sound(archive))) return
+      call demand(archive, allocated(list%step) .and. allocated(list%increment) .and. allocated(list%time) &
+                  .and. allocated(list%values), 'observed')
+      if (.not. is_sound(archive)) return
+      call demand(archive, all([size(list%step), size(list%increment), size(list%time), size(list%values, 2)] == list%n), &
+                  'observed')
+   end subroutine exchange_observed_list
+
    subroutine exchange_row_list(archive, name, list)
       type(archive_t), intent(inout) :: archive
       character(len=*), intent(in) :: name
       type(history_row_t), allocatable, intent(inout) :: list(:)
-      logical :: is_there
       integer(ip) :: n
 
-      is_there = allocated(list)
-      n = 0
-      if (is_there) n = size(list, kind=ip)
-      call exchange_size(archive, name, is_there, n)
-      if (archive%is_reading) then
-         if (allocated(list)) deallocate (list)
-         if (is_there) allocate (list(n))
-      end if
-      if (is_there) call exchange_rows(archive, list)
+      call exchange_length(archive, name, n, list)
+      if (archive%is_reading .and. n >= 0) allocate (list(n))
+      if (n >= 0) call exchange_rows(archive, list)
    end subroutine exchange_row_list
 
    !> Column by column: there is a row of every increment and pair, in every file.

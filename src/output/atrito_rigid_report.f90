@@ -1,8 +1,8 @@
-!> Rigid surfaces that move: rigid.tab, and their lines of the listing.
+!> Rigid surfaces that move, and pre-tension sections: rigid.tab, and their lines of the listing.
 module atrito_rigid_report
    use atrito_kinds, only: ip, wp
    use atrito_load_resultants, only: last_factor
-   use atrito_model, only: model_t
+   use atrito_model, only: model_t, nodal_values_t
    use atrito_page, only: page_t, add_entry, add_line, add_blank, left, right, number
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
@@ -23,6 +23,7 @@ contains
       type(results_t), intent(in) :: results        !< with rigid bodies
       type(scales_t), intent(in) :: scales
       type(table_t), intent(out) :: table
+      character(len=:), allocatable :: title
       type(string_t) :: names(size(results%rigid))
       real(wp) :: field(size(results%rigid), 6), force
       integer(ip) :: i, n
@@ -32,14 +33,17 @@ contains
          associate (body => results%rigid(i))
             names(i)%s = one_word(body%name)
             field(i, :) = [body%u, body%rotation, body%reaction, body%moment]
-            force = max(scales%force, norm2(body%reaction))
+            if (body%is_section) field(i, 4) = body%force
+            force = max(scales%force, norm2(body%reaction), abs(body%force))
             call clear_small(scales%displacement, field(i, 1:2))
             call clear_small(scales%displacement/body%size, field(i, 3:3))
             call clear_small(force, field(i, 4:5))
             call clear_small(SUMMED*force*body%size, field(i, 6:6))
          end associate
       end do
-      call begin_table(table, 'rigid', 'a row a rigid surface with a reference node: its motion and what holds it', n)
+      title = 'a row a rigid surface with a reference node'
+      if (any(results%rigid%is_section)) title = title//', or a pre-tension section'
+      call begin_table(table, 'rigid', title//': its motion and what holds it', n)
       call add_integers(table, 'step', spread(results%step, 1, n))
       call add_words(table, 'body', '-', names, on_the_left=.true.)
       call add_integers(table, 'node', results%rigid%node)
@@ -60,6 +64,10 @@ contains
       if (.not. allocated(model%rigid_bodies)) return
       do i = 1, size(model%rigid_bodies, kind=ip)
          text = ''
+         if (model%rigid_bodies(i)%is_section) then
+            call describe_section(page, model, step, i)
+            cycle
+         end if
          associate (held => model%steps(step)%rigid_prescribed, node => model%rigid_bodies(i)%node)
             do k = 1, held%n
                if (held%node(k) /= node) cycle
@@ -75,6 +83,49 @@ contains
       end do
    end subroutine describe_references
 
+   !> A pre-tension section: its node, and what is prescribed or what force acts at the end of a step.
+   subroutine describe_section(page, model, step, i)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      integer(ip), intent(in) :: i                  !< of the rigid bodies
+      real(wp) :: moved, force
+      logical :: is_held, is_loaded
+
+      associate (body => model%rigid_bodies(i))
+         call add_up(model, step, body%node, model%steps(step)%rigid_prescribed, moved, is_held)
+         call add_up(model, step, body%node, model%steps(step)%rigid_loads, force, is_loaded)
+         if (is_held) then
+            call add_entry(page, 'pre-tension '//model%surfaces(body%surface)%name, &
+                           'node '//to_text(model%mesh%node_id(body%node))//', '//number(moved, DIGITS)//' [L] taken out')
+         else
+            call add_entry(page, 'pre-tension '//model%surfaces(body%surface)%name, &
+                           'node '//to_text(model%mesh%node_id(body%node))//', force '//number(force, DIGITS)//' [F]')
+         end if
+      end associate
+   end subroutine describe_section
+
+   !> What a list has at dof 1 of a node at the end of a step.
+   subroutine add_up(model, step, node, list, total, is_there)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step, node
+      type(nodal_values_t), intent(in) :: list
+      real(wp), intent(out) :: total
+      logical, intent(out) :: is_there
+      real(wp) :: value
+      integer(ip) :: k
+
+      total = 0.0_wp
+      is_there = .false.
+      do k = 1, list%n
+         if (list%node(k) /= node .or. list%dof(k) /= 1) cycle
+         is_there = .true.
+         value = list%value(k)
+         if (allocated(list%amplitude)) value = value*last_factor(model, step, list%amplitude(k))
+         total = total + value
+      end do
+   end subroutine add_up
+
    !> Motions and reactions, as rigid.tab has them, for the listing.
    subroutine describe_rigid_bodies(page, results)
       type(page_t), intent(inout) :: page
@@ -82,11 +133,14 @@ contains
       integer :: i
 
       if (.not. allocated(results%rigid)) return
+      call describe_sections(page, results)
+      if (all(results%rigid%is_section)) return
       call add_blank(page)
       call add_line(page, '   '//left('rigid body', 15)//right('u1 [L]', 14)//right('u2 [L]', 14)//right('rotation', 14)// &
                     right('R1 [F]', 14)//right('R2 [F]', 14)//right('moment [F L]', 14))
       do i = 1, size(results%rigid)
          associate (body => results%rigid(i))
+            if (body%is_section) cycle
             call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 14)// &
                           right(number(body%u(2), DIGITS), 14)//right(number(body%rotation, DIGITS), 14)// &
                           right(held(body%is_prescribed(1), body%reaction(1)), 14)// &
@@ -95,6 +149,24 @@ contains
          end associate
       end do
    end subroutine describe_rigid_bodies
+
+   !> What the sides of sections approach by, and their forces.
+   subroutine describe_sections(page, results)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results        !< with rigid bodies
+      integer :: i
+
+      if (.not. any(results%rigid%is_section)) return
+      call add_blank(page)
+      call add_line(page, '   '//left('pre-tension', 15)//right('taken out [L]', 16)//right('force [F]', 14))
+      do i = 1, size(results%rigid)
+         associate (body => results%rigid(i))
+            if (.not. body%is_section) cycle
+            call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 16) &
+                          //right(number(body%force, DIGITS), 14))
+         end associate
+      end do
+   end subroutine describe_sections
 
    !> A reaction, where there may be one.
    pure function held(is_prescribed, value) result(text)

@@ -1,26 +1,33 @@
 !> The closing summary of a run, at most a screen of 80 columns by 24 lines, and what `atrito check` prints.
 module atrito_screen
    use atrito_kinds, only: ip, wp
-   use atrito_strings, only: string_t, join, to_text
+   use atrito_strings, only: string_t, to_text
    use atrito_messages, only: count_messages, SEVERITY_WARNING, SEVERITY_NOTE
    use atrito_system, only: peak_memory
    use atrito_timers, only: phase_time_t, get_phases
    use atrito_model, only: model_t, METHOD_NAME
-   use atrito_results, only: results_t, history_t, scene_t, last_frame
+   use atrito_results, only: results_t, history_t, observed_t, scene_t, last_frame
    use atrito_increments, only: list_increments, has_history, increment_name, ending_text
-   use atrito_model_report, only: describe_counts, describe_steps, is_history
+   use atrito_extreme_report, only: add_extremes
+   use atrito_model_report, only: describe_counts, describe_instances, describe_steps, is_history
+   use atrito_resultant_report, only: add_supports
    use atrito_row_tables, only: joined_text
    use atrito_scene_report, only: describe_needs, describe_bodies, describe_pairs
    use atrito_page, only: page_t, begin_report, add_blank, add_heading, add_item, add_line, add_rule, left, right, number, bytes, &
                           plural
-   use atrito_plot_files, only: plot_folder
+   use atrito_plot_files, only: plot_folder, told_pictures
+   use atrito_report_file, only: REPORT_NAME
    use atrito_summary, only: pair_summary_t, summarise_pair, body_count, pair_count, pair_name
+   use atrito_table, only: TAB_ENDING, CSV_ENDING
    implicit none (type, external)
    private
    public :: compose_summary, compose_check
 
    integer, parameter :: WIDTH = 79                 !< columns; a terminal of 80 does not wrap
    integer, parameter :: SCREEN_LINES = 24
+   integer, parameter :: CLOSING_LINES = 5          !< of the end, without pictures and field files
+   integer, parameter :: ANSWER_LINES = 3           !< the largest displacement and stress, and supports
+   integer, parameter :: LEAST_OF_PAIRS = 2         !< that there are pairs
    integer, parameter :: MOST_OUTER = 4             !< outer iterations shown of a run that did not converge
    integer, parameter :: UNSETTLED_LINES = 2
    integer, parameter :: DIGITS = 5
@@ -46,7 +53,7 @@ contains
       type(string_t), intent(in) :: files(:)        !< names without folder
       type(page_t), intent(out) :: page
       type(string_t), intent(in), optional :: pictures(:)    !< that were drawn, names without folder and ending
-      integer :: extra
+      integer :: after                              ! lines of the end
 
       call begin_deck_report(page, model, '')
       call add_rule(page, '-')
@@ -54,18 +61,22 @@ contains
          call add_verdict(page, last, ending_text(history))
          call add_sizes(page, model, last)
          if (has_history(model, history)) call add_item(page, 'history', history_text(model, history))
-         extra = extra_lines(files, present(pictures))
-         if (has_history(model, history)) extra = extra + merge(3, 1, history%ending%is_early)
+         if (allocated(last%observed)) call add_item(page, 'observed', observed_text(last%observed))
+         after = CLOSING_LINES + extra_lines(files, present(pictures))
+         if (last%converged .and. last%law_holds .and. SCREEN_LINES - page%n - after >= ANSWER_LINES + LEAST_OF_PAIRS) then
+            call add_extremes(page, last)
+            call add_supports(page, model, last)
+         end if
          if (has_trail(last)) then                  ! the pairs of the last iterate say less than how it got there
-            call add_trail(page, last, SCREEN_LINES - page%n - 6 - extra_lines(files, present(pictures)))
+            call add_trail(page, last, SCREEN_LINES - page%n - after)
          else
-            call add_pairs(page, last, most_pairs(last, extra))
+            call add_pairs(page, last, most_pairs(pair_count(last), SCREEN_LINES - page%n - after))
          end if
       end associate
       call add_rule(page, '-')
       call add_closing(page, folder, files)
       if (present(pictures)) then
-         if (size(pictures) > 0) call add_item(page, 'plots in', plot_folder(folder)//': '//join(pictures, ' '))
+         if (size(pictures) > 0) call add_item(page, 'plots in', plot_folder(folder)//': '//told_pictures(pictures))
       end if
       call add_rule(page, '=')
    end subroutine compose_summary
@@ -82,6 +93,19 @@ contains
          text = text//increment_name(last%step, last%increment, last%time)
       end associate
    end function history_text
+
+   !> `tip = -0.012, peak = 3.4`: what the line holds; all are in the listing.
+   pure function observed_text(observed) result(text)
+      type(observed_t), intent(in) :: observed(:)
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = ''
+      do i = 1, size(observed)
+         text = text//', '//trim(observed(i)%name)//' = '//number(observed(i)%value, DIGITS)
+      end do
+      text = text(3:)
+   end function observed_text
 
    subroutine add_verdict(page, results, ending)
       type(page_t), intent(inout) :: page
@@ -201,21 +225,17 @@ contains
       text = text(3:)
    end function large_text
 
-   !> How many pairs leave the rest its place: a verdict takes two lines, a field file one.
-   pure integer(ip) function most_pairs(results, others) result(most)
-      type(results_t), intent(in) :: results
-      integer, intent(in) :: others                 !< lines of pictures, field files and the history
-      integer :: extra
+   !> How many pairs there is room for: two lines each behind a head of three, and one that tells of more.
+   pure integer(ip) function most_pairs(n, room) result(most)
+      integer(ip), intent(in) :: n                  !< pairs there are
+      integer, intent(in) :: room                   !< lines
 
-      extra = merge(1, 2, results%converged .and. results%law_holds)  ! the estimated error, or what is wrong
-      extra = extra + others
-      if (is_large(results)) extra = extra + 1
-      most = 2
-      if (extra > 2) most = 1
-      if (others > 3) most = 0                       ! an end before the end takes three lines
+      most = int((room - 3)/2, ip)
+      if (most < n) most = int((room - 4)/2, ip)
+      most = max(0_ip, most)
    end function most_pairs
 
-   !> Lines of pictures and field files.
+   !> Lines of pictures, field files and the report.
    pure integer function extra_lines(files, has_pictures) result(extra)
       type(string_t), intent(in) :: files(:)
       logical, intent(in) :: has_pictures
@@ -223,7 +243,7 @@ contains
 
       extra = merge(1, 0, has_pictures)
       do i = 1, size(files)
-         if (ends_with(files(i)%s, '.xdmf')) extra = extra + 1
+         if (ends_with(files(i)%s, '.xdmf') .or. files(i)%s == REPORT_NAME) extra = extra + 1
       end do
    end function extra_lines
 
@@ -333,7 +353,7 @@ contains
       character(len=*), intent(in) :: folder
       type(string_t), intent(in) :: files(:)
       type(phase_time_t), allocatable :: phases(:)
-      character(len=:), allocatable :: tables
+      character(len=:), allocatable :: tables, name
       integer :: i
 
       phases = get_phases()
@@ -342,16 +362,18 @@ contains
                     plural(count_messages(SEVERITY_NOTE), 'note', 'notes'))
       tables = ''
       do i = 1, size(files)
-         if (ends_with(files(i)%s, '.tab')) then
-            tables = tables//' '//files(i)%s(:len(files(i)%s) - 4)
+         if (ends_with(files(i)%s, TAB_ENDING) .or. ends_with(files(i)%s, CSV_ENDING)) then
+            name = files(i)%s(:len(files(i)%s) - len(TAB_ENDING))
+            if (.not. any(name == [character(len=10) :: 'iterations', 'timing'])) tables = tables//name//' '
          else if (ends_with(files(i)%s, '.lst')) then
             call add_line(page, left('listing', 13)//folder//'/'//files(i)%s)
          else if (ends_with(files(i)%s, '.xdmf')) then
             call add_line(page, left('fields', 13)//folder//'/'//files(i)%s//', with .h5')
+         else if (files(i)%s == REPORT_NAME) then
+            call add_line(page, left('report', 13)//folder//'/'//files(i)%s)
          end if
       end do
-      call add_line(page, left('tables in', 13)//folder)
-      call add_line(page, left('', 12)//left(tables, WIDTH - 12))
+      call add_item(page, 'and tables', tables)
    end subroutine add_closing
 
    pure logical function ends_with(name, ending)
@@ -377,6 +399,7 @@ contains
       call begin_deck_report(page, model, ' check')
       call add_rule(page, '=')
       call describe_counts(page, model)
+      call describe_instances(page, model)
       if (is_history(model)) then
          call add_heading(page, 'history')
          call describe_steps(page, model)

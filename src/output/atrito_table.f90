@@ -1,13 +1,15 @@
 !> A table: named columns with dimensions. How it becomes text: atrito_table_text.
 module atrito_table
    use atrito_kinds, only: ip, wp, is_nan
+   use atrito_provenance, only: provenance_t
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
    public :: table_t, column_t, origin_t, begin_table, add_reals, add_field, add_integers, add_integer_field, add_words, &
-             add_real_columns, clear_small, abs_is_below, one_word
+             add_real_columns, clear_small, abs_is_below, one_word, TAB_ENDING, CSV_ENDING
    public :: MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, ZERO_SHARE, KIND_REAL, KIND_INTEGER, KIND_WORD
 
+   character(len=*), parameter :: TAB_ENDING = '.tab', CSV_ENDING = '.csv'   !< of the two forms of a table file
    character(len=*), parameter :: MARK_NOT_CONVERGED = '# NOT CONVERGED'
    character(len=*), parameter :: MARK_COLUMNS = '# columns:'
    character(len=*), parameter :: MARK_DIMENSIONS = '# dimensions:'
@@ -31,7 +33,7 @@ module atrito_table
    end type column_t
 
    type :: table_t
-      character(len=:), allocatable :: name        !< file name without .tab
+      character(len=:), allocatable :: name        !< file name without its ending
       character(len=:), allocatable :: title       !< what a row is
       type(string_t), allocatable :: remarks(:)    !< further comment lines
       integer(ip) :: n_rows = 0
@@ -40,7 +42,7 @@ module atrito_table
    end type table_t
 
    !> Where tables come from: the comment lines at their top.
-   type :: origin_t
+   type, extends(provenance_t) :: origin_t
       character(len=:), allocatable :: deck        !< file name, without folder
       type(string_t), allocatable :: heading(:)
       logical :: not_converged = .false.

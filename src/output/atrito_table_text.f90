@@ -1,5 +1,6 @@
-!> How tables become a text file that people, numpy and gnuplot read.
+!> How tables become a text file that people, numpy and gnuplot read, or one of comma-separated values.
 module atrito_table_text
+   use atrito_csv_text, only: put_csv_names, put_csv_rows
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
@@ -8,8 +9,8 @@ module atrito_table_text
    use atrito_status, only: status_t, is_ok
    use atrito_threads, only: n_threads, is_shared
    use atrito_number_text, only: put_reals, put_integers, real_width, integer_width
-   use atrito_table, only: table_t, column_t, origin_t, MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, KIND_REAL, &
-                           KIND_INTEGER, KIND_WORD
+   use atrito_table, only: table_t, column_t, origin_t, MARK_NOT_CONVERGED, MARK_COLUMNS, MARK_DIMENSIONS, TAB_ENDING, &
+                           CSV_ENDING, KIND_REAL, KIND_INTEGER, KIND_WORD
    implicit none (type, external)
    private
    public :: write_table, write_table_set
@@ -26,38 +27,42 @@ module atrito_table_text
 
 contains
 
-   !> Writes <name>.tab into a set of files.
+   !> Writes <name>.tab, or <name>.csv, into a set of files.
    !>
    !> status: STATUS_FILE when it could not be written.
-   subroutine write_one_table(set, table, origin, digits, status)
+   subroutine write_one_table(set, table, origin, digits, status, is_csv)
       type(file_set_t), intent(inout) :: set
       type(table_t), intent(inout) :: table         !< its columns get their places
       type(origin_t), intent(in) :: origin
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv       !< left out: .false.
       type(text_file_t) :: file
+      logical :: csv
 
-      call open_text(set, table%name//'.tab', file)
+      call open_table(set, table%name, file, csv, is_csv)
       call widen_columns(table, digits)
       call place_columns(table)
-      call write_top(file, table, origin)
-      call write_rows(file, table, digits)
+      call write_top(file, table, origin, csv)
+      call write_rows(file, table, digits, csv)
       call close_text(file, status)
    end subroutine write_one_table
 
    !> Writes tables of the same columns, >= 1 of them, as one: under the head of the first the rows of all.
    !>
    !> status: STATUS_FILE when it could not be written.
-   subroutine write_tables_as_one(set, tables, origin, digits, status)
+   subroutine write_tables_as_one(set, tables, origin, digits, status, is_csv)
       type(file_set_t), intent(inout) :: set
       type(table_t), intent(inout) :: tables(:)     !< their columns get their places
       type(origin_t), intent(in) :: origin
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv       !< left out: .false.
       type(text_file_t) :: file
+      logical :: csv
       integer :: i
 
-      call open_text(set, tables(1)%name//'.tab', file)
+      call open_table(set, tables(1)%name, file, csv, is_csv)
       do i = 1, size(tables)
          call widen_columns(tables(i), digits)
       end do
@@ -65,12 +70,24 @@ contains
       do i = 1, size(tables)
          call place_columns(tables(i))
       end do
-      call write_top(file, tables(1), origin)
+      call write_top(file, tables(1), origin, csv)
       do i = 1, size(tables)
-         call write_rows(file, tables(i), digits)
+         call write_rows(file, tables(i), digits, csv)
       end do
       call close_text(file, status)
    end subroutine write_tables_as_one
+
+   subroutine open_table(set, name, file, csv, is_csv)
+      type(file_set_t), intent(inout) :: set
+      character(len=*), intent(in) :: name
+      type(text_file_t), intent(out) :: file
+      logical, intent(out) :: csv
+      logical, intent(in), optional :: is_csv       !< left out: .false.
+
+      csv = .false.
+      if (present(is_csv)) csv = is_csv
+      call open_text(set, name//merge(CSV_ENDING, TAB_ENDING, csv), file)
+   end subroutine open_table
 
    !> Each column becomes as wide in all tables as in the one where it needs most room.
    pure subroutine even_widths(tables)
@@ -85,21 +102,26 @@ contains
       end do
    end subroutine even_widths
 
-   !> Writes tables into a folder, all or none. status: STATUS_FILE.
-   subroutine write_table_set(folder, tables, origin, digits, status)
+   !> Writes tables into a folder, all or none; those of the other form that stand there go. status: STATUS_FILE.
+   subroutine write_table_set(folder, tables, origin, digits, status, is_csv)
       character(len=*), intent(in) :: folder
       type(table_t), intent(inout) :: tables(:)
       type(origin_t), intent(in) :: origin
       integer, intent(in) :: digits
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv       !< left out: .false.
       type(file_set_t) :: set
+      type(string_t), allocatable :: stale(:)
       integer :: i
 
+      allocate (stale(0))
       call begin_files(set, folder, status)
       do i = 1, size(tables)
-         if (is_ok(status)) call write_table(set, tables(i), origin, digits, status)
+         if (is_ok(status)) call write_table(set, tables(i), origin, digits, status, is_csv)
+         call append_string(stale, tables(i)%name//TAB_ENDING)
+         call append_string(stale, tables(i)%name//CSV_ENDING)
       end do
-      call end_files(set, status)
+      call end_files(set, status, stale)
    end subroutine write_table_set
 
    !> Gives each column room for its values, its name and its dimension, so that the names stand above the numbers.
@@ -167,13 +189,17 @@ contains
       !$omp end parallel do
    end function width_of_integers
 
-   subroutine write_top(file, table, origin)
+   subroutine write_top(file, table, origin, csv)
       type(text_file_t), intent(inout) :: file
       type(table_t), intent(in) :: table
       type(origin_t), intent(in) :: origin
-      type(string_t), allocatable :: names(:), dimensions(:)
+      logical, intent(in) :: csv
       integer :: i
 
+      if (csv) then
+         call put_csv_names(file, table)
+         return
+      end if
       if (allocated(origin%ending)) then
          call put_line(file, MARK_NOT_CONVERGED//': '//origin%ending)
       else if (origin%not_converged) then
@@ -184,38 +210,45 @@ contains
       do i = 1, size(origin%heading)
          call put_line(file, '# heading: '//origin%heading(i)%s)
       end do
+      if (allocated(origin%parameters)) call put_line(file, '# parameters: '//origin%parameters)
+      if (allocated(origin%options)) call put_line(file, '# options: '//origin%options)
+      if (allocated(origin%digest)) call put_line(file, '# digest: '//origin%digest)
       call put_line(file, '# table: '//table%name//', '//table%title)
       do i = 1, size(table%remarks)
          call put_line(file, '# '//table%remarks(i)%s)
       end do
-      do i = 1, size(table%columns)
-         call append_string(names, table%columns(i)%name)
-         call append_string(dimensions, table%columns(i)%dimension)
-      end do
-      call put_line(file, title_line(table, MARK_COLUMNS, names))
-      call put_line(file, title_line(table, MARK_DIMENSIONS, dimensions))
+      call put_titles(file, table, MARK_COLUMNS)
+      call put_titles(file, table, MARK_DIMENSIONS)
    end subroutine write_top
 
-   pure function title_line(table, mark, titles) result(line)
+   !> The line of the names, or that of the dimensions.
+   subroutine put_titles(file, table, mark)
+      type(text_file_t), intent(inout) :: file
       type(table_t), intent(in) :: table
-      character(len=*), intent(in) :: mark
-      type(string_t), intent(in) :: titles(:)
-      character(len=:), allocatable :: line
+      character(len=*), intent(in) :: mark          !< which of them
+      character(len=table%columns(size(table%columns))%last) :: line
       integer :: i
 
-      line = repeat(' ', table%columns(size(table%columns))%last)
-      line(:len(mark)) = mark
-      do i = 1, size(titles)
-         call put_word(titles(i)%s, table%columns(i)%on_the_left, line(table%columns(i)%first:table%columns(i)%last))
+      line = mark
+      do i = 1, size(table%columns)
+         associate (column => table%columns(i))
+            if (mark == MARK_COLUMNS) then
+               call put_word(column%name, column%on_the_left, line(column%first:column%last))
+            else
+               call put_word(column%dimension, column%on_the_left, line(column%first:column%last))
+            end if
+         end associate
       end do
-   end function title_line
+      call put_line(file, line)
+   end subroutine put_titles
 
    !> Writes the rows by rounds: while the text of one is made, in pieces that threads share out, that of the one before is written.
    !> What stands in the file depends neither on the rounds nor on the pieces.
-   subroutine write_rows(file, table, digits)
+   subroutine write_rows(file, table, digits, csv)
       type(text_file_t), intent(inout) :: file
       type(table_t), intent(in) :: table
       integer, intent(in) :: digits
+      logical, intent(in) :: csv
       character(len=:), allocatable :: text(:, :)
       integer(ip) :: pieces, round, i
 
@@ -225,15 +258,16 @@ contains
       if (round == 0) return
       allocate (character(len=table%columns(size(table%columns))%last + 1) :: text(round, 2))
       do i = 1, (table%n_rows - 1)/round + 2
-         call write_round(file, table, digits, i, text)
+         call write_round(file, table, digits, csv, i, text)
       end do
    end subroutine write_rows
 
    !> Makes the text of a round and writes that of the one before; there is none before the first, nor in the last.
-   subroutine write_round(file, table, digits, i_round, text)
+   subroutine write_round(file, table, digits, csv, i_round, text)
       type(text_file_t), intent(inout) :: file
       type(table_t), intent(in) :: table
       integer, intent(in) :: digits
+      logical, intent(in) :: csv
       integer(ip), intent(in) :: i_round
       character(len=*), contiguous, intent(inout) :: text(:, :)   !< (rows of a round, 2): rounds take turns
       integer(ip) :: round, before, first, n, own, other
@@ -246,7 +280,7 @@ contains
       !$omp parallel do schedule(dynamic, 1) default(shared) private(first) if (round > PIECE_ROWS)
       do first = 1 - PIECE_ROWS, n, PIECE_ROWS
          if (first < 1) then
-            call put_lines(file, text(:rows_of_round(table, round, i_round - 1), other))
+            call put_rows(file, table, csv, text(:rows_of_round(table, round, i_round - 1), other))
          else
             call format_rows(table, digits, before + first - 1, text(first:min(n, first + PIECE_ROWS - 1), own))
          end if
@@ -254,10 +288,23 @@ contains
       !$omp end parallel do
    end subroutine write_round
 
+   subroutine put_rows(file, table, csv, rows)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      logical, intent(in) :: csv
+      character(len=*), contiguous, intent(in) :: rows(:)
+
+      if (csv) then
+         call put_csv_rows(file, table, rows)
+      else
+         call put_lines(file, rows)
+      end if
+   end subroutine put_rows
+
    pure integer(ip) function rows_of_round(table, round, i_round) result(n)
       type(table_t), intent(in) :: table
       integer(ip), intent(in) :: round             !< rows of a full one
-      integer(ip), intent(in) :: i_round           !< 0: before the first
+      integer(ip), intent(in) :: i_round           !< before the first: 0
 
       n = 0
       if (i_round > 0) n = max(0_ip, min(round, table%n_rows - (i_round - 1)*round))

@@ -1,15 +1,19 @@
 !> Writes a run: all tables, the field file and the listing, which appear together or not at all.
 module atrito_write_results
-   use atrito_strings, only: string_t
+   use atrito_as_run_names, only: as_run_name, mesh_copy_name
+   use atrito_patched_text, only: write_patched
+   use atrito_strings, only: string_t, append_string
    use atrito_status, only: status_t, is_ok
-   use atrito_files, only: file_set_t, begin_files, end_files
+   use atrito_files, only: file_set_t, begin_files, end_files, file_exists
+   use atrito_kinds, only: ip
    use atrito_timers, only: start_phase, stop_phase
    use atrito_model, only: model_t
    use atrito_results, only: history_t
    use atrito_write_tables, only: write_tables, write_timing, list_table_files
    use atrito_write_fields, only: write_fields, list_field_files
    use atrito_listing, only: write_listing
-   use atrito_plot_files, only: remove_plots
+   use atrito_plot_files, only: remove_plots, PLOTS_OF_RUN
+   use atrito_report_file, only: remove_report
    implicit none (type, external)
    private
    public :: write_results
@@ -17,10 +21,10 @@ module atrito_write_results
 contains
 
    !> Writes everything into a folder, which is made where it is missing, and removes the files of an earlier run that this one
-   !> does not write, its pictures too.
+   !> does not write, its pictures and its report too.
    !>
    !> status: STATUS_FILE, and then what the folder held before is untouched.
-   subroutine write_results(model, history, digits, folder, written, status, pictures)
+   subroutine write_results(model, history, digits, folder, written, status, pictures, is_csv)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history            !< with frames
       integer, intent(in) :: digits                     !< significant digits of the tables, 6..17
@@ -28,22 +32,54 @@ contains
       type(string_t), allocatable, intent(out) :: written(:) !< names of the files, without folder
       type(status_t), intent(out) :: status
       type(string_t), intent(in), optional :: pictures(:)    !< that will be drawn after this, for the listing
+      logical, intent(in), optional :: is_csv                !< tables as comma-separated values; left out: .false.
       type(file_set_t) :: set
 
       allocate (written(0))
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
       call start_phase('write')
-      call write_tables(model, history, digits, set, status)
+      call write_tables(model, history, digits, set, status, is_csv)
       if (is_ok(status)) call write_fields(model, history, set, status)
+      if (is_ok(status)) call write_deck_as_run(model, set, status)
       call stop_phase('write')
       ! these two tell the time, that of writing the tables included
-      if (is_ok(status)) call write_timing(model, history, digits, set, status)
+      if (is_ok(status)) call write_timing(model, history, digits, set, status, is_csv)
       if (is_ok(status)) call write_listing(model, history, set, status, pictures)
-      call end_files(set, status, [list_table_files(), list_field_files(model)])
+      call end_files(set, status, [list_table_files(), list_field_files(model), list_deck_files(model, folder)])
       if (.not. is_ok(status)) return
       written = set%names
-      call remove_plots(folder)
+      call remove_plots(folder, PLOTS_OF_RUN)
+      call remove_report(folder)
    end subroutine write_results
+
+   !> Writes the deck as it was run, and the meshes of other programs beside it.
+   subroutine write_deck_as_run(model, set, status)
+      type(model_t), intent(in) :: model
+      type(file_set_t), intent(inout) :: set
+      type(status_t), intent(inout) :: status
+      integer :: i
+
+      if (.not. allocated(model%as_run)) return
+      do i = 1, size(model%as_run)
+         if (is_ok(status)) call write_patched(set, model%as_run(i)%name, model%as_run(i)%text, status)
+      end do
+   end subroutine write_deck_as_run
+
+   !> What an earlier run may have left of its deck.
+   function list_deck_files(model, folder) result(names)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: folder
+      type(string_t), allocatable :: names(:)
+      integer(ip) :: i
+
+      allocate (names(0))
+      call append_string(names, as_run_name(model%deck_name))
+      i = 1
+      do while (file_exists(folder//'/'//mesh_copy_name(model%deck_name, i)))
+         call append_string(names, mesh_copy_name(model%deck_name, i))
+         i = i + 1
+      end do
+   end function list_deck_files
 
 end module atrito_write_results

@@ -12,16 +12,17 @@ module atrito_write_tables
    use atrito_history_tables, only: build_summary, build_history, build_iterations
    use atrito_increments, only: has_history, ending_text
    use atrito_summary, only: scales_t, measure_history, pair_scales
-   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word
+   use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_words, one_word, TAB_ENDING, CSV_ENDING
    use atrito_table_text, only: write_table
    implicit none (type, external)
    private
    public :: write_tables, write_timing, list_table_files, origin_of, TABLE_NAMES
 
    !> Every table that atrito can write.
-   character(len=10), parameter :: TABLE_NAMES(14) = [character(len=10) :: 'contact', 'summary', 'history', 'nodes', 'reactions', &
-                                                                       'stress', 'bodies', 'rigid', 'joints', 'ties', 'equations', &
-                                                                                                  'springs', 'iterations', 'timing']
+   character(len=12), parameter :: TABLE_NAMES(18) = [character(len=12) :: 'contact', 'summary', 'extremes', 'resultants', &
+                                                              'history', 'nodes', 'reactions', 'stress', 'nodal_stress', 'bodies', &
+                                                                    'rigid', 'joints', 'sections', 'ties', 'equations', 'springs', &
+                                                                                                             'iterations', 'timing']
 
    !> The comment lines at the top: of one result, or of a history.
    interface origin_of
@@ -35,9 +36,10 @@ contains
       type(string_t), allocatable :: names(:)
       integer :: i
 
-      allocate (names(0))
+      allocate (names(2*size(TABLE_NAMES)))
       do i = 1, size(TABLE_NAMES)
-         call append_string(names, trim(TABLE_NAMES(i))//'.tab')
+         names(2*i - 1)%s = trim(TABLE_NAMES(i))//TAB_ENDING
+         names(2*i)%s = trim(TABLE_NAMES(i))//CSV_ENDING
       end do
    end function list_table_files
 
@@ -48,6 +50,7 @@ contains
 
       origin%deck = model%deck_path(index(model%deck_path, '/', back=.true.) + 1:)
       origin%heading = model%heading
+      origin%provenance_t = model%provenance
       origin%not_converged = .not. (results%converged .and. results%law_holds)
    end function origin_of_results
 
@@ -67,12 +70,13 @@ contains
    !> summary and iterations always, the rest when the deck asks.
    !>
    !> status: STATUS_FILE when one could not be written; the rest is not tried then.
-   subroutine write_tables(model, history, digits, set, status)
+   subroutine write_tables(model, history, digits, set, status, is_csv)
       type(model_t), intent(in), target :: model
       type(history_t), intent(in), target :: history
       integer, intent(in) :: digits                 !< significant digits, 6..17
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv       !< left out: .false.
       type(scales_t) :: scales
       type(scales_t), allocatable :: own(:)
       type(table_t), allocatable :: tables(:)
@@ -85,7 +89,7 @@ contains
       do i = 1, size(TABLE_NAMES)
          call build_tables(model, history, scales, own, trim(TABLE_NAMES(i)), digits, tables)
          if (size(tables) == 0) cycle
-         call write_table(set, tables, origin, digits, status)
+         call write_table(set, tables, origin, digits, status, is_csv)
          if (.not. is_ok(status)) return
       end do
    end subroutine write_tables
@@ -106,7 +110,7 @@ contains
          allocate (tables(0))
       case ('history')
          allocate (tables(merge(1, 0, has_rows(model, history))))
-         if (size(tables) > 0) call build_history(history%rows, scales%length, tables(1))
+         if (size(tables) > 0) call build_history(history, scales%length, tables(1))
       case ('summary')
          allocate (tables(1))
          call build_summary(history, scales, own, digits, tables(1))
@@ -128,17 +132,23 @@ contains
       type(history_t), intent(in) :: history
 
       has_rows = .false.
-      if (allocated(history%rows)) has_rows = size(history%rows) > 0
-      if (has_rows) has_rows = has_history(model, history)
+      if (.not. allocated(history%rows)) return
+      has_rows = size(history%rows) > 0
+      if (has_rows) then
+         has_rows = has_history(model, history)
+      else
+         has_rows = history%observed%n > 1
+      end if
    end function has_rows
 
-   !> Writes timing.tab: the phases that have ended, their sum, and the peak memory as a comment.
-   subroutine write_timing(model, history, digits, set, status)
+   !> Writes the table timing: the phases that have ended, their sum, and the peak memory as a comment.
+   subroutine write_timing(model, history, digits, set, status, is_csv)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
       integer, intent(in) :: digits
       type(file_set_t), intent(inout) :: set
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv       !< left out: .false.
       type(phase_time_t), allocatable :: phases(:)
       type(string_t), allocatable :: names(:)
       type(table_t) :: table
@@ -155,7 +165,7 @@ contains
       call add_words(table, 'phase', '-', names, on_the_left=.true.)
       call add_reals(table, 'wall', 's', [phases%wall, sum(phases%wall)], 0.0_wp)
       call add_reals(table, 'cpu', 's', [phases%cpu, sum(phases%cpu)], 0.0_wp)
-      call write_table(set, table, origin_of(model, history), digits, status)
+      call write_table(set, table, origin_of(model, history), digits, status, is_csv)
    end subroutine write_timing
 
 end module atrito_write_tables

@@ -13,8 +13,9 @@ module atrito_contact_plot
    use atrito_results, only: results_t, contact_result_t, history_t, last_frame, POINT_OPEN, POINT_SLIP
    use atrito_write_tables, only: origin_of
    use atrito_plot_files, only: CONTACT_PLOT
-   use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, picture_title, begin_script, end_script, put_terminal, &
-                               put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS
+   use atrito_plot_text, only: range_t, cover, padded, quoted, cleaned, picture_title, put_table, begin_script, end_script, &
+                               put_terminal, put_frame, put_panel, COLOUR, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, &
+                               PLUS_MINUS
    implicit none (type, external)
    private
    public :: write_contact_plot, shown_frames, pair_title, law_text, put_contact_columns, shows_slip_bound, shear_range, state_of, &
@@ -73,7 +74,7 @@ contains
       call put_contact_columns(file, pair, ', 12 status (0 open, 1 stick, 2 slip)', 'step', 'increment')
       call put_line(file, 'marked(c, status) = column(12) == status ? col(c) : NaN')
       call put_early(file, history)
-      call put_line(file, 'table = "../contact.tab"')
+      call put_table(set, 'contact', file)
       call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, history))))
       call put_line(file, 'pair_line = '//quoted(pair_title(results, pair)//law_text(law)))
       call put_frame(file, merge(4, 2, friction), slave_range(results%contact(pair)), '"s [L]"')

@@ -8,8 +8,8 @@ module atrito_history_plot
    use atrito_model, only: model_t, FRICTION_LOCAL, FRICTION_NONE
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: HISTORY_PLOT, LOOP_PLOT
-   use atrito_plot_text, only: range_t, cover, padded, span, quoted, picture_title, begin_script, end_script, put_terminal, &
-                               put_frame, put_panel, engineering_exponent, COLOUR, N_COLOURS, GREEK_NU, PLUS_MINUS
+   use atrito_plot_text, only: range_t, cover, padded, span, quoted, picture_title, put_table, begin_script, end_script, &
+                               put_terminal, put_frame, put_panel, engineering_exponent, COLOUR, N_COLOURS, GREEK_NU, PLUS_MINUS
    use atrito_results, only: history_t, history_row_t, last_frame
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
@@ -145,7 +145,7 @@ contains
       call put_line(file, '# Columns of history.tab: 3 time, 4 pair, 5 normal resultant [F], 6 shear resultant [F], 8 contact '// &
                     'length [L],')
       call put_line(file, '# 10 largest pressure [F/L^2], 14 dissipation [F L]; a row an increment and pair')
-      call put_line(file, 'table = "../history.tab"')
+      call put_table(set, 'history', file)
       call put_titles(file, model, history, 'with the largest forces')
       call put_frame(file, merge(4, 3, friction), time, '"time"')
       has_legend = pairs_in(history%rows) > 1 .or. shows_bound(model, history%rows)

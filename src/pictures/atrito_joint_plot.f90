@@ -9,7 +9,7 @@ module atrito_joint_plot
    use atrito_contact_plot, only: state_of, N_STATES, STATE_WORD
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
    use atrito_mesh_lines, only: drawing_t, put_place, put_frame, is_drawn_rigid, LINE_INNER
-   use atrito_mesh_plot, only: draw_mesh, put_heading
+   use atrito_mesh_plot, only: put_heading
    use atrito_model, only: model_t
    use atrito_number_text, only: trimmed_real
    use atrito_results, only: results_t, joint_t, contact_result_t
@@ -40,16 +40,15 @@ contains
    !> Writes joints.dat and joints.gp into the set of the plots' folder, which has mesh.dat.
    !>
    !> status: STATUS_FILE when one could not be written.
-   subroutine write_joint_plot(set, model, results, status)
+   subroutine write_joint_plot(set, model, results, drawing, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(results_t), intent(in) :: results        !< with joints
+      type(drawing_t), intent(in) :: drawing        !< that of the mesh
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
       type(string_t), allocatable :: curves(:)      !< of joints.dat, one a block
-      type(drawing_t) :: drawing
 
-      call draw_mesh(model, results, drawing)
       call open_text(set, JOINT_PLOT//'.dat', file)
       call put_line(file, '# joints by state, the line of thrust by width, places of the resultants; columns: '// &
                     'x [L]  y [L]  u1 [L]  u2 [L], and n over the largest n of the places')
@@ -234,10 +233,10 @@ contains
       call begin_script(set, JOINT_PLOT, 'the joints and the line of thrust', file)
       call put_line(file, '# Columns of '//MESH_PLOT//'.dat and '//JOINT_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; '// &
                     '5 n over the largest n')
-      call put_line(file, 'scale = '//to_text(drawing%scale)//'   # of the displacements; change it here')
+      call put_line(file, 'scale = '//to_text(drawing%scale, 15)//'   # of the displacements; change it here')
       call put_line(file, 'moved = "($1 + scale*$3):($2 + scale*$4)"')
       call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, results))))
-      call put_frame(file, JOINT_PLOT, drawing%window)
+      call put_frame(file, JOINT_PLOT, drawing%window, drawing%view)
       call put_heading(file, drawing)
       call put_line(file, 'marker = '//to_text(2.0_wp*size_share(results%joints), 3)//'*dot')
       call put_line(file, 'thrust_width = '//to_text(0.8_wp*size_share(results%joints), 3))

@@ -9,6 +9,7 @@ module atrito_mechanism_plot
    use atrito_model, only: model_t
    use atrito_plot_files, only: MECHANISM_PLOT
    use atrito_plot_text, only: quoted, cleaned, begin_script, end_script, COLOUR, N_COLOURS
+   use atrito_plot_view, only: plot_view_t, asked_scale
    use atrito_results, only: rigid_result_t
    use atrito_stability_result, only: stability_t, collapse_t
    use atrito_status, only: status_t, is_ok
@@ -24,16 +25,19 @@ module atrito_mechanism_plot
 contains
 
    !> Writes mechanism.dat and mechanism.gp into the set of the plots' folder. status: STATUS_FILE.
-   subroutine write_mechanism_plot(set, model, limit, title, status)
+   subroutine write_mechanism_plot(set, model, limit, title, view, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model            !< at the value that falls
       type(stability_t), intent(in) :: limit
       character(len=*), intent(in) :: title
+      type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
       type(drawing_t) :: drawing
 
       call begin_drawing(model, .true., drawing)
-      call displace(drawing, model%mesh, limit%collapse%u, 1.0_wp, mechanism_scale(limit%collapse, drawing%size))
+      drawing%view = view
+      call displace(drawing, model%mesh, limit%collapse%u, 1.0_wp, &
+                    asked_scale(view, mechanism_scale(limit%collapse, drawing%size)))
       drawing%rigid = rigid_motions(model, limit%collapse, drawing)
       call write_lines(set, MECHANISM_PLOT, '# outlines of the bodies as polylines; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
                        'the largest u is 1', ['', ''], model, limit%collapse%u, drawing, status)
@@ -85,8 +89,8 @@ contains
 
       call begin_script(set, MECHANISM_PLOT, 'the mechanism of a scene at its limit', file)
       call put_line(file, '# Columns of mechanism.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; a block a body')
-      call put_line(file, 'scale = '//to_text(drawing%scale)//'   # of the motion; change it here')
-      call put_frame(file, MECHANISM_PLOT, drawing%window)
+      call put_line(file, 'scale = '//to_text(drawing%scale, 15)//'   # of the motion; change it here')
+      call put_frame(file, MECHANISM_PLOT, drawing%window, drawing%view)
       call put_line(file, 'set style line 10 lt 1 lw 1.5 lc rgb "#404040"')
       do i = 1, N_COLOURS
          call put_line(file, 'set style line '//to_text(i)//' lt 1 lw 2.5 lc rgb "'//COLOUR(i)//'"')

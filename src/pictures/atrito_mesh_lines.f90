@@ -11,8 +11,9 @@ module atrito_mesh_lines
    use atrito_mesh, only: mesh_t, face_end, has_side, side_count, middle_node
    use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
    use atrito_number_text, only: trimmed_real
-   use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, put_terminal, put_plot, N_COLOURS
+   use atrito_plot_text, only: range_t, cover, range_text, span, quoted, cleaned, put_terminal, put_plot, N_COLOURS
    use atrito_plot_files, only: JOINT_PLOT
+   use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_results, only: rigid_result_t
    use atrito_status, only: status_t
    use atrito_strings, only: string_t, append_string, to_text
@@ -20,7 +21,7 @@ module atrito_mesh_lines
    private
    public :: mesh_lines_t, drawing_t, begin_drawing, displace, displacement_scale, collect_lines
    public :: write_lines, put_lines, put_rigid_lines, put_place, put_window, put_axes, put_frame, put_scene
-   public :: is_drawn_rigid, body_style
+   public :: add_lines, add_rigid_lines, is_drawn_rigid, rigid_places, body_style
    public :: LINE_INNER, LINE_OUTER, MOST_NAMES, LONGEST_NAME
 
    integer, parameter :: DIGITS = 7                 !< of the data: a picture has a thousand pixels
@@ -32,6 +33,7 @@ module atrito_mesh_lines
    real(wp), parameter :: LARGEST_SHARE = 0.08_wp
    integer(ip), parameter :: MOST_NAMES = 8         !< bodies in the legend
    integer, parameter :: LONGEST_NAME = 24          !< characters of a body's name
+   integer, parameter :: LEGEND_LINE = 22           !< pixels
    integer(ip), parameter :: LINE_INNER = 1, LINE_OUTER = 2
 
    !> What is drawn: edges of the mesh, in runs of one kind and body.
@@ -50,6 +52,7 @@ module atrito_mesh_lines
       real(wp) :: size = 0.0_wp                         !< diagonal of the undisplaced bodies [L]
       real(wp) :: largest = 0.0_wp                      !< displacement [L]
       real(wp) :: scale = 1.0_wp                        !< of the displacements
+      type(plot_view_t) :: view                         !< what is asked of it
       type(rigid_result_t), allocatable :: rigid(:)     !< motions of the model's rigid bodies; without them they stay
    end type drawing_t
 
@@ -318,19 +321,13 @@ contains
       type(text_file_t), intent(inout) :: file
       type(surface_t), intent(in) :: surface        !< of segments
       real(wp), intent(in) :: motion(5)             !< as motion_of has it
-      real(wp) :: place(2)
-      integer :: i, j, n_pieces
+      real(wp), allocatable :: places(:, :)
+      integer :: i
 
       call put_line(file, '# a rigid surface')
-      call put_place(file, moved(surface%points(:, 1)))
-      do i = 1, size(surface%points, 2) - 1
-         n_pieces = 1
-         if (is_arc(surface, i)) n_pieces = ARC_PIECES
-         do j = 1, n_pieces
-            place = surface%points(:, i + 1)
-            if (j < n_pieces) place = arc_place(surface, i, real(j, wp)/real(n_pieces, wp))
-            call put_place(file, moved(place))
-         end do
+      places = rigid_places(surface)
+      do i = 1, size(places, 2)
+         call put_place(file, moved(places(:, i)))
       end do
       call put_line(file, '')
       call put_line(file, '')
@@ -345,6 +342,29 @@ contains
       end function moved
 
    end subroutine put_rigid
+
+   !> The places of a rigid surface from its first end to its last, arcs in pieces.
+   pure function rigid_places(surface) result(places)
+      type(surface_t), intent(in) :: surface        !< of segments
+      real(wp), allocatable :: places(:, :)         !< (2, n) [L]
+      integer :: i, j, n
+
+      n = size(surface%points, 2)
+      do i = 1, size(surface%points, 2) - 1
+         if (is_arc(surface, i)) n = n + ARC_PIECES - 1
+      end do
+      allocate (places(2, n))
+      places(:, 1) = surface%points(:, 1)
+      n = 1
+      do i = 1, size(surface%points, 2) - 1
+         do j = 1, merge(ARC_PIECES, 1, is_arc(surface, i)) - 1
+            n = n + 1
+            places(:, n) = arc_place(surface, i, real(j, wp)/real(ARC_PIECES, wp))
+         end do
+         n = n + 1
+         places(:, n) = surface%points(:, i + 1)
+      end do
+   end function rigid_places
 
    pure logical function is_arc(surface, segment)
       type(surface_t), intent(in) :: surface
@@ -370,26 +390,35 @@ contains
    end function arc_place
 
    !> Ranges, terminal, border and axes of a picture of bodies in the plane, and what it says above.
-   subroutine put_frame(file, name, window)
+   subroutine put_frame(file, name, window, view, legend)
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: name          !< of the picture
-      type(range_t), intent(in) :: window(2)        !< [L]
+      type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
+      type(plot_view_t), intent(in) :: view
+      integer, intent(in), optional :: legend       !< its lines, two of which have room anyhow
 
-      call put_window(file, window)
+      call put_window(file, window, view)
+      if (present(legend)) then
+         if (legend > 2) call put_line(file, 'height = height + '//to_text(int(LEGEND_LINE*(legend - 2), ip)))
+      end if
       call put_terminal(file, name, '1000,height')
       call put_axes(file, name)
    end subroutine put_frame
 
    !> Ranges, and the height of the picture for a width of 1000.
-   subroutine put_window(file, window)
+   subroutine put_window(file, window, view)
       type(text_file_t), intent(inout) :: file
-      type(range_t), intent(in) :: window(2)        !< [L]
+      type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
+      type(plot_view_t), intent(in) :: view
+      type(range_t) :: shown(2)
       real(wp) :: ratio
 
+      shown = shown_window(view, window)
       ratio = 1.0_wp
       if (span(window(1)) > 0.0_wp) ratio = span(window(2))/span(window(1))
-      call put_line(file, 'set xrange '//range_text(padded(window(1))))
-      call put_line(file, 'set yrange '//range_text(padded(window(2))))
+      if (allocated(view%box)) ratio = span(shown(2))/span(shown(1))
+      call put_line(file, 'set xrange '//range_text(shown(1)))
+      call put_line(file, 'set yrange '//range_text(shown(2)))
       call put_line(file, 'height = '//to_text(nint(160.0_wp + 860.0_wp*min(1.1_wp, max(0.15_wp, ratio)), ip)))
    end subroutine put_window
 
@@ -410,33 +439,65 @@ contains
    end subroutine put_axes
 
    !> The plot: where the bodies were (lines of style 8), where they go, each run of edges in its style, and rigid surfaces (9).
-   subroutine put_scene(file, name, first, undisplaced, styles, model)
+   subroutine put_scene(file, name, first, undisplaced, styles, model, more)
       type(text_file_t), intent(inout) :: file
       character(len=*), intent(in) :: name          !< of the data file, without .dat
-      integer(ip), intent(in) :: first              !< block that is drawn undisplaced, with those behind it
+      integer(ip), intent(in) :: first              !< block that is drawn undisplaced, and those behind it; past the last: none
       character(len=*), intent(in) :: undisplaced   !< what they are called
       type(string_t), intent(in) :: styles(:)       !< (runs) of the displaced lines
       type(model_t), intent(in) :: model
+      type(string_t), intent(in), optional :: more(:)   !< curves over them
       type(string_t), allocatable :: curves(:)
       integer(ip) :: i, n
 
       n = size(styles, kind=ip)
-      call append_string(curves, 'plot for [i='//to_text(first)//':'//to_text(n - 1)//'] "'//name//'.dat" index i using 1:2'// &
-                         ' with lines ls 8 title i == '//to_text(first)//' ? "'//undisplaced//'" : ""')
+      if (first < n) call append_string(curves, 'plot for [i='//to_text(first)//':'//to_text(n - 1)//'] "'//name// &
+                                        '.dat" index i using 1:2 with lines ls 8 title i == '//to_text(first)//' ? "'// &
+                                        undisplaced//'" : ""')
       do i = 1, n
-         call append_string(curves, '   "'//name//'.dat" index '//to_text(i - 1)// &
-                            ' using ($1 + scale*$3):($2 + scale*$4) with lines '//styles(i)%s)
+         call add_lines(name, i - 1, i - 1, styles(i)%s, curves)
       end do
-      do i = 1, size(model%surfaces, kind=ip)
-         if (.not. is_drawn_rigid(model, i)) cycle
-         call append_string(curves, '   "'//name//'.dat" index '//to_text(n)//' using '// &
-                            trim(merge('($1 + scale*$3):($2 + scale*$4)', '1:2                            ', &
-                                       body_of_surface(model, i) > 0))//' with lines ls 9 title '// &
-                            quoted(cleaned(model%surfaces(i)%name, LONGEST_NAME)//' (rigid)')//' noenhanced')
-         n = n + 1
-      end do
+      if (first >= n) curves(1)%s = 'plot'//curves(1)%s
+      call add_rigid_lines(name, n, 'ls 9', .true., model, curves)
+      if (present(more)) curves = [curves, more]
       call put_plot(file, curves)
    end subroutine put_scene
+
+   !> Adds the displaced lines of some blocks to the curves of a plot.
+   subroutine add_lines(name, first, last, style, curves)
+      character(len=*), intent(in) :: name          !< of the data file, without .dat
+      integer(ip), intent(in) :: first, last        !< blocks, from 0
+      character(len=*), intent(in) :: style
+      type(string_t), allocatable, intent(inout) :: curves(:)
+      character(len=:), allocatable :: blocks
+
+      blocks = to_text(first)
+      if (last > first) blocks = blocks//':'//to_text(last)
+      call append_string(curves, '   "'//name//'.dat" index '//blocks//' using ($1 + scale*$3):($2 + scale*$4) with lines '//style)
+   end subroutine add_lines
+
+   !> Adds the rigid surfaces, a block each, to the curves of a plot. Those that do not move stay where they are whatever the scale.
+   subroutine add_rigid_lines(name, first, style, has_title, model, curves)
+      character(len=*), intent(in) :: name          !< of the data file, without .dat
+      integer(ip), intent(in) :: first              !< block
+      character(len=*), intent(in) :: style
+      logical, intent(in) :: has_title              !< each has its name in the key
+      type(model_t), intent(in) :: model
+      type(string_t), allocatable, intent(inout) :: curves(:)
+      character(len=:), allocatable :: places, title
+      integer(ip) :: i, n
+
+      n = first
+      do i = 1, size(model%surfaces, kind=ip)
+         if (.not. is_drawn_rigid(model, i)) cycle
+         places = '1:2'
+         if (body_of_surface(model, i) > 0) places = '($1 + scale*$3):($2 + scale*$4)'
+         title = ''
+         if (has_title) title = ' title '//quoted(cleaned(model%surfaces(i)%name, LONGEST_NAME)//' (rigid)')//' noenhanced'
+         call append_string(curves, '   "'//name//'.dat" index '//to_text(n)//' using '//places//' with lines '//style//title)
+         n = n + 1
+      end do
+   end subroutine add_rigid_lines
 
    !> The line style of a body's colour.
    pure function body_style(body) result(text)

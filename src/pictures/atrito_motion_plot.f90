@@ -14,6 +14,7 @@ module atrito_motion_plot
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: MOTION_PLOT
    use atrito_plot_text, only: quoted, picture_title, begin_script, end_script, put_plot, COLOUR, TIMES
+   use atrito_plot_view, only: plot_view_t, asked_scale
    use atrito_results, only: history_t, results_t, contact_result_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string, to_text
@@ -62,25 +63,27 @@ contains
    end function most_lines
 
    !> Writes motion.dat and motion.gp into the set of the plots' folder. status: STATUS_FILE.
-   subroutine write_motion_plot(set, model, history, status)
+   subroutine write_motion_plot(set, model, history, view, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history        !< of several frames
+      type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
       type(drawing_t) :: drawing
       integer(ip), allocatable :: images(:)
 
       images = image_frames(size(history%frames, kind=ip))
-      call draw_images(model, history, images, drawing)
+      call draw_images(model, history, images, view, drawing)
       call write_data(set, model, history, images, drawing, status)
       if (is_ok(status)) call write_script(set, model, history, images, drawing, status)
    end subroutine write_motion_plot
 
    !> Lines, window and scale of all images.
-   subroutine draw_images(model, history, images, drawing)
+   subroutine draw_images(model, history, images, view, drawing)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
       integer(ip), intent(in) :: images(:)
+      type(plot_view_t), intent(in) :: view
       type(drawing_t), intent(out) :: drawing
       real(wp) :: largest
       integer(ip) :: i
@@ -90,8 +93,10 @@ contains
       do i = 1, size(images, kind=ip)
          largest = max(largest, largest_displacement(history%frames(images(i))))
       end do
+      drawing%view = view
       do i = 1, size(images, kind=ip)
-         call displace(drawing, model%mesh, history%frames(images(i))%u, largest, displacement_scale(largest, drawing%size))
+         call displace(drawing, model%mesh, history%frames(images(i))%u, largest, &
+                       asked_scale(view, displacement_scale(largest, drawing%size)))
       end do
    end subroutine draw_images
 
@@ -171,11 +176,11 @@ contains
       call put_line(file, '# Columns of '//MOTION_PLOT//'.dat: 1 x [L], 2 y [L], 3 u1 [L], 4 u2 [L]; of contact points 5, 6 '// &
                     'the pressure along the')
       call put_line(file, '# inward normal [F/L^2], 7 state (0 open, 1 stick, 2 slip, 3 closed without friction)')
-      call put_line(file, 'scale = '//to_text(drawing%scale)//'   # of the displacements; change it here')
+      call put_line(file, 'scale = '//to_text(drawing%scale, 15)//'   # of the displacements; change it here')
       call put_line(file, 'needle = '//to_text(needle_length(drawing, pressure), 6)//'   # length of a pressure of one')
       call put_line(file, 'heading = '//quoted(picture_title(origin_of(model, history))))
       call put_names(file, history, images)
-      call put_window(file, drawing%window)
+      call put_window(file, drawing%window, drawing%view)
       call put_line(file, 'set terminal gif animate delay '//to_text(delay(size(images, kind=ip)))// &
                     ' loop 0 size 800,int(0.8*height) font "sans-serif,11" background "white" enhanced')
       call put_line(file, 'set output "'//MOTION_PLOT//'.gif"')

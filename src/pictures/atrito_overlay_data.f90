@@ -3,7 +3,7 @@ module atrito_overlay_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_kinds, only: ip, wp
    use atrito_status, only: status_t, is_ok
-   use atrito_read_table, only: table_file_t, read_table, find_column, item_text
+   use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text
    use atrito_plot_text, only: range_t, cover
    implicit none (type, external)
    private
@@ -54,6 +54,7 @@ module atrito_overlay_data
       character(len=:), allocatable :: parameter   !< its name, as it can be drawn
       type(overlay_run_t), allocatable :: runs(:)
       type(overlay_pair_t), allocatable :: pairs(:)
+      logical :: is_csv = .false.                  !< the tables are comma-separated values
    end type overlay_t
 
 contains
@@ -80,14 +81,15 @@ contains
       overlay%title = ''
       do i = 1, size(overlay%runs)
          associate (run => overlay%runs(i))
-            call read_table(run%path//'/contact.tab', table, status)
+            call read_table(table_path(run%path, 'contact'), table, status)
             run%has_tables = is_ok(status)
             if (.not. is_ok(status)) cycle
             run%not_converged = table%not_converged
+            overlay%is_csv = table%is_csv
             if (len(overlay%title) == 0) overlay%title = heading_of(table%text)
             call find_last(table, run)
             call cover_run(table, run, overlay%pairs)
-            call read_table(run%path//'/summary.tab', table, status)
+            call read_table(table_path(run%path, 'summary'), table, status)
             if (is_ok(status)) call take_quantities(table, run)
          end associate
       end do

@@ -11,7 +11,8 @@ module atrito_overlay_plots
    use atrito_gnuplot, only: draw_written
    use atrito_plot_files, only: plot_folder, OVERLAY_PLOT, OVERLAY_SUMMARY
    use atrito_plot_text, only: range_t, cover, padded, range_text, span, quoted, cleaned, begin_script, end_script, put_terminal, &
-                               put_frame, put_panel, COLOUR, N_COLOURS
+                               put_frame, put_panel, CSV_SEPARATOR, COLOUR, N_COLOURS
+   use atrito_table, only: TAB_ENDING, CSV_ENDING
    use atrito_contact_plot, only: put_contact_columns
    use atrito_overlay_data, only: overlay_t, overlay_run_t, overlay_pair_t, read_runs, is_logarithmic, FIELD_COLUMN, N_FIELDS, &
                                   LONGEST_LABEL, FIELD_PRESSURE, FIELD_WEIGHTED, FIELD_SHEAR, FIELD_SLIP, FIELD_GAP
@@ -140,7 +141,7 @@ contains
       fields = shown_fields(overlay%pairs(number))
       call begin_script(set, name, 'contact pair '//to_text(number)//' of several runs along s', file)
       call put_contact_columns(file, number, '', 'last_step[i]', 'last_increment[i]')
-      call put_runs(file, overlay%runs)
+      call put_runs(file, overlay%runs, overlay%is_csv)
       call put_line(file, 'heading = '//quoted(overlay%title))
       call put_line(file, 'pair_line = '//quoted('pair '//to_text(number)//doubt_text(overlay%runs)))
       call put_frame(file, size(fields), pair_range(overlay%pairs(number)), '"s [L]"')
@@ -192,9 +193,10 @@ contains
    end function doubt_text
 
    !> Folder, name and value of each run.
-   subroutine put_runs(file, list)
+   subroutine put_runs(file, list, is_csv)
       type(text_file_t), intent(inout) :: file
       type(overlay_run_t), intent(in) :: list(:)
+      logical, intent(in) :: is_csv                 !< of the tables
       character(len=:), allocatable :: k
       integer(ip) :: i
 
@@ -207,7 +209,8 @@ contains
                        trimmed_real(list(i)%value, 12))
          call put_line(file, 'last_step'//k//to_text(list(i)%step)//'; last_increment'//k//to_text(list(i)%increment))
       end do
-      call put_line(file, 'table(i) = folder[i]."/contact.tab"')
+      if (is_csv) call put_line(file, CSV_SEPARATOR)
+      call put_line(file, 'table(i) = folder[i]."/contact'//merge(CSV_ENDING, TAB_ENDING, is_csv)//'"')
    end subroutine put_runs
 
    !> Colours: a line style a run as long as the legend holds them, else a palette with a bar.

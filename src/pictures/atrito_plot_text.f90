@@ -9,16 +9,20 @@ module atrito_plot_text
    use atrito_strings, only: string_t, to_text
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_read_table, only: table_path
    use atrito_plot_files, only: picture_endings
    use atrito_status, only: status_t
-   use atrito_table, only: origin_t
+   use atrito_table, only: origin_t, CSV_ENDING
+   use atrito_utf8, only: utf8_length
    implicit none (type, external)
    private
    public :: range_t, cover, padded, range_text, span
-   public :: quoted, cleaned, picture_title, begin_script, end_script, put_terminal, put_plot, put_frame, put_panel, &
-             engineering_exponent
+   public :: quoted, cleaned, picture_title, scene_title, put_table, CSV_SEPARATOR, begin_script, end_script, put_terminal, &
+             put_plot, put_frame, put_panel, engineering_exponent
    public :: COLOUR, N_COLOURS, GREEK_NU, GREEK_EPSILON, GREEK_RHO, GREEK_DELTA, PLUS_MINUS, TIMES
 
+   !> What a script has to say before it reads comma-separated values.
+   character(len=*), parameter :: CSV_SEPARATOR = 'set datafile separator comma'
    !> The palette of Okabe and Ito, made for colour-blind readers, without its yellow, which is too pale for lines.
    integer, parameter :: N_COLOURS = 7
    character(len=7), parameter :: COLOUR(N_COLOURS) = &
@@ -129,7 +133,7 @@ contains
             clean = clean//'..'
             return
          end if
-         bytes = character_bytes(text, i)
+         bytes = utf8_length(text(i:))
          if (bytes == 0) then
             clean = clean//'?'
          else if (bytes == 1 .and. (iachar(text(i:i)) < 32 .or. iachar(text(i:i)) == 127)) then
@@ -141,38 +145,6 @@ contains
          n = n + 1
       end do
    end function cleaned
-
-   !> Bytes of the character of UTF-8 that begins at place i; 0: there is none.
-   pure integer function character_bytes(text, i) result(bytes)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: i
-      integer :: lead, second, k
-
-      lead = ichar(text(i:i))
-      select case (lead)
-      case (0:127)
-         bytes = 1
-      case (194:223)
-         bytes = 2
-      case (224:239)
-         bytes = 3
-      case (240:244)
-         bytes = 4
-      case default
-         bytes = 0
-      end select
-      if (i + bytes - 1 > len(text)) bytes = 0
-      do k = i + 1, i + bytes - 1
-         if (iand(ichar(text(k:k)), 192) /= 128) bytes = 0
-      end do
-      if (bytes < 3) return
-      ! forms that are longer than needed, halves of pairs, and beyond the last character
-      second = ichar(text(i + 1:i + 1))
-      if (lead == 224 .and. second < 160) bytes = 0
-      if (lead == 237 .and. second > 159) bytes = 0
-      if (lead == 240 .and. second < 144) bytes = 0
-      if (lead == 244 .and. second > 143) bytes = 0
-   end function character_bytes
 
    !> The first line of a picture's title: the deck's, and whether to believe the picture.
    pure function picture_title(origin) result(title)
@@ -190,6 +162,30 @@ contains
       end if
       title = cleaned(title, LONGEST_TITLE)
    end function picture_title
+
+   !> The first line of the title of a picture of a scene that is not solved.
+   pure function scene_title(deck_path, heading) result(title)
+      character(len=*), intent(in) :: deck_path
+      type(string_t), intent(in) :: heading(:)      !< lines of *HEADING
+      character(len=:), allocatable :: title
+      type(origin_t) :: origin
+
+      origin%deck = deck_path(index(deck_path, '/', back=.true.) + 1:)
+      origin%heading = heading
+      title = picture_title(origin)
+   end function scene_title
+
+   !> Tells a script which table it draws: that in the folder above, in the form in which it is there.
+   subroutine put_table(set, name, file)
+      type(file_set_t), intent(in) :: set           !< of the plots' folder, which is there
+      character(len=*), intent(in) :: name          !< of the table
+      type(text_file_t), intent(inout) :: file
+      character(len=:), allocatable :: path
+
+      path = table_path(set%folder//'/..', name)
+      if (path(len(path) - len(CSV_ENDING) + 1:) == CSV_ENDING) call put_line(file, CSV_SEPARATOR)
+      call put_line(file, 'table = "..'//path(index(path, '/', back=.true.):)//'"')
+   end subroutine put_table
 
    !> Opens a script in a set of files and writes its first lines: what it is and how to use it.
    subroutine begin_script(set, name, what, file)

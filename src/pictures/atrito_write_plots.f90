@@ -10,8 +10,14 @@ module atrito_write_plots
    use atrito_model, only: model_t
    use atrito_results, only: results_t, history_t, last_frame
    use atrito_summary, only: pair_count
-   use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT
-   use atrito_mesh_plot, only: write_mesh_plot
+   use atrito_plot_files, only: plot_folder, CONTACT_PLOT, MESH_PLOT, JOINT_PLOT, HISTORY_PLOT, LOOP_PLOT, MOTION_PLOT, &
+                                TRACTION_PLOT
+   use atrito_contour_fields, only: contour_t, contours_of
+   use atrito_contour_plot, only: write_contour_plots
+   use atrito_mesh_lines, only: drawing_t
+   use atrito_mesh_plot, only: draw_mesh, write_mesh_plot
+   use atrito_plot_view, only: plot_view_t
+   use atrito_traction_plot, only: has_traction_plot, write_traction_plot
    use atrito_contact_plot, only: write_contact_plot
    use atrito_history_plot, only: has_history_plot, has_loop_plot, write_history_plot, write_loop_plot
    use atrito_motion_plot, only: has_motion_plot, write_motion_plot
@@ -27,27 +33,35 @@ module atrito_write_plots
 contains
 
    !> Writes the scripts of all pictures into <folder>/plots and draws them.
-   subroutine write_plots(model, history, folder, drawn)
+   subroutine write_plots(model, history, folder, view, drawn)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
       character(len=*), intent(in) :: folder                !< of the tables
+      type(plot_view_t), intent(in) :: view                 !< what is asked of the pictures of bodies
       type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
       type(status_t) :: status
 
       call start_phase('plot')
-      call write_plot_scripts(model, history, plot_folder(folder), status)
+      call write_plot_scripts(model, history, plot_folder(folder), view, status)
       call draw_written(folder, plot_names(model, history), status, drawn)
       call stop_phase('plot')
    end subroutine write_plots
 
-   !> Pictures of a run: the mesh, what is drawn of a history, the joints where they are asked for, and each pair that has points.
+   !> Pictures of a run: the mesh, contours, tractions, what is drawn of a history, the joints where they are asked for, and each
+   !> pair that has points.
    pure function plot_names(model, history) result(names)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
       type(string_t), allocatable :: names(:)
+      type(contour_t), allocatable :: contours(:)
       integer(ip) :: i
 
       call append_string(names, MESH_PLOT)
+      contours = contours_of(history%frames(last_frame(history)))
+      do i = 1, size(contours, kind=ip)
+         call append_string(names, trim(contours(i)%name))
+      end do
+      if (has_traction_plot(history%frames(last_frame(history)))) call append_string(names, TRACTION_PLOT)
       if (has_history_plot(model, history)) call append_string(names, HISTORY_PLOT)
       if (has_loop_plot(model, history)) call append_string(names, LOOP_PLOT)
       if (has_motion_plot(history)) call append_string(names, MOTION_PLOT)
@@ -71,33 +85,39 @@ contains
    !> Writes scripts and data, which appear together or not at all.
    !>
    !> status: STATUS_FILE
-   subroutine write_plot_scripts(model, history, folder, status)
+   subroutine write_plot_scripts(model, history, folder, view, status)
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
       character(len=*), intent(in) :: folder                !< of the plots
+      type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
       type(file_set_t) :: set
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
-      call write_frame_scripts(set, model, history, status)
+      call write_frame_scripts(set, model, history, view, status)
       if (is_ok(status) .and. has_history_plot(model, history)) call write_history_plot(set, model, history, status)
       if (is_ok(status) .and. has_loop_plot(model, history)) call write_loop_plot(set, model, history, status)
-      if (is_ok(status) .and. has_motion_plot(history)) call write_motion_plot(set, model, history, status)
+      if (is_ok(status) .and. has_motion_plot(history)) call write_motion_plot(set, model, history, view, status)
       call end_files(set, status)
    end subroutine write_plot_scripts
 
    !> Those of the last frame, over the ends of steps before it.
-   subroutine write_frame_scripts(set, model, history, status)
+   subroutine write_frame_scripts(set, model, history, view, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
       type(history_t), intent(in) :: history
+      type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
+      type(drawing_t) :: drawing
       integer(ip) :: i
 
       associate (results => history%frames(last_frame(history)))
-         call write_mesh_plot(set, model, results, status)
-         if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, status)
+         call draw_mesh(model, results, view, drawing)
+         call write_mesh_plot(set, model, results, drawing, status)
+         if (is_ok(status)) call write_contour_plots(set, model, results, drawing, status)
+         if (is_ok(status) .and. has_traction_plot(results)) call write_traction_plot(set, model, results, drawing, status)
+         if (is_ok(status) .and. has_joint_plot(model, results)) call write_joint_plot(set, model, results, drawing, status)
          do i = 1, plotted_pairs(model, results)
             if (is_ok(status) .and. results%contact(i)%n > 0) call write_contact_plot(set, model, history, i, status)
          end do

@@ -187,6 +187,9 @@ contains
       if (any(store%held .neqv. held) .or. any(store%mesh%x /= fem%mesh%x)) return
       if (any(store%mesh%shape /= fem%mesh%shape) .or. any(store%mesh%state /= fem%mesh%state)) return
       if (any(store%mesh%nodes /= fem%mesh%nodes)) return
+      if (allocated(fem%mesh%thickness)) then          ! the states say that both have it
+         if (any(store%mesh%thickness /= fem%mesh%thickness)) return
+      end if
       do i = 1, size(points, kind=ip)
          associate (old => store%points(i), new => points(i))
             if (old%n /= new%n) return
@@ -227,7 +230,8 @@ contains
       type(elastic_t), intent(in) :: a, b
 
       is_same_section = a%young == b%young .and. a%poisson == b%poisson .and. a%thickness == b%thickness &
-                        .and. a%formulation == b%formulation
+                        .and. a%formulation == b%formulation .and. (a%is_orthotropic .eqv. b%is_orthotropic)
+      if (is_same_section .and. a%is_orthotropic) is_same_section = all(a%stiffness == b%stiffness)
    end function is_same_section
 
    pure logical function has_same_load(store, fem, b, load)

@@ -6,7 +6,7 @@ module atrito_body_sums
    use atrito_bodies, only: body_t
    use atrito_element, only: body_load
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: element_coordinates, is_revolved
+   use atrito_mesh, only: element_coordinates, is_revolved, depth_places
    use atrito_results, only: body_motion_t
    implicit none (type, external)
    private
@@ -68,7 +68,7 @@ contains
          if (allocated(share)) deallocate (share)
          allocate (share(2, n))
          call body_load(x, [1.0_wp, 0.0_wp], fem%sections(fem%section_of(e))%thickness, &
-                        fem%mesh%state(e), share)
+                        fem%mesh%state(e), share, places=depth_places(fem%mesh, fem%mesh%state(e), fem%mesh%nodes(:n, e)))
          associate (nodes => fem%mesh%nodes(:n, e))
             volume(nodes) = volume(nodes) + share(1, :)
          end associate

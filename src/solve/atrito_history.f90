@@ -12,6 +12,7 @@ module atrito_history
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
    use atrito_model, only: is_due, model_t, requests_t, step_t
+   use atrito_observer, only: note_observed, observer_t
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_state, only: restart_state_t
@@ -48,13 +49,14 @@ module atrito_history
       real(wp) :: condition = 1.0_wp                !< the largest of the contact line
       integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
       class(recorder_t), pointer :: recorder => null()
+      class(observer_t), pointer :: observer => null() !< not associated: nothing is observed
    end type run_t
 
 contains
 
    !> Solves all steps. status: of a run of one increment that of solve_static; of others OK, or why the history ended early, with
    !> STATUS_NOT_CONVERGED, STATUS_SINGULAR, or a status of begin_scene. What converged before is in the history.
-   subroutine solve_history(model, options, reporter, history, status, store, recorder)
+   subroutine solve_history(model, options, reporter, history, status, store, recorder, observer)
       type(model_t), intent(in), target :: model
       type(solve_options_t), intent(in) :: options
       type(reporter_t), intent(in) :: reporter
@@ -62,14 +64,19 @@ contains
       type(status_t), intent(out) :: status
       type(body_cache_t), intent(inout) :: store     !< bodies of an earlier run, or none; on return those of this one
       class(recorder_t), intent(inout), target, optional :: recorder
+      class(observer_t), intent(inout), target, optional :: observer
       type(run_t), target :: run
       type(progress_t) :: now
       integer(ip) :: k, first
 
       allocate (history%rows(0), history%iterations(0))
       if (present(recorder)) run%recorder => recorder
+      if (present(observer)) then
+         if (observer%is_there) run%observer => observer
+      end if
       if (has_one_increment(model) .and. .not. is_recorded(run)) then
          call solve_only_increment(model, options, reporter, history, status, store)
+         if (associated(run%observer) .and. is_ok(status)) call run%observer%observe(history%frames(1))
          return
       end if
       allocate (history%frames(0))
@@ -349,8 +356,8 @@ contains
       logical, intent(in) :: ends_step
 
       associate (every => requests%every)
-         is_wanted = any(is_due([every%nodes, every%reactions, every%stress, every%contact, every%bodies, every%joints, &
-                                 every%fields], increment, ends_step))
+         is_wanted = any(is_due([every%nodes, every%reactions, every%stress, every%nodal_stress, every%contact, every%bodies, &
+                                 every%joints, every%sections, every%fields], increment, ends_step))
       end associate
    end function is_wanted
 
@@ -374,6 +381,7 @@ contains
       results%iterations%step = results%step
       results%iterations%increment = results%increment
       call add_iterations(results%iterations, run%n_iterations, history%iterations)
+      if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%observed)
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
          call add_frame(results, run%n_frames, history%frames)

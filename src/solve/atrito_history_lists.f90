@@ -1,10 +1,11 @@
 !> The growing lists of a history: they have room for more than there is, and are cut to their lengths in the end.
 module atrito_history_lists
+   use atrito_growth, only: make_room, resize
    use atrito_kinds, only: ip
-   use atrito_results, only: history_row_t, history_t, iteration_t, results_t
+   use atrito_results, only: history_row_t, history_t, iteration_t, observed_list_t, results_t
    implicit none (type, external)
    private
-   public :: add_row, add_iterations, add_frame, move_frame, trim_lists
+   public :: add_row, add_iterations, add_observed, add_frame, move_frame, trim_lists
 
 contains
 
@@ -37,6 +38,25 @@ contains
       iterations(n + 1:n + size(new)) = new
       n = n + size(new, kind=ip)
    end subroutine add_iterations
+
+   !> What was observed in an increment.
+   pure subroutine add_observed(results, list)
+      type(results_t), intent(in) :: results
+      type(observed_list_t), intent(inout) :: list
+      integer(ip) :: n
+
+      n = list%n + 1
+      call make_room(list%step, list%n, n)
+      call make_room(list%increment, list%n, n)
+      call make_room(list%time, list%n, n)
+      if (.not. allocated(list%values)) allocate (list%values(size(results%observed), size(list%step)))
+      if (size(list%values, 2) < n) call resize(list%values, list%n, size(list%step, kind=ip))
+      list%n = n
+      list%step(n) = results%step
+      list%increment(n) = results%increment
+      list%time(n) = results%time
+      list%values(:, n) = results%observed%value
+   end subroutine add_observed
 
    subroutine add_frame(frame, n, frames)
       type(results_t), intent(in) :: frame
@@ -85,6 +105,7 @@ contains
       call move_alloc(from%stress_x, to%stress_x)
       call move_alloc(from%stress, to%stress)
       call move_alloc(from%nodal_stress, to%nodal_stress)
+      call move_alloc(from%element_error, to%element_error)
       call move_alloc(from%iterations, to%iterations)
    end subroutine move_large
 
@@ -96,6 +117,14 @@ contains
       if (size(history%frames) > n_frames) call give_room(n_frames, n_frames, history%frames)
       if (size(history%rows) > n_rows) history%rows = history%rows(:n_rows)
       if (size(history%iterations) > n_iterations) history%iterations = history%iterations(:n_iterations)
+      associate (list => history%observed)
+         if (list%n == 0) return
+         if (size(list%step) == list%n) return
+         call resize(list%step, list%n, list%n)
+         call resize(list%increment, list%n, list%n)
+         call resize(list%time, list%n, list%n)
+         call resize(list%values, list%n, list%n)
+      end associate
    end subroutine trim_lists
 
 end module atrito_history_lists

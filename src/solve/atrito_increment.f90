@@ -9,6 +9,7 @@ module atrito_increment
    use atrito_contact_scales, only: usual_growth
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_form, only: solve_dense_form
+   use atrito_extremes, only: find_extremes
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_joint_sums, only: sum_joints
@@ -21,10 +22,12 @@ module atrito_increment
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t, scene_t, pair_scene_t
    use atrito_rigid_results, only: take_rigid_results
-   use atrito_row_forces, only: share_out_rows, clear_balance
+   use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t
+   use atrito_section_forces, only: sum_cuts
    use atrito_sparse_form, only: solve_sparse_form
    use atrito_status, only: status_t, is_ok
+   use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
    use atrito_thermal_loads, only: elastic_energy
    use atrito_timers, only: start_phase, stop_phase
@@ -275,7 +278,8 @@ contains
       call judge_balance(data%fem, data%held, data%rows, data%line, data%f, results%scene%pairs, results%verdict, status)
    end subroutine judge_failed_check
 
-   !> What is worth its time where it is printed: sums by joint, stresses and their error, the limits of a linear theory.
+   !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
+   !> a linear theory.
    subroutine complete_results(data, results)
       type(scene_data_t), intent(in) :: data
       type(results_t), intent(inout) :: results
@@ -286,8 +290,9 @@ contains
       call recover_stress(data%step%requests, data%fem, results)
       call stop_phase('recover')
       call start_phase('estimate')
-      call estimate_error(data%fem, results, strain_bound)
+      call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
       call find_large(data%model, data%fem, strain_bound, results)
+      call find_extremes(data%model%mesh, data%fem%bodies%of_node, data%points, results)
       call stop_phase('estimate')
    end subroutine complete_results
 
@@ -308,6 +313,9 @@ contains
                              sizes_at_points(data, solution), data%thermal)
       imbalance = check_balance(data%fem, data%f, contact, data%rows)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
+      if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
+         call sum_cuts(data, moment_t(results%step_time, results%time), results%u, results%reaction - contact, results%cuts)
+      end if
       call add_rigid_motions(data%fem, solution%state%a, results%u)
       results%converged = solution%converged
       results%law_holds = equilibrium%holds .and. imbalance <= 1.0e-8_wp
@@ -320,6 +328,7 @@ contains
       results%prescribed = data%held
       if (data%rows%n_bilateral > 0) call share_out_rows(data, solution, contact, results, others)
       call sum_forces(data%fem%mesh%x, results%u, data%f, results%reaction, contact, results%balance, results%external_work)
+      call leave_out_sections(data, results%reaction, contact, results%balance)
       results%balance%is_revolved = is_revolved(data%fem%mesh)
       results%balance%rows = others
       results%balance%rigid = results%balance%rigid - others

@@ -5,7 +5,7 @@ module atrito_linear_limits
    use atrito_kinds, only: ip, wp, HUGE_REAL
    use atrito_large_deformation, only: deformation_t, may_rotate, measure_deformation
    use atrito_mesh, only: face_end
-   use atrito_messages, only: add_warning
+   use atrito_messages, only: add_note, add_warning
    use atrito_model, only: model_t
    use atrito_points, only: contact_points_t
    use atrito_results, only: results_t, contact_result_t, extreme_t
@@ -143,9 +143,17 @@ contains
    end function extent
 
    !> What passes its bound, and what follows.
-   subroutine warn_of_large(results)
+   subroutine warn_of_large(results, asks_nlgeom)
       type(results_t), intent(in) :: results
+      logical, intent(in) :: asks_nlgeom                 !< the deck asks for large displacements
+      logical :: is_small
 
+      is_small = max(results%large_strain%value, results%large_rotation%value, results%large_slip%value) <= 0.0_wp
+      if (asks_nlgeom .and. is_small) then
+         call add_note('N-SMALL', 'NLGEOM: no strain is above '//to_text(LARGE_STRAIN)//', no rotation above '// &
+                       to_text(LARGE_ROTATION)//' rad and no slip beyond a face: large displacements would hardly change the '// &
+                       'results, but for what is near buckling')
+      end if
       if (results%large_strain%value > 0.0_wp) call add_warning('W-LARGE', 'the largest strain is '// &
                           value_text(results%large_strain)//': above '//to_text(LARGE_STRAIN)//' lengths and areas change so much' &
                         //' that the linear theory, which takes them as they are without loads, does not know the true equilibrium')

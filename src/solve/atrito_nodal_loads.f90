@@ -1,13 +1,13 @@
 !> Nodal forces of all loads of a step.
 module atrito_nodal_loads
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: face_nodes, element_coordinates
+   use atrito_mesh, only: face_nodes, depth_places
    use atrito_element, only: pressure_load, body_load
    use atrito_face_loads, only: traction_load, hydrostatic_load
-   use atrito_model, only: model_t, step_t, element_load_t, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC
+   use atrito_model, only: model_t, step_t, element_load_t, LOAD_BODY, LOAD_LINEAR, LOAD_TRACTION, LOAD_HYDROSTATIC, is_on_volume
    implicit none (type, external)
    private
-   public :: nodal_loads
+   public :: nodal_loads, add_element_load, forces_of_load
 
 contains
 
@@ -25,60 +25,55 @@ contains
          end do
       end associate
       do i = 1, step%element_loads%n
-         if (step%element_loads%kind(i) == LOAD_BODY) then
-            call add_body_force(model, step%element_loads, i, f)
-         else
-            call add_face_load(model, step%element_loads, i, f)
-         end if
+         call add_element_load(model, step%element_loads, i, f)
       end do
    end subroutine nodal_loads
 
-   pure subroutine add_face_load(model, loads, i, f)
+   !> Adds one of the loads on elements to the forces of the nodes.
+   pure subroutine add_element_load(model, loads, i, f)
       type(model_t), intent(in) :: model
       type(element_load_t), intent(in) :: loads
       integer(ip), intent(in) :: i
-      real(wp), intent(inout) :: f(:, :)
-      integer(ip), allocatable :: nodes(:)
-      real(wp), allocatable :: fe(:, :)
-
-      nodes = face_nodes(model%mesh, loads%element(i), loads%face(i))
-      allocate (fe(2, size(nodes)))
-      select case (loads%kind(i))
-      case (LOAD_TRACTION)
-         call traction_load(model%mesh%x(:, nodes), loads%value(:2, i), thickness_of(model, loads%element(i)), &
-                            model%mesh%state(loads%element(i)), fe)
-      case (LOAD_HYDROSTATIC)
-         call hydrostatic_load(model%mesh%x(:, nodes), loads%value(1, i), loads%value(2:3, i), &
-                               thickness_of(model, loads%element(i)), model%mesh%state(loads%element(i)), fe)
-      case default
-         call pressure_load(model%mesh%x(:, nodes), loads%value(1, i), thickness_of(model, loads%element(i)), &
-                            model%mesh%state(loads%element(i)), fe)
-      end select
-      f(:, nodes) = f(:, nodes) + fe
-   end subroutine add_face_load
-
-   pure subroutine add_body_force(model, loads, i, f)
-      type(model_t), intent(in) :: model
-      type(element_load_t), intent(in) :: loads
-      integer(ip), intent(in) :: i
-      real(wp), intent(inout) :: f(:, :)
+      real(wp), intent(inout) :: f(:, :)               !< (2, n_nodes) [F]
       integer(ip), allocatable :: nodes(:)
       real(wp), allocatable :: fe(:, :)
       integer(ip) :: e
 
       e = loads%element(i)
-      nodes = model%mesh%nodes(:model%mesh%shape(e), e)
+      if (is_on_volume(loads%kind(i))) then
+         nodes = model%mesh%nodes(:model%mesh%shape(e), e)
+      else
+         nodes = face_nodes(model%mesh, e, loads%face(i))
+      end if
       allocate (fe(2, size(nodes)))
-      call body_load(element_coordinates(model%mesh, e), loads%value(:2, i), thickness_of(model, e), &
-                     model%mesh%state(e), fe)
+      call forces_of_load(model, loads, i, model%mesh%x(:, nodes), depth_places(model%mesh, model%mesh%state(e), nodes), fe)
       f(:, nodes) = f(:, nodes) + fe
-   end subroutine add_body_force
+   end subroutine add_element_load
 
-   pure real(wp) function thickness_of(model, element)
+   !> The forces of a load on an element or on a face, or on a part of it that has such a shape, too.
+   pure subroutine forces_of_load(model, loads, i, x, places, fe)
       type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: element
+      type(element_load_t), intent(in) :: loads
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: x(:, :)                  !< its nodes, those of a face in the order of face_nodes (2, n) [L]
+      real(wp), intent(in) :: places(:)                !< what the depth goes by there (depth_places) (n) [L]
+      real(wp), intent(out) :: fe(:, :)                !< (2, n) [F]
 
-      thickness_of = model%sections(model%section_of(element))%thickness
-   end function thickness_of
+      associate (state => model%mesh%state(loads%element(i)), value => loads%value(:, i), &
+                 thickness => model%sections(model%section_of(loads%element(i)))%thickness)
+         select case (loads%kind(i))
+         case (LOAD_LINEAR)
+            call body_load(x, [0.0_wp, 0.0_wp], thickness, state, fe, value, places)
+         case (LOAD_BODY)
+            call body_load(x, value(:2), thickness, state, fe, places=places)
+         case (LOAD_TRACTION)
+            call traction_load(x, value(:2), thickness, state, fe, places)
+         case (LOAD_HYDROSTATIC)
+            call hydrostatic_load(x, value(1), value(2:3), thickness, state, fe, places)
+         case default
+            call pressure_load(x, value(1), thickness, state, fe, places)
+         end select
+      end associate
+   end subroutine forces_of_load
 
 end module atrito_nodal_loads

@@ -13,7 +13,7 @@ module atrito_recovery
    use atrito_friction_law, only: sticking_slip, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: requests_t
-   use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES, stress_33, von_mises
+   use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES, stress_33, thermal_modulus_33, von_mises
    use atrito_point_stress, only: point_rule_t, point_geometry_t, MOST_POINTS, make_point_rules, fetch_geometry, point_stresses, &
                                   point_thermal_strains
    use atrito_points, only: contact_points_t
@@ -309,7 +309,7 @@ contains
                call fetch_geometry(fem, e, rule, geometry)
                call point_thermal_strains(fem, e, rule, geometry, strain)
             end if
-            s(3) = s(3) - fem%sections(fem%section_of(e))%young*strain(k)
+            s(3) = s(3) - thermal_modulus_33(fem%sections(fem%section_of(e)))*strain(k)
             s(5) = von_mises([s(1), s(2), s(4)], s(3))
          end associate
       end do
@@ -348,16 +348,19 @@ contains
    end subroutine add_element
 
    !> Continuous stresses at the nodes, and the error in the energy norm that they tell. Both want the displacements.
-   subroutine estimate_error(fem, results, strain_bound)
+   subroutine estimate_error(fem, results, strain_bound, by_element)
       type(fem_t), intent(in) :: fem
       type(results_t), intent(inout) :: results
       real(wp), intent(out) :: strain_bound          !< no strain is larger than this
+      logical, intent(in) :: by_element              !< the error of each element is kept
       type(stress_field_t) :: field
       type(energies_t) :: energies
 
       call recover_stress_field(fem, results%u, field)
       call nodal_stresses(fem, field, results%nodal_stress)
-      call measure_error(fem, results%u, field, energies, unit_of(results%u))   ! the error is relative
+      if (by_element .and. .not. allocated(results%element_error)) allocate (results%element_error(fem%mesh%n_elements))
+      ! the error is relative; what is not allocated is an optional argument that is not there
+      call measure_error(fem, results%u, field, energies, unit_of(results%u), results%element_error)
       results%error_estimate = relative_error(energies)
       strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! without a strain across the plane 1 + mu of it
    end subroutine estimate_error

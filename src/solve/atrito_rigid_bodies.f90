@@ -109,6 +109,7 @@ contains
       integer(ip) :: k, m
 
       is_prescribed = .not. STATES(model%mesh%state(1))%moves ! what would strain the bodies of the scene is held
+      if (model%rigid_bodies(i)%is_section) is_prescribed = [.false., .true., .true.]
       motion = 0.0_wp
       do k = 1, prescribed%n
          if (prescribed%node(k) /= model%rigid_bodies(i)%node) cycle
@@ -151,6 +152,7 @@ contains
          associate (body => list(bodies%n + i))
             body%name = model%surfaces(model%rigid_bodies(i)%surface)%name
             body%is_rigid = .true.
+            body%is_touched = model%rigid_bodies(i)%is_section
             body%nodes = nodes
             allocate (body%elements(0), body%modes(MOTIONS, 0))
             body%centre = model%mesh%x(:, model%rigid_bodies(i)%node)

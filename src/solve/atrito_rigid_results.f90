@@ -28,7 +28,7 @@ contains
          associate (body => results%rigid(i), node => data%model%rigid_bodies(i)%node)
             results%u(:, node) = body%u
             results%reaction(:, node) = body%reaction
-            results%prescribed(:, node) = body%is_prescribed(:2)
+            results%prescribed(:, node) = body%is_prescribed(:2) .and. [.true.,.not. body%is_section]
          end associate
       end do
       ! nothing but round-off goes to the ground where all rigid surfaces of pairs move
@@ -91,6 +91,7 @@ contains
          b = bodies%n - bodies%n_rigid + i
          body%name = bodies%list(b)%name
          body%size = bodies%list(b)%size
+         body%is_section = data%model%rigid_bodies(i)%is_section
          body%node = data%fem%mesh%node_id(data%model%rigid_bodies(i)%node)
          call prescribed_motion(data%model, data%rigid_prescribed, i, body%is_prescribed, motion)
          first = 1
@@ -110,12 +111,16 @@ contains
             body%moment = body%moment + (arm(1)*r(2) - arm(2)*r(1))
          end associate
       end do
-      if (is_revolved(data%fem%mesh)) then             ! on the full circle these balance in themselves
-         body%reaction(1) = 0.0_wp
+      if (is_revolved(data%fem%mesh) .and. .not. data%model%rigid_bodies(i)%is_section) then
+         body%reaction(1) = 0.0_wp                     ! on the full circle these balance in themselves
          body%moment = 0.0_wp
       end if
       where (.not. body%is_prescribed(:2)) body%reaction = 0.0_wp
       if (.not. body%is_prescribed(3)) body%moment = 0.0_wp
+      if (.not. body%is_section) return
+      body%reaction(2) = 0.0_wp                        ! round-off: these are no dofs
+      body%moment = 0.0_wp
+      body%force = data%f(1, nodes(1)) + body%reaction(1)
    end subroutine take_body
 
 end module atrito_rigid_results

@@ -6,10 +6,11 @@ module atrito_row_forces
    use atrito_kinds, only: ip, wp
    use atrito_recovery, only: add_bilateral_forces
    use atrito_results, only: balance_t, results_t
+   use atrito_rigid_bodies, only: carriers_of, has_moving_surfaces
    use atrito_scene_data, only: scene_data_t
    implicit none (type, external)
    private
-   public :: share_out_rows, clear_balance
+   public :: share_out_rows, clear_balance, leave_out_sections
 
 contains
 
@@ -47,6 +48,27 @@ contains
          if (bilateral%kind(j) == ROW_SUPPORT) prescribed(:, bilateral%node(bilateral%first(j))) = .true.
       end do
    end subroutine mark_supports
+
+   !> A force at the node of a pre-tension section is one of two that balance each other: it is in no resultant.
+   pure subroutine leave_out_sections(data, reaction, contact, balance)
+      type(scene_data_t), intent(in) :: data
+      real(wp), intent(in) :: reaction(:, :), contact(:, :) !< (2, n_nodes) [F]
+      type(balance_t), intent(inout) :: balance
+      integer(ip) :: i, nodes(3)
+
+      if (.not. has_moving_surfaces(data%model)) return
+      do i = 1, size(data%model%rigid_bodies, kind=ip)
+         if (.not. data%model%rigid_bodies(i)%is_section) cycle
+         nodes = carriers_of(data%model, i)
+         associate (f => data%f(:, nodes(1)), r => reaction(:, nodes(1)), x => data%fem%mesh%x(:, nodes(1)))
+            balance%applied = balance%applied - f
+            balance%reactions = balance%reactions - r
+            balance%applied_moment = balance%applied_moment - (x(1)*f(2) - x(2)*f(1))
+            balance%reaction_moment = balance%reaction_moment - (x(1)*r(2) - x(2)*r(1))
+            balance%rigid = balance%rigid - contact(:, nodes(1))
+         end associate
+      end do
+   end subroutine leave_out_sections
 
    !> What bodies that are tied do to each other adds up to round-off.
    pure subroutine clear_balance(balance)

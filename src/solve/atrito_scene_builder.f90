@@ -9,9 +9,9 @@ module atrito_scene_builder
    use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_pairing, only: pair_all
-   use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
    use atrito_rigid_bodies, only: append_rigid_bodies, attach_points, has_moving_surfaces, hold_carriers
+   use atrito_section_elasticity, only: elasticity_of
    use atrito_solver_choice, only: needs_profile
    implicit none (type, external)
    private
@@ -36,8 +36,7 @@ contains
       allocate (fem%sections(size(model%sections)))
       do i = 1, size(model%sections, kind=ip)
          associate (section => model%sections(i), material => model%materials(model%sections(i)%material))
-            fem%sections(i) = elastic_t(material%young, material%poisson, section%thickness, material%density, &
-                                        section%formulation, material%expansion)
+            fem%sections(i) = elasticity_of(section, material)
          end associate
       end do
       if (allocated(step%heating)) fem%heating = step%heating

@@ -47,6 +47,7 @@ module atrito_scene_data
       integer :: solver_kind = 0                           !< that the bodies are numbered for
       type(assembled_scene_t) :: assembled                  !< the sparse form
       logical :: is_assembled = .false.
+      logical :: wants_element_errors = .false.             !< of what is printed
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
       ! Of a history:
       logical :: keeps = .false.                            !< what one increment leaves serves the next
@@ -62,6 +63,7 @@ module atrito_scene_data
    type :: asked_t
       integer :: solver_kind = 0                           !< STORAGE_* or 0
       integer :: contact_form = CONTACT_AUTO
+      logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
    end type asked_t
 
@@ -85,6 +87,7 @@ contains
       data%rigid_prescribed = data%step%rigid_prescribed
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
+      data%wants_element_errors = asked%element_errors
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)

@@ -51,7 +51,7 @@ contains
                                                                  //' that are almost one')
       call note_shared_points(data%fem%mesh, data%rows, data%line, solution)
       call warn_of_others(data%model, results)
-      call warn_of_large(results)
+      call warn_of_large(results, data%model%asks_nlgeom)
    end subroutine warn
 
    !> Whether there may be other solutions.

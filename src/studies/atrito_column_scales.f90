@@ -14,7 +14,11 @@ module atrito_column_scales
    character(len=36), parameter :: FAMILIES_OF_HISTORY(2) = [character(len=36) :: ' normal_resultant shear_resultant ', &
                                                                                                           ' contact_length centre ']
    character(len=7), parameter :: FAMILIES_OF_RIGID(2) = [' u1 u2 ', ' r1 r2 ']
+   character(len=7), parameter :: FAMILIES_OF_RESULTANTS(1) = [' fx fy ']
+   character(len=23), parameter :: FAMILIES_OF_NODAL_STRESS(1) = [' s11 s22 s33 s12 mises ']
    character(len=20), parameter :: FAMILIES_OF_JOINTS(3) = [character(len=20) :: ' n t ', ' x y ', ' opening sliding ']
+
+   character(len=5), parameter :: FAMILIES_OF_SECTIONS(2) = [' n v ', ' x y ']
 
    real(wp), parameter :: MOST_GROUPS = 100000.0_wp  !< pairs and steps that even a table of few rows can have
 
@@ -27,11 +31,15 @@ contains
 
       kind = 'plain'
       if (find_column(table, 'quantity') > 0 .and. find_column(table, 'value') > 0) kind = 'summary'
+      if (kind == 'summary' .and. find_column(table, 'node_or_element') > 0) kind = 'extremes'
+      if (find_column(table, 'keyword') > 0 .and. find_column(table, 'fx') > 0) kind = 'resultants'
+      if (find_column(table, 'node') > 0 .and. find_column(table, 'mises') > 0) kind = 'nodal_stress'
       if (find_column(table, 'outer') > 0 .and. find_column(table, 'inner') > 0) kind = 'iterations'
       if (find_column(table, 'phase') > 0 .and. find_column(table, 'wall') > 0) kind = 'timing'
       if (find_column(table, 'rotation') > 0 .and. find_column(table, 'loads_moment') > 0) kind = 'bodies'
       if (find_column(table, 'ur') > 0 .and. find_column(table, 'moment') > 0) kind = 'rigid'
       if (find_column(table, 'body_1') > 0 .and. find_column(table, 'opening') > 0) kind = 'joints'
+      if (find_column(table, 'cut') > 0 .and. find_column(table, 'v') > 0) kind = 'sections'
       if (find_column(table, 'dissipation') > 0 .and. find_column(table, 'elastic_energy') > 0) kind = 'history'
    end function kind_of
 
@@ -47,8 +55,14 @@ contains
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_BODIES, i), i=1, table%n_columns)])
       case ('rigid')
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_RIGID, i), i=1, table%n_columns)])
+      case ('resultants')
+         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_RESULTANTS, i), i=1, table%n_columns)])
+      case ('nodal_stress')
+         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_NODAL_STRESS, i), i=1, table%n_columns)])
       case ('joints')
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_JOINTS, i), i=1, table%n_columns)])
+      case ('sections')
+         list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_SECTIONS, i), i=1, table%n_columns)])
       case ('history')
          list = pack([(i, i=1, table%n_columns)], [(are_related(FAMILIES_OF_HISTORY, i), i=1, table%n_columns)])
       case default
@@ -70,14 +84,18 @@ contains
 
    end function columns_of_scale
 
-   !> What a moment of joints.tab or history.tab may be as large as: the largest force times the largest coordinate. 0 for other
-   !> columns. A place that is the same within the tolerance makes a moment that is.
+   !> What a moment of joints.tab or history.tab may be as large as: the largest force times the largest coordinate; of sections.tab
+   !> the largest force times the largest length of a section. 0 for other columns. A place that is the same within the tolerance
+   !> makes a moment that is.
    pure real(wp) function moment_scale(table, column) result(scale)
       type(table_file_t), intent(in) :: table
       integer(ip), intent(in) :: column
 
       scale = 0.0_wp
       if (kind_of(table) == 'joints' .and. table%columns(column)%s == 'm') scale = product_of('n', 'x')
+      if (kind_of(table) == 'sections' .and. table%columns(column)%s == 'm') then
+         scale = max(product_of('n', 'length'), product_of('v', 'length'))
+      end if
       if (kind_of(table) == 'history' .and. table%columns(column)%s == 'moment') scale = product_of('normal_resultant', 'centre')
 
    contains
@@ -137,7 +155,8 @@ contains
       scale = [(largest(pair(row), step(row)), row=1, table%n_rows)]
    end function row_scales
 
-   !> The scale of each row of a summary: the largest value of its quantity and pair in any increment.
+   !> The scale of each row of a summary: the largest value of its quantity and pair in any increment; of extremes, the largest
+   !> displacement, stress or traction.
    pure function summary_scales(table) result(scale)
       type(table_file_t), intent(in) :: table
       real(wp) :: scale(table%n_rows)
@@ -157,23 +176,36 @@ contains
       scale = [(largest(quantity(row), pair(row)), row=1, table%n_rows)]
    end function summary_scales
 
-   !> Each different quantity has a number.
+   !> Each different quantity has a number; those of extremes that are of one field have the same.
    pure function quantities_of_rows(table) result(number)
       type(table_file_t), intent(in) :: table
       integer(ip) :: number(table%n_rows)
       type(string_t), allocatable :: names(:)
+      character(len=:), allocatable :: name
       integer(ip) :: column, row, i
 
       allocate (names(0))
       column = find_column(table, 'quantity')
       do row = 1, table%n_rows
+         name = item_text(table, column, row)
+         if (kind_of(table) == 'extremes') name = field_of(name)
          do i = 1, size(names, kind=ip)
-            if (names(i)%s == item_text(table, column, row)) exit
+            if (names(i)%s == name) exit
          end do
-         if (i > size(names)) call append_string(names, item_text(table, column, row))
+         if (i > size(names)) call append_string(names, name)
          number(row) = i
       end do
    end function quantities_of_rows
+
+   !> What a quantity of extremes is one of: u u1_max ..., contact_pressure ..., or stresses.
+   pure function field_of(quantity) result(field)
+      character(len=*), intent(in) :: quantity
+      character(len=:), allocatable :: field
+
+      field = 'stress'
+      if (index(quantity, 'u') == 1) field = 'u'
+      if (index(quantity, 'contact') == 1) field = 'contact'
+   end function field_of
 
    !> The pair or the step of each row; 0 for all where there is no such column, or none that a run writes.
    pure function numbers_of_rows(table, name) result(number)

@@ -2,8 +2,8 @@
 !>
 !> A number differs if |a-b| > rtol S + atol, S the largest |value| of its column over all increments; of its quantity and pair in
 !> summary.tab; of its contact pair and step for pressure, shear and slip; of its pair in history.tab; of a family of columns in
-!> bodies.tab, joints.tab and history.tab. Integers and words must be equal; nan equals nan. timing and iterations are left out;
-!> the equilibrium residual must be small in both.
+!> bodies.tab, joints.tab, sections.tab and history.tab. Integers and words must be equal; nan equals nan. timing and iterations
+!> are left out; the equilibrium residual must be small in both.
 module atrito_compare
    use atrito_kinds, only: ip, wp
    use atrito_strings, only: string_t, append_string, to_text, join
@@ -11,7 +11,7 @@ module atrito_compare
    use atrito_column_scales, only: kind_of, columns_of_scale, row_scales, summary_scales, moment_scale, is_of_pair, is_number
    use atrito_files, only: file_exists, is_folder
    use atrito_page, only: page_t, begin_page, add_line, plural
-   use atrito_read_table, only: table_file_t, read_table, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_NAN
+   use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text, ITEM_WORD, ITEM_INTEGER, ITEM_NAN
    use atrito_write_tables, only: TABLE_NAMES
    implicit none (type, external)
    private
@@ -100,8 +100,8 @@ contains
       integer :: i
 
       do i = 1, size(TABLE_NAMES)
-         file_a = a//'/'//trim(TABLE_NAMES(i))//'.tab'
-         file_b = b//'/'//trim(TABLE_NAMES(i))//'.tab'
+         file_a = table_path(a, trim(TABLE_NAMES(i)))
+         file_b = table_path(b, trim(TABLE_NAMES(i)))
          there = are_there(file_a, file_b)
          if (.not. any(there)) cycle
          if (is_left_out(TABLE_NAMES(i))) then
@@ -150,11 +150,11 @@ contains
 
       comparison%n_tables = comparison%n_tables + 1
       before = comparison%n_differences
-      if (a%not_converged .neqv. b%not_converged) then
+      if ((a%not_converged .neqv. b%not_converged) .and. .not. (a%is_csv .or. b%is_csv)) then
          call report(comparison, a%name//': NOT CONVERGED in the '//trim(merge('first ', 'second', a%not_converged))//' only')
       end if
       call match_columns(a, b, comparison, column_in_b)
-      if (kind_of(a) == 'summary' .and. kind_of(b) == 'summary') then
+      if (kind_of(a) == kind_of(b) .and. has_quantities(a)) then
          call compare_summaries(a, b, comparison)
          return
       end if
@@ -280,12 +280,19 @@ contains
       integer(ip), intent(in) :: at(2)              !< [column, row]
       character(len=:), allocatable :: text
 
-      if (kind_of(table) == 'summary') then
+      if (has_quantities(table)) then
          text = item_text(table, find_column(table, 'quantity'), at(2))
       else
          text = table%columns(at(1))%s
       end if
    end function item_name
+
+   !> A summary, or extremes: their rows have names. Where an extreme is does not count, since another place may be as good.
+   pure logical function has_quantities(table) result(has)
+      type(table_file_t), intent(in) :: table
+
+      has = kind_of(table) == 'summary' .or. kind_of(table) == 'extremes'
+   end function has_quantities
 
    !> Rows are matched by their quantity, pair, increment and step.
    subroutine compare_summaries(a, b, comparison)

@@ -7,6 +7,7 @@ module atrito_stability_plot
    use atrito_number_text, only: trimmed_real
    use atrito_plot_files, only: plot_folder, LIMIT_PLOT, MECHANISM_PLOT
    use atrito_plot_text, only: range_t, cover, padded, range_text, quoted, cleaned, begin_script, end_script, put_terminal, COLOUR
+   use atrito_plot_view, only: plot_view_t
    use atrito_stability_result, only: stability_t
    use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, to_text
@@ -21,11 +22,12 @@ module atrito_stability_plot
 contains
 
    !> Draws <folder>/plots/limit and mechanism, .png and .svg. A failure is a warning, W-PLOT.
-   subroutine write_stability_plots(folder, title, model, limit, drawn)
+   subroutine write_stability_plots(folder, title, model, limit, view, drawn)
       character(len=*), intent(in) :: folder         !< of the tables
       character(len=*), intent(in) :: title
       type(model_t), intent(in) :: model             !< at the value that falls
       type(stability_t), intent(in) :: limit
+      type(plot_view_t), intent(in) :: view          !< of the mechanism
       type(string_t), allocatable, intent(out) :: drawn(:)
       type(file_set_t) :: set
       type(status_t) :: status
@@ -33,7 +35,7 @@ contains
       call begin_files(set, plot_folder(folder), status)
       if (is_ok(status)) call write_data(set, limit, status)
       if (is_ok(status)) call write_script(set, title, limit, status)
-      if (is_ok(status)) call write_mechanism_plot(set, model, limit, title, status)
+      if (is_ok(status)) call write_mechanism_plot(set, model, limit, title, view, status)
       call end_files(set, status)
       call draw_written(folder, [string_t(LIMIT_PLOT), string_t(MECHANISM_PLOT)], status, drawn)
    end subroutine write_stability_plots

@@ -9,24 +9,25 @@ module atrito_stability_tables
    use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
-   public :: write_stability, compose_stability
+   public :: write_stability, compose_stability, limit_text, values_text, undecided_texts
 
    integer, parameter :: DIGITS = 10
 
 contains
 
    !> Writes limit.tab and mechanism.tab. status: STATUS_FILE.
-   subroutine write_stability(folder, origin, limit, digits_of_tables, status)
+   subroutine write_stability(folder, origin, limit, digits_of_tables, status, is_csv)
       character(len=*), intent(in) :: folder
       type(origin_t), intent(in) :: origin
       type(stability_t), intent(in) :: limit
       integer, intent(in) :: digits_of_tables
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv          !< left out: .false.
       type(table_t) :: tables(2)
 
       call build_values(limit, tables(1))
       call build_mechanism(limit, tables(2))
-      call write_table_set(folder, tables, origin, digits_of_tables, status)
+      call write_table_set(folder, tables, origin, digits_of_tables, status, is_csv)
    end subroutine write_stability
 
    pure subroutine build_values(limit, table)
@@ -110,18 +111,31 @@ contains
    end function limit_text
 
    !> Values that narrow neither bound.
+   function undecided_texts(limit) result(texts)
+      type(stability_t), intent(in) :: limit
+      type(string_t), allocatable :: texts(:)
+      integer(ip) :: runs, proofs
+
+      allocate (texts(0))
+      runs = count(limit%values%code == STATUS_NOT_CONVERGED, kind=ip)
+      proofs = count(limit%values%excess /= limit%values%excess .and. limit%values%code == CODE_NOT_RUN, kind=ip)
+      if (runs > 0) then
+         call append_string(texts, 'at '//plural(runs, 'value', 'values')//' neither a solution nor a proof was found (exit 3)')
+         call append_string(texts, 'although the loads can be balanced up to '//number(limit%balanced, DIGITS))
+      end if
+      if (proofs > 0) call append_string(texts, plural(proofs, 'value is', 'values are')//' too near the limit for a proof')
+   end function undecided_texts
+
    subroutine add_undecided(limit, page)
       type(stability_t), intent(in) :: limit
       type(page_t), intent(inout) :: page
-      integer(ip) :: runs, proofs
+      type(string_t), allocatable :: texts(:)
+      integer :: i
 
-      runs = count(limit%values%code == STATUS_NOT_CONVERGED, kind=ip)
-      proofs = count(limit%values%excess /= limit%values%excess .and. limit%values%code == CODE_NOT_RUN, kind=ip)
-      if (runs > 0) call add_item(page, 'undecided', 'at '//plural(runs, 'value', 'values')// &
-                                  ' neither a solution nor a proof was found (exit 3)')
-      if (runs > 0) call add_item(page, '', 'although the loads can be balanced up to '//number(limit%balanced, DIGITS))
-      if (proofs > 0) call add_item(page, 'undecided', plural(proofs, 'value is', 'values are')// &
-                                    ' too near the limit for a proof')
+      texts = undecided_texts(limit)
+      do i = 1, size(texts)
+         call add_item(page, trim(merge('         ', 'undecided', index(texts(i)%s, 'although') == 1)), texts(i)%s)
+      end do
    end subroutine add_undecided
 
    !> What is watched, at the value that stands.

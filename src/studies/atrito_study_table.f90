@@ -18,16 +18,17 @@ module atrito_study_table
 contains
 
    !> Writes study.tab. status: STATUS_FILE.
-   subroutine write_study(folder, origin, study, digits, status)
+   subroutine write_study(folder, origin, study, digits, status, is_csv)
       character(len=*), intent(in) :: folder
       type(origin_t), intent(in) :: origin
       type(study_t), intent(in) :: study
       integer, intent(in) :: digits
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv       !< left out: .false.
       type(table_t) :: tables(1)
 
       call build_study(study, tables(1))
-      call write_table_set(folder, tables, origin, digits, status)
+      call write_table_set(folder, tables, origin, digits, status, is_csv)
    end subroutine write_study
 
    subroutine build_study(study, table)

@@ -1,15 +1,16 @@
 !> What a sweep writes beside the folders of its runs: sweep.tab, runs.tab, and the closing lines on the screen.
 module atrito_sweep_tables
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use atrito_kinds, only: ip, wp
    use atrito_page, only: page_t, begin_report, add_item, add_files, add_line, add_rule, left, right, number, plural
-   use atrito_read_table, only: table_file_t, read_table, find_column, item_text
+   use atrito_read_table, only: table_file_t, read_table, table_path, find_column, item_text
    use atrito_status, only: status_t, STATUS_OK
    use atrito_strings, only: string_t, append_string, join, to_text
    use atrito_table, only: table_t, origin_t, begin_table, add_reals, add_integers, add_words
    use atrito_table_text, only: write_table_set
    implicit none (type, external)
    private
-   public :: sweep_run_t, read_summary, row_of_quantity, write_sweep, compose_sweep
+   public :: sweep_run_t, read_summary, row_of_quantity, write_sweep, compose_sweep, last_increment
 
    !> One run of a sweep.
    type :: sweep_run_t
@@ -26,22 +27,22 @@ module atrito_sweep_tables
    integer(ip), parameter :: MOST_ROWS = 12              !< runs on the screen; all are in runs.tab
    integer, parameter :: DIGITS = 5
    integer, parameter :: VALUE_WIDTH = 13
-   character(len=*), parameter :: SHOWN(4) = [character(len=22) :: 'effective_area_percent', 'normal_resultant', 'max_pressure', &
-                                                                                                              'max_abs_shear']
+   character(len=32), parameter :: USUAL(4) = [character(len=32) :: 'effective_area_percent', 'normal_resultant', 'max_pressure', &
+                                                                                                                'max_abs_shear']
 
-   character(len=VALUE_WIDTH), parameter :: HEADINGS(size(SHOWN)) = &
+   character(len=VALUE_WIDTH), parameter :: USUAL_HEADINGS(size(USUAL)) = &
                                             [character(len=VALUE_WIDTH) :: 'area [%]', 'normal [F]', 'max. p', 'max. |shear|']
 
 contains
 
-   !> Takes the summary of a run that wrote one. status: STATUS_FILE.
+   !> Takes the table summary of a run that wrote one. status: STATUS_FILE.
    subroutine read_summary(folder, run, status)
       character(len=*), intent(in) :: folder           !< of the run
       type(sweep_run_t), intent(inout) :: run
       type(status_t), intent(out) :: status
 
       if (.not. run%is_written) return
-      call read_table(folder//'/summary.tab', run%summary, status)
+      call read_table(table_path(folder, 'summary'), run%summary, status)
    end subroutine read_summary
 
    !> The row of a quantity of the first pair, or of the step, in the last increment; 0 where the summary has none.
@@ -56,18 +57,20 @@ contains
    end function row_of_quantity
 
    !> Writes sweep.tab and runs.tab. status: STATUS_FILE.
-   subroutine write_sweep(folder, origin, names, runs, digits_of_tables, status)
+   subroutine write_sweep(folder, origin, names, observed, runs, digits_of_tables, status, is_csv)
       character(len=*), intent(in) :: folder
       type(origin_t), intent(in) :: origin
       type(string_t), intent(in) :: names(:)           !< the parameters
+      type(string_t), intent(in) :: observed(:)        !< quantities of the step that have a column of their own
       type(sweep_run_t), intent(in) :: runs(:)
       integer, intent(in) :: digits_of_tables
       type(status_t), intent(out) :: status
+      logical, intent(in), optional :: is_csv          !< left out: .false.
       type(table_t) :: tables(2)
 
-      call build_sweep(names, runs, tables(1))
-      call build_runs(names, runs, tables(2))
-      call write_table_set(folder, tables, origin, digits_of_tables, status)
+      call build_sweep(names, observed, runs, tables(1))
+      call build_runs(names, observed, runs, tables(2))
+      call write_table_set(folder, tables, origin, digits_of_tables, status, is_csv)
    end subroutine write_sweep
 
    !> The first row of the last increment.
@@ -86,9 +89,9 @@ contains
       row = 1
    end function last_increment
 
-   !> The parameters, then the columns of summary.tab.
-   subroutine build_sweep(names, runs, table)
-      type(string_t), intent(in) :: names(:)
+   !> The parameters, then the columns of summary.tab, then what is observed in the increment.
+   subroutine build_sweep(names, observed, runs, table)
+      type(string_t), intent(in) :: names(:), observed(:)
       type(sweep_run_t), intent(in) :: runs(:)
       type(table_t), intent(out) :: table
       integer(ip), allocatable :: of_row(:), step(:), pair(:), increment(:)
@@ -120,6 +123,9 @@ contains
       call add_words(table, 'quantity', '-', quantities, on_the_left=.true.)
       call add_words(table, 'value', 'mixed', amounts, on_the_left=.false.)
       call add_integers(table, 'increment', increment)
+      do i = 1, size(observed, kind=ip)
+         call add_reals(table, observed(i)%s, 'mixed', [(values_in_rows(runs(j)%summary, observed(i)%s), j=1, size(runs))], 0.0_wp)
+      end do
       do i = 1, size(runs, kind=ip)
          if (runs(i)%code == STATUS_OK) cycle
          call append_string(table%remarks, runs(i)%label//': exit code '//to_text(int(runs(i)%code, ip))// &
@@ -128,9 +134,28 @@ contains
       end do
    end subroutine build_sweep
 
-   !> A row a run: how it ended and where it is.
-   subroutine build_runs(names, runs, table)
-      type(string_t), intent(in) :: names(:)
+   !> For each row of a summary the value of a quantity in its increment; nan where there is none.
+   pure function values_in_rows(summary, quantity) result(values)
+      type(table_file_t), intent(in) :: summary
+      character(len=*), intent(in) :: quantity
+      real(wp) :: values(summary%n_rows)
+      integer(ip) :: j, name, step, increment
+
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      name = find_column(summary, 'quantity')
+      step = find_column(summary, 'step')
+      increment = find_column(summary, 'increment')
+      do j = 1, summary%n_rows
+         if (item_text(summary, name, j) /= quantity) cycle
+         where (summary%value(step, :summary%n_rows) == summary%value(step, j) &
+                .and. summary%value(increment, :summary%n_rows) == summary%value(increment, j)) &
+            values = summary%value(find_column(summary, 'value'), j)
+      end do
+   end function values_in_rows
+
+   !> A row a run: how it ended, where it is, and what is observed at its end.
+   subroutine build_runs(names, observed, runs, table)
+      type(string_t), intent(in) :: names(:), observed(:)
       type(sweep_run_t), intent(in) :: runs(:)
       type(table_t), intent(out) :: table
       type(string_t) :: folders(size(runs))
@@ -147,25 +172,42 @@ contains
       end do
       call add_integers(table, 'exit', [(int(runs(i)%code, ip), i=1, n)])
       call add_integers(table, 'factorisations', [(runs(i)%factorisations, i=1, n)])
+      do i = 1, size(observed, kind=ip)
+         call add_reals(table, observed(i)%s, 'mixed', [(value_at_end(runs(j), observed(i)%s), j=1, n)], 0.0_wp)
+      end do
       call add_words(table, 'folder', '-', folders, on_the_left=.true.)
    end subroutine build_runs
 
-   !> The closing lines: a row a run, of the first contact pair.
-   subroutine compose_sweep(deck, names, runs, folder, seconds, page, pictures)
+   !> A value of the summary; nan where there is none, or none of the end of the history.
+   pure real(wp) function value_at_end(run, quantity) result(value)
+      type(sweep_run_t), intent(in) :: run
+      character(len=*), intent(in) :: quantity
+      integer(ip) :: row
+
+      row = row_of_quantity(run%summary, quantity)
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (row > 0 .and. run%is_whole) value = run%summary%value(find_column(run%summary, 'value'), row)
+   end function value_at_end
+
+   !> The closing lines: a row a run, what is observed first, then of the first contact pair.
+   subroutine compose_sweep(deck, names, observed, runs, folder, seconds, page, pictures)
       character(len=*), intent(in) :: deck, folder
-      type(string_t), intent(in) :: names(:)
+      type(string_t), intent(in) :: names(:), observed(:)
       type(sweep_run_t), intent(in) :: runs(:)
       real(wp), intent(in) :: seconds(2)               !< wall clock and processor
       type(page_t), intent(out) :: page
       type(string_t), intent(in) :: pictures(:) !< that were drawn, names without folder and ending
+      character(len=len(USUAL)) :: shown(size(USUAL))
+      character(len=VALUE_WIDTH) :: headings(size(USUAL))
       integer(ip) :: i, n
 
       n = size(runs, kind=ip)
       call begin_report(page, '   sweep of '//deck)
       call add_rule(page, '-')
-      call add_line(page, row_of(join(names, ', '), 'outer', HEADINGS, 'exit'))
+      call choose_columns(observed, shown, headings)
+      call add_line(page, row_of(join(names, ', '), 'outer', headings, 'exit'))
       do i = 1, min(n, MOST_ROWS)
-         call add_line(page, row_of_run(runs(i)))
+         call add_line(page, row_of_run(runs(i), shown))
       end do
       if (n > MOST_ROWS) call add_line(page, '... and '//plural(n - MOST_ROWS, 'run', 'runs')//' more in sweep.tab')
       call add_rule(page, '-')
@@ -175,14 +217,31 @@ contains
       call add_files(page, folder, 'sweep runs, and a folder a run', pictures)
    end subroutine compose_sweep
 
-   function row_of_run(run) result(text)
+   !> What is observed comes first, as far as there is room, and the usual quantities behind it.
+   pure subroutine choose_columns(observed, shown, headings)
+      type(string_t), intent(in) :: observed(:)
+      character(len=*), intent(out) :: shown(:)        !< quantities
+      character(len=*), intent(out) :: headings(:)     !< as many
+      integer :: i, n
+
+      n = min(size(observed), size(shown))
+      shown(n + 1:) = USUAL(:size(shown) - n)
+      headings(n + 1:) = USUAL_HEADINGS(:size(shown) - n)
+      do i = 1, n
+         shown(i) = observed(i)%s
+         headings(i) = left(observed(i)%s, VALUE_WIDTH - 1)
+      end do
+   end subroutine choose_columns
+
+   function row_of_run(run, shown) result(text)
       type(sweep_run_t), intent(in) :: run
+      character(len=*), intent(in) :: shown(:)         !< quantities
       character(len=:), allocatable :: text
-      character(len=VALUE_WIDTH) :: amounts(size(SHOWN))
+      character(len=VALUE_WIDTH) :: amounts(size(shown))
       integer :: i
 
-      do i = 1, size(SHOWN)
-         amounts(i) = amount(run, trim(SHOWN(i)))
+      do i = 1, size(shown)
+         amounts(i) = amount(run, trim(shown(i)))
       end do
       text = row_of(join(run%texts, ', '), trim(amount(run, 'picard_iterations')), amounts, &
                     to_text(int(run%code, ip)))

@@ -59,7 +59,7 @@ program limit
       else
          call solve_and_tell()
       end if
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s)
+      if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
       code = status%code
    end if
    stop code, quiet = .true.

@@ -9,7 +9,6 @@ A history may end early: exit 4 is right where no admissible forces balance the 
 are some that another form finds. Exit code 0 when nothing is wrong.
 """
 
-import argparse
 import copy
 import math
 import multiprocessing
@@ -25,7 +24,7 @@ import numpy as np
 sys.dont_write_bytecode = True  # the sources stay as they are
 import judge
 from histories import History
-from run_scenes import message, run
+from run_scenes import chosen_numbers, message, run, runner_arguments
 from scene_reader import read_deck, read_table
 
 DISSIPATION = 1e-7   # of the sum of its terms
@@ -309,30 +308,13 @@ def give_verdict(outcome, history, scene, folder, said):
         outcome.word, outcome.reason = 'certified', message(said)
 
 
-def read_settings():
-    parser = argparse.ArgumentParser(usage=__doc__)
-    parser.add_argument('atrito')
-    parser.add_argument('generator')
-    parser.add_argument('first', type=int)
-    parser.add_argument('last', type=int)
-    parser.add_argument('seed', type=int)
-    parser.add_argument('-j', type=int, default=1, dest='jobs')
-    parser.add_argument('--folder', default='random-histories')
-    parser.add_argument('--only', default=None)
-    settings, settings.options = parser.parse_known_args()
-    return settings
-
-
 def main():
     os.environ['OMP_NUM_THREADS'] = os.environ['OPENBLAS_NUM_THREADS'] = '1'
-    settings = read_settings()
+    settings, settings.options = runner_arguments(__doc__, 'random-histories').parse_known_args()
     os.makedirs(settings.folder, exist_ok=True)
-    chosen = range(settings.first, settings.last + 1)
-    if settings.only:
-        chosen = [number for number in map(int, settings.only.split(',')) if number in chosen]
     begin, outcomes = time.monotonic(), []
     with multiprocessing.Pool(settings.jobs) as pool, open(os.path.join(settings.folder, 'results.txt'), 'w') as rows:
-        for outcome in pool.imap(judge_number, [(settings, number) for number in chosen]):
+        for outcome in pool.imap(judge_number, [(settings, number) for number in chosen_numbers(settings)]):
             outcomes.append(outcome)
             rows.write(f'{outcome.number} {outcome.code} {outcome.word} {outcome.frames} {outcome.seconds:.3f} {outcome.reason}\n')
             rows.flush()

@@ -110,18 +110,31 @@ def solved_by(settings, text, base):
     return ''
 
 
-def read_settings():
-    parser = argparse.ArgumentParser(usage=__doc__)
+def runner_arguments(usage, folder):
+    """What all runners of random decks take."""
+    parser = argparse.ArgumentParser(usage=usage)
     parser.add_argument('atrito')
     parser.add_argument('generator')
     parser.add_argument('first', type=int)
     parser.add_argument('last', type=int)
     parser.add_argument('seed', type=int)
     parser.add_argument('-j', type=int, default=1, dest='jobs')
-    parser.add_argument('--folder', default='scenes')
+    parser.add_argument('--folder', default=folder)
+    parser.add_argument('--only', default=None)
+    return parser
+
+
+def chosen_numbers(settings):
+    chosen = range(settings.first, settings.last + 1)
+    if settings.only:
+        chosen = [number for number in map(int, settings.only.split(',')) if number in chosen]
+    return chosen
+
+
+def read_settings():
+    parser = runner_arguments(__doc__, 'scenes')
     parser.add_argument('--most-unsolved', type=int, default=None)
     parser.add_argument('--known', default=None)
-    parser.add_argument('--only', default=None)
     settings, settings.options = parser.parse_known_args()
     usage = subprocess.run([settings.atrito, '--help'], capture_output=True, text=True, check=False).stdout
     settings.forms = [[]]
@@ -131,10 +144,7 @@ def read_settings():
 
 
 def all_decks(settings):
-    chosen = range(settings.first, settings.last + 1)
-    if settings.only:
-        chosen = [number for number in map(int, settings.only.split(',')) if number in chosen]
-    numbers = [(settings, number) for number in chosen]
+    numbers = [(settings, number) for number in chosen_numbers(settings)]
     if settings.jobs == 1:
         yield from map(judge_deck, numbers)
         return

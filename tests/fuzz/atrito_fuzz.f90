@@ -1,8 +1,9 @@
 !> Reads mutated decks, many in one process, and checks what must hold of every reading. docs/verification/fuzzing.md
 !>
-!>     atrito_fuzz [--seed S] [--count N] [--first K] [--one K] [--solve] [--keep] [--write FILE] [--seconds T] DECK...
+!>     atrito_fuzz [--seed S] [--count N] [--first K] [--one K] [--solve] [--keep] [--write FILE] [--seconds T] DECK... [MESH.msh...]
 !>
 !> Mutation K of seed S is the same on every machine. `--one K` does it alone, tells its messages and leaves the deck in FILE.
+!> With meshes it is they that are mutated, the deck that includes them less often; the mesh is left in FILE.msh.
 !> `--keep` only writes all mutated decks, to FILE.K, for run-program.sh.
 program atrito_fuzz
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
@@ -23,8 +24,9 @@ program atrito_fuzz
    use atrito_system, only: peak_memory
    use atrito_timers, only: reset_timers
    use fuzz_checks, only: check_reading, check_model, check_results
-   use fuzz_mutations, only: mutate_deck
-   use fuzz_random, only: random_t, begin_random, random_integer
+   use fuzz_meshes, only: choose_mesh, mutate_mesh
+   use fuzz_mutations, only: mutate_deck, mutate_once
+   use fuzz_random, only: random_t, begin_random, random_integer, random_chance
    use fuzz_watch, only: begin_watch, watch_mutation, end_watch
    use fuzz_words, only: dictionary_t, build_dictionary
    implicit none (type, external)
@@ -35,6 +37,7 @@ program atrito_fuzz
       logical :: alone = .false., solve = .false., keep = .false.
       character(len=:), allocatable :: path
       type(string_t), allocatable :: decks(:)
+      type(string_t), allocatable :: meshes(:), names(:) !< files of Gmsh, and what decks call them
    end type task_t
 
    !> What came of the mutations.
@@ -52,6 +55,8 @@ program atrito_fuzz
    integer(ip), parameter :: MOST_LEVELS = 2
    !> What a deck calls itself that includes itself; the fuzzer's own decks have this name by default.
    character(len=*), parameter :: OWN_NAME = 'fuzz-deck.inp'
+   !> What its mesh has behind that.
+   character(len=*), parameter :: MESH_END = '.msh'
    type(task_t) :: task
    type(tally_t) :: tally
    type(dictionary_t) :: dictionary
@@ -68,7 +73,10 @@ program atrito_fuzz
       call note_time(start, k, tally)
       call end_watch()
    end do
-   if (.not. task%alone) call remove_file(task%path)
+   if (.not. task%alone) then
+      call remove_file(task%path)
+      if (size(task%meshes) > 0) call remove_file(task%path//MESH_END)
+   end if
    if (task%keep) stop
    write (output_unit, '(*(g0))') 'seed ', task%seed, ', mutations ', task%first, ' to ', task%first + task%count - 1, ': ', &
       tally%sound, ' without error, ', tally%solved, ' solved, ', tally%errors, ' errors told, ', tally%failed, &
@@ -87,18 +95,20 @@ contains
       type(deck_t) :: deck
       type(status_t) :: status
       type(model_t) :: model
-      character(len=:), allocatable :: text, fault
+      character(len=:), allocatable :: text, mesh, fault
       type(string_t) :: no_settings(0)
       integer(ip) :: levels
 
       call begin_random(random, task%seed, k)
-      call mutate_deck(random, task%decks, dictionary, OWN_NAME, text)
+      call make_deck(random, task, dictionary, text, mesh)
       if (task%keep) then
          call write_deck(task%path//'.'//to_text(k), text)
+         if (allocated(mesh)) call write_deck(task%path//'.'//to_text(k)//MESH_END, mesh)
          return
       end if
       call random_integer(random, -7_ip, MOST_LEVELS, levels)
       call write_deck(task%path, text)
+      if (allocated(mesh)) call write_deck(task%path//MESH_END, mesh)
       call clear_messages()
       call reset_timers()
       call read_deck(task%path, no_settings, deck, status)
@@ -119,6 +129,43 @@ contains
       tally%failed = tally%failed + 1
       write (error_unit, '(a)') 'FAILED: --seed '//to_text(task%seed)//' --one '//to_text(k)//': '//fault
    end subroutine do_mutation
+
+   !> A mutated deck; with meshes a mutated mesh and the deck that includes it, in which one time in four something is changed.
+   subroutine make_deck(random, task, dictionary, text, mesh)
+      type(random_t), intent(inout) :: random
+      type(task_t), intent(in) :: task
+      type(dictionary_t), intent(in) :: dictionary
+      character(len=:), allocatable, intent(out) :: text, mesh
+      integer(ip) :: i
+      logical :: hit
+
+      if (size(task%meshes) == 0) then
+         call mutate_deck(random, task%decks, dictionary, OWN_NAME, text)
+         return
+      end if
+      call random_integer(random, 1_ip, size(task%decks, kind=ip), i)
+      text = task%decks(i)%s
+      call choose_mesh(task%names, task%meshes, mesh_name(task), text, mesh)
+      call mutate_mesh(random, task%meshes, mesh)
+      call random_chance(random, 4_ip, hit)
+      if (hit) call mutate_once(random, task%decks, dictionary, OWN_NAME, text)
+   end subroutine make_deck
+
+   !> What the deck calls the mesh, which lies beside it. run-program.sh gives kept decks their own name.
+   function mesh_name(task) result(name)
+      type(task_t), intent(in) :: task
+      character(len=:), allocatable :: name
+
+      name = OWN_NAME//MESH_END
+      if (.not. task%keep) name = base_name(task%path)//MESH_END
+   end function mesh_name
+
+   pure function base_name(path) result(name)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: name
+
+      name = path(scan(path, '/', back=.true.) + 1:)
+   end function base_name
 
    subroutine note_time(start, k, tally)
       real(wp), intent(in) :: start
@@ -174,7 +221,7 @@ contains
       integer :: i
 
       task%path = OWN_NAME
-      allocate (task%decks(0))
+      allocate (task%decks(0), task%meshes(0), task%names(0))
       i = 1
       do while (i <= command_argument_count())
          select case (argument(i))
@@ -215,7 +262,12 @@ contains
 
       call read_file(path, text, status)
       if (.not. is_ok(status)) error stop 'atrito_fuzz: a deck or option that cannot be read'
-      call append_string(task%decks, text)
+      if (index(path, MESH_END, back=.true.) == len(path) - len(MESH_END) + 1) then
+         call append_string(task%meshes, text)
+         call append_string(task%names, base_name(path))
+      else
+         call append_string(task%decks, text)
+      end if
    end subroutine take_deck
 
    function argument(i) result(text)

@@ -2,7 +2,9 @@
 module fuzz_checks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_deck, only: deck_t
+   use atrito_files, only: read_file
    use atrito_kinds, only: ip
+   use atrito_message_json, only: json_of_message
    use atrito_messages, only: message_t, count_messages, get_message, format_message, sort_messages, SEVERITY_ERROR, &
                               SEVERITY_NOTE
    use atrito_mesh, only: signed_area
@@ -56,6 +58,7 @@ contains
       do i = 1, size(lines, kind=ip)
          if (has_control(lines(i)%s)) fault = '['//message%id//'] is told with a control character'
       end do
+      if (.not. is_json(json_of_message(message))) fault = '['//message%id//'] is no object of JSON'
    end subroutine check_message
 
    !> The place is one of the file: a line of it, a column at most one behind the line's end.
@@ -63,7 +66,9 @@ contains
       type(deck_t), intent(in) :: deck
       type(message_t), intent(in) :: message
       character(len=:), allocatable, intent(inout) :: fault
-      integer(ip) :: i, line, first, last
+      character(len=:), allocatable :: text
+      type(status_t) :: status
+      integer(ip) :: i
 
       do i = 1, deck%n_sources
          if (deck%sources(i)%name == message%file) exit
@@ -72,22 +77,31 @@ contains
          fault = '['//message%id//'] in a file that was not read'
          return
       end if
-      associate (text => deck%sources(i)%text)
-         first = 1
-         do line = 2, message%line
-            last = index(text(first:), achar(10), kind=ip)
-            if (last == 0) fault = '['//message%id//'] behind the end of the file, line '//to_text(message%line)
-            if (last == 0) return
-            first = first + last
-         end do
-         last = index(text(first:)//achar(10), achar(10), kind=ip)
-         if (message%column < 1 .or. message%column > last) then
-            fault = '['//message%id//'] in column '//to_text(message%column)//' of '//to_text(last - 1)
-         else if (message%length < 1) then
-            fault = '['//message%id//'] marks nothing'
-         end if
-      end associate
+      text = deck%sources(i)%text
+      if (len(text) == 0) call read_file(message%file, text, status) ! the text of a mesh is not kept
+      call check_position(text, message, fault)
    end subroutine check_place
+
+   subroutine check_position(text, message, fault)
+      character(len=*), intent(in) :: text
+      type(message_t), intent(in) :: message
+      character(len=:), allocatable, intent(inout) :: fault
+      integer(ip) :: line, first, last
+
+      first = 1
+      do line = 2, message%line
+         last = index(text(first:), achar(10), kind=ip)
+         if (last == 0) fault = '['//message%id//'] behind the end of the file, line '//to_text(message%line)
+         if (last == 0) return
+         first = first + last
+      end do
+      last = index(text(first:)//achar(10), achar(10), kind=ip)
+      if (message%column < 1 .or. message%column > last) then
+         fault = '['//message%id//'] in column '//to_text(message%column)//' of '//to_text(last - 1)
+      else if (message%length < 1) then
+         fault = '['//message%id//'] marks nothing'
+      end if
+   end subroutine check_position
 
    pure logical function has_control(text)
       character(len=*), intent(in) :: text
@@ -98,6 +112,71 @@ contains
          has_control = has_control .or. ichar(text(i:i)) < 32 .or. ichar(text(i:i)) == 127
       end do
    end function has_control
+
+   !> One object: brackets that fit, outside of texts nothing but what JSON has, inside no control character, broken UTF-8 or
+   !> escape that does not exist.
+   pure logical function is_json(text)
+      character(len=*), intent(in) :: text
+      logical :: in_text
+      integer :: i, depth, n
+
+      is_json = .false.
+      in_text = .false.
+      depth = 0
+      i = 1
+      do while (i <= len(text))
+         n = 1
+         if (.not. in_text) then
+            if (scan(text(i:i), '{[') > 0) depth = depth + 1
+            if (scan(text(i:i), '}]') > 0) depth = depth - 1
+            if (scan(text(i:i), '{}[]:,-"0123456789nul') == 0) return
+            if (depth < 1 .and. i < len(text)) return
+         else if (text(i:i) == achar(92)) then
+            n = escape_length(text(i:))
+         else
+            n = utf8_length(text(i:))
+         end if
+         if (n == 0) return
+         if (n == 1 .and. text(i:i) == '"') in_text = .not. in_text
+         i = i + n
+      end do
+      is_json = depth == 0 .and. .not. in_text
+   end function is_json
+
+   !> Of a backslash and what belongs to it; 0: JSON has no such escape.
+   pure integer function escape_length(text) result(n)
+      character(len=*), intent(in) :: text
+
+      n = 0
+      if (len(text) < 2) return
+      if (scan(text(2:2), '"/bfnrt'//achar(92)) > 0) n = 2
+      if (text(2:2) /= 'u' .or. len(text) < 6) return
+      if (verify(text(3:6), '0123456789abcdefABCDEF') == 0) n = 6
+   end function escape_length
+
+   !> Of the character at the beginning; 0: a control character, or not UTF-8.
+   pure integer function utf8_length(text) result(n)
+      character(len=*), intent(in) :: text
+      integer :: first, second, i
+
+      first = iachar(text(1:1))
+      n = 0
+      if (first < 32) return
+      if (first < 128) n = 1
+      if (first >= 194 .and. first < 224) n = 2
+      if (first >= 224 .and. first < 240) n = 3
+      if (first >= 240 .and. first < 245) n = 4
+      if (n < 2) return
+      if (len(text) < n) n = 0
+      if (n == 0) return
+      do i = 2, n
+         if (iand(iachar(text(i:i)), 192) /= 128) n = 0
+      end do
+      if (n == 0) return
+      second = iachar(text(2:2))
+      if (first == 224 .and. second < 160 .or. first == 237 .and. second > 159 .or. first == 240 .and. second < 144 .or. &
+          first == 244 .and. second > 143) n = 0
+   end function utf8_length
 
    !> A model without errors is whole and sound.
    subroutine check_model(model, fault)
@@ -113,7 +192,7 @@ contains
       if (any(model%mesh%node_id < 1) .or. any(model%mesh%element_id < 1)) fault = 'a number that is not positive'
       if (.not. all(ieee_is_finite(model%mesh%x))) fault = 'a coordinate that is no number'
       do e = 1, model%mesh%n_elements
-         if (all(model%mesh%shape(e) /= [4_ip, 9_ip])) fault = 'an element of no shape'
+         if (all(model%mesh%shape(e) /= [3_ip, 4_ip, 6_ip, 8_ip, 9_ip])) fault = 'an element of no shape'
          if (allocated(fault)) return
          associate (nodes => model%mesh%nodes(:model%mesh%shape(e), e))
             if (any(nodes < 1) .or. any(nodes > n)) fault = 'an element with a node that does not exist'

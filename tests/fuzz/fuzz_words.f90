@@ -1,6 +1,7 @@
 !> What a mutation puts into a deck: words of the deck language, numbers that a careless reader bends, characters that no deck
 !> should hold.
 module fuzz_words
+   use atrito_foreign_keywords, only: IGNORED_KEYWORDS, OUTSIDE_KEYWORDS
    use atrito_keyword, only: keyword_t
    use atrito_keyword_table, only: keyword_table
    use atrito_kinds, only: ip
@@ -30,6 +31,22 @@ module fuzz_words
                     'BOTTOM', 'MIDDLE', 'TOP', 'PILLAR', 'OVER-BOTTOM', 'OVER-TOP', 'SUPPORT-TOP', 'SUPPORT-BOTTOM', 'SPAN-RIGHT', &
            'SPAN-TOP', 'BLOCK-LEFT', 'JOINT', 'FLOOR', 'STEEL', 'S1', 'S2', 'S3', 'S4', 'S5', 'P', 'P1', 'P3', 'BX', 'BY', 'GRAV', &
                                                                                   'START', 'LINE', 'CIRCL', 'GRADE', 'X', 'Y', 'RF']
+   !> Of parts, instances and other programs.
+   character(len=48), parameter :: FOREIGN_LINES(30) = [character(len=48) :: '*PART, NAME=Block', '*PART, NAME=P1', &
+                                           '*END PART', '*ASSEMBLY, NAME=A', '*END ASSEMBLY', '*INSTANCE, NAME=Lower, PART=Block', &
+                          '*INSTANCE, NAME=I1, PART=P1', '*INSTANCE', '*END INSTANCE', '*INCLUDE, INPUT=fuzz-deck.inp, TYPE=GMSH', &
+                                              '*STEP, NLGEOM', '*STEP, PERTURBATION', '*END STEP', '*SURFACE, NAME=S9, TYPE=NODE', &
+                            '*ELASTIC, TYPE=ENGINEERING CONSTANTS', '*ELASTIC, TYPE=ORTHO', '*BOUNDARY, OP=NEW', '*CLOAD, OP=NEW', &
+                   '*ELEMENT, TYPE=T3D2, ELSET=L', '*ELEMENT, TYPE=C3D8', '*ELEMENT, TYPE=M3D4', '*NSET, NSET=N1, INSTANCE=Lower', &
+                '*ELSET, ELSET=E1, INSTANCE=Lower, GENERATE', '*OUTPUT, FIELD', '*NODE OUTPUT', '*SOLID SECTION, NODAL THICKNESS', &
+                                  '*CONTACT PAIR, INTERACTION=I, SMALL SLIDING', '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR', &
+                                                                                     '*TRANSFORM, NSET=ALL', '*ORIENTATION, NAME=O']
+   character(len=32), parameter :: FOREIGN_ITEMS(46) = [character(len=32) :: 'INSTANCE=Lower', 'INSTANCE=Upper', 'PART=Block', &
+                        'Lower.Head', 'Upper.12', 'Assembly.Lower.Set-1', 'Lower.', '.Head', 'Lower.Lower.Head', '..', 'Part-1-1', &
+                          'Part-1', 'Set-1', 'TYPE=NODE', 'TYPE=GMSH', 'ELEMENTS=CAX', 'TYPE=ENGINEERING CONSTANTS', 'TYPE=ORTHO', &
+               'ENCASTRE', 'PINNED', 'XSYMM', 'YSYMM', 'ZASYMM', 'T3D2', 'M3D4', 'C3D8', 'B21', 'S4R', 'DCC2D4', 'CPE4H', 'CPS4I', &
+                             'OP=NEW', 'NLGEOM', 'NLGEOM=NO', 'GENERATE', 'INTERNAL', 'UNSORTED', 'CENTRIF', 'ORIENTATION=turned', &
+                                                   'NODAL THICKNESS', '<q*2>', '<sin(30*deg)>', '<-a/2>', '<min(1, 2)>', '<1', 'S3']
    character(len=48), parameter :: EXPRESSIONS(14) = [character(len=48) :: 'p1 = 1', 'p1 = p2', 'p2 = p1', 'p1 = p1', 'q = 1/0', &
             'q = 1e308*10', 'q = (((((1', 'q = 2**-2**3', 'q = ----1', 'q = sqrt(-1)', 'q = min()', 'q = atan(1,2)', 'x = 3', '= 3']
 
@@ -50,7 +67,11 @@ contains
       call add_words(ODDITIES, dictionary%items)
       call add_words(NAMES, dictionary%items)
       call add_words(NUMBERS, dictionary%items)            ! twice: they are what matters most
+      call add_words(FOREIGN_ITEMS, dictionary%items)
       call add_controls(dictionary%items)
+      call add_lines(FOREIGN_LINES, '', dictionary%lines)
+      call add_lines(IGNORED_KEYWORDS, '*', dictionary%lines)
+      call add_lines(OUTSIDE_KEYWORDS%name, '*', dictionary%lines)
       do i = 1, size(EXPRESSIONS, kind=ip)
          call append_string(dictionary%lines, '*PARAMETER'//NEW_LINE_CHARACTER//trim(EXPRESSIONS(i))//NEW_LINE_CHARACTER)
       end do
@@ -65,6 +86,16 @@ contains
          call append_string(list, trim(words(i)))
       end do
    end subroutine add_words
+
+   pure subroutine add_lines(words, before, list)
+      character(len=*), intent(in) :: words(:), before
+      type(string_t), allocatable, intent(inout) :: list(:)
+      integer :: i
+
+      do i = 1, size(words)
+         call append_string(list, before//trim(words(i))//NEW_LINE_CHARACTER)
+      end do
+   end subroutine add_lines
 
    pure subroutine add_keyword(keyword, dictionary)
       type(keyword_t), intent(in) :: keyword

@@ -36,6 +36,7 @@ k=$first
 while [ "$k" -lt $((first + count)) ]; do
    mkdir "$work/run"
    mv "$work/deck.$k" "$work/run/fuzz-deck.inp"
+   [ -e "$work/deck.$k.msh" ] && mv "$work/deck.$k.msh" "$work/run/fuzz-deck.inp.msh"
    (cd "$work/run" && ulimit -v 4000000 && timeout 20 "$atrito" fuzz-deck.inp -o tables) >"$work/out" 2>"$work/err"
    code=$?
    case $code in
@@ -45,7 +46,7 @@ while [ "$k" -lt $((first + count)) ]; do
    4) n4=$((n4 + 1)) ;;
    *) complain "exit code $code" ;;
    esac
-   left=$(find "$work/run" -type f ! -name fuzz-deck.inp | wc -l)
+   left=$(find "$work/run" -type f ! -name 'fuzz-deck.inp*' | wc -l)
    case $code in
    0 | 3)
       [ -s "$work/run/tables/summary.tab" ] || complain "exit code $code without tables"

@@ -14,6 +14,9 @@ unsettled_t        output/atrito_exchange_results.f90 exchange_unsettled point
 body_motion_t      output/atrito_exchange_results.f90 exchange_motion body
 rigid_result_t     output/atrito_exchange_results.f90 exchange_rigid body
 joint_t            output/atrito_exchange_results.f90 exchange_joint joint
+observed_t         output/atrito_exchange_results.f90 exchange_observed list
+observed_list_t    output/atrito_restart_file.f90 exchange_observed_list list
+cut_force_t        output/atrito_exchange_results.f90 exchange_cut cut
 iteration_t        output/atrito_exchange_results.f90 exchange_iterations list
 extreme_t          output/atrito_exchange_results.f90 exchange_extreme extreme
 balance_t          output/atrito_exchange_results.f90 exchange_balance balance
@@ -33,22 +36,22 @@ box_bounds_t       solve/atrito_warm_start.f90 put_start bounds
 multiplier_t       solve/atrito_warm_start.f90 put_multipliers multipliers factorisations,solves,generation
 slip_memory_t      solve/atrito_slip_memory.f90 put_memory memory is_incremental
 slip_memory_t      solve/atrito_slip_memory.f90 take_memory memory is_incremental
-run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last
-run_t              solve/atrito_history.f90 resume run reporter
+run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last,observer
+run_t              solve/atrito_history.f90 resume run reporter,observer
 progress_t         solve/atrito_history.f90 record now cuts
-model_t            model/atrito_fingerprint.f90 * model deck_path,deck_name,heading,parameters,levels,node_sets,element_sets,springs,ties,equations,restart_every,solver_mesh
+model_t            model/atrito_fingerprint.f90 * model deck_path,deck_name,heading,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run
 mesh_t             model/atrito_fingerprint.f90 digest_of_mesh mesh node_map,element_map
 material_t         model/atrito_fingerprint.f90 digest_of_materials material name
-section_t          model/atrito_fingerprint.f90 digest_of_materials sections elset
+section_t          model/atrito_fingerprint.f90 digest_of_materials sections elset,is_tapered
 surface_t          model/atrito_fingerprint.f90 digest_of_surfaces surface
 face_list_t        model/atrito_fingerprint.f90 digest_of_surfaces faces
 interaction_t      model/atrito_fingerprint.f90 digest_of_interactions law
 pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set,is_resolved
-contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,faces,coarseness,coarse_node
+contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,n_seeing,faces,coarseness,coarse_node
 bilateral_rows_t   model/atrito_fingerprint.f90 digest_of_rows rows n_groups
 step_t             model/atrito_fingerprint.f90 * step title
-nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values
-element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line
+nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values source
+element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/atrito_fingerprint.f90 add_amplitude amplitude name
 increments_t       model/atrito_fingerprint.f90 add_way way
 controls_t         model/atrito_fingerprint.f90 add_way controls is_brief

@@ -12,8 +12,8 @@ module model_cases
    use atrito_strings, only: string_t, same_name, to_text
    implicit none (type, external)
    private
-   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, build_within, said, first_text, node_ids, &
-             element_ids, faces_text
+   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, build_within, write_file, said, first_text, &
+             node_ids, element_ids, faces_text
 
    !> Two unit squares side by side.
    character(len=*), parameter :: PLATE = '*NODE|1, 0, 0|2, 1, 0|3, 2, 0|11, 0, 1|12, 1, 1|13, 2, 1|'// &
@@ -82,6 +82,13 @@ contains
 
    subroutine write_deck(text)
       character(len=*), intent(in) :: text
+
+      call write_file('scene.inp', text)
+   end subroutine write_deck
+
+   !> Writes a file beside the deck; lines separated by '|'.
+   subroutine write_file(name, text)
+      character(len=*), intent(in) :: name, text
       type(file_set_t) :: set
       type(text_file_t) :: file
       type(string_t) :: none(0)
@@ -89,7 +96,7 @@ contains
       integer :: first, bar
 
       call begin_files(set, FOLDER, status)
-      call open_text(set, 'scene.inp', file)
+      call open_text(set, name, file)
       first = 1
       do while (first <= len(text))
          bar = index(text(first:)//'|', '|')
@@ -98,7 +105,7 @@ contains
       end do
       call close_text(file, status)
       call commit_files(set, none, status)
-   end subroutine write_deck
+   end subroutine write_file
 
    !> All messages as `ID line:column`, separated by '; '.
    function said() result(text)

@@ -8,8 +8,8 @@ sh "$here/../../bench/explicit-deck.sh" 20 >explicit.inp
 run 0 block.inp block --quiet
 run 0 explicit.inp explicit --quiet
 for table in nodes stress reactions contact summary iterations; do
-   grep -v '^# deck:\|^# heading:' "block/$table.tab" >"block/$table.text"
-   grep -v '^# deck:\|^# heading:' "explicit/$table.tab" >"explicit/$table.text"
+   grep -v '^# deck:\|^# heading:\|^# digest:\|^# parameters:' "block/$table.tab" >"block/$table.text"
+   grep -v '^# deck:\|^# heading:\|^# digest:\|^# parameters:' "explicit/$table.tab" >"explicit/$table.text"
    [ -s "block/$table.text" ] || complain "$table.tab is missing"
    cmp "block/$table.text" "explicit/$table.text" || complain "$table.tab"
 done

@@ -150,4 +150,17 @@ for level in 0 1 2; do
          END { if (n < 4) print "none"; else printf "%.17g", worst }' periodic/nodes.tab)" 1e-15
    done
 done
+# SPRINGA along (0.6, 0.8) to a node that is held, in either order: a push of 6 along x needs a thrust of 10
+axial() { # axial ENDS [LINE]
+   printf '%s\n' '*NODE, NSET=ALL' '1, 0, 0' '2, 1, 0' '3, 1, 1' '4, 0, 1' '*NODE' '101, 4, 5' '*ELEMENT, TYPE=CPS4, ELSET=B' '1, 1, 2, 3, 4' '*ELEMENT, TYPE=SPRINGA, ELSET=S' \
+      "11, $1" '*SPRING, ELSET=S' "${2-}" 50. '*MATERIAL, NAME=M' '*ELASTIC' '1000, 0.3' '*SOLID SECTION, ELSET=B, MATERIAL=M' '*BOUNDARY' 'ALL, 2' '101, 1, 2' \
+      '*STEP' '*STATIC' '*CLOAD' '3, 1, 6' '*NODE PRINT' U '*END STEP'
+}
+for ends in '3, 101' '101, 3'; do
+   axial "$ends" >axial.inp
+   run 0 axial.inp axial --digits 17 --quiet
+   near "thrust of SPRINGA $ends" "$(column axial/springs.tab force)" -10 1e-12
+   near "shortening of SPRINGA $ends" "$(column axial/springs.tab relative_u)" -0.2 1e-14
+   near "end of SPRINGA $ends" "$(awk '!/^#/ && $2 == 3 { print $5 }' axial/nodes.tab)" "$(value 0.2/0.6)" 1e-13
+done
 finish

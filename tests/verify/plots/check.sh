@@ -1,5 +1,6 @@
 . "$(dirname "$0")/../lib.sh"
 ex1=$input/ex1-plate-on-support.inp
+lessons_block=$input/lessons/block.inp
 
 # picture FILE: FILE.png is a png of some size, FILE.svg an svg that draws something, and both have a script.
 picture() {
@@ -71,8 +72,8 @@ done
 run 0 "$ex1" none --plot --quiet --set q=0
 pictures none mesh contact-1
 run 0 "$ex1" told --plot
-[ "$have_gnuplot" = no ] || says 'summary' told.out 'plots in     told/plots: mesh contact-1'
-says 'listing' told/ex1-plate-on-support.lst 'mesh, contact-1'
+[ "$have_gnuplot" = no ] || says 'summary' told.out 'plots in     told/plots: mesh contours tractions contact-1'
+says 'listing' told/ex1-plate-on-support.lst 'mesh, contour-mises, contour-s11'
 
 panels_draw 'contact' told/plots/contact-1.gp told/contact.tab 'by pair step increment
 by status
@@ -101,6 +102,37 @@ run 3 slow.inp slow --plot --quiet
 pictures slow mesh contact-1
 says 'not converged' slow/plots/mesh.gp "heading = 'NOT CONVERGED"
 says 'not converged' slow/plots/contact-1.gp "heading = 'NOT CONVERGED"
+
+# contours: every field, with the largest and least of the nodes, at most 1.5 MB each; the scale and the box that are asked for
+contours='contour-mises contour-s11 contour-s22 contour-s12 contour-displacement contour-error'
+contour() { # FOLDER
+   for stem in $contours; do
+      [ -s "$1/plots/$stem.bin" ] || complain "$1: no $stem.bin"
+      [ "$have_gnuplot" = yes ] || continue
+      grep -q '<image' "$1/plots/$stem.svg" && [ "$(wc -c <"$1/plots/$stem.svg")" -lt 1500000 ] || complain "$1: $stem.svg"
+      [ "$(wc -c <"$1/plots/$stem.png")" -gt 10000 ] || complain "$1: $stem.png"
+   done
+   [ ! -e "$1/plots/gnuplot.log" ] || { complain "$1: gnuplot complains"; cat "$1/plots/gnuplot.log"; }
+}
+run 0 "$ex1" drawn --plot --quiet
+contour drawn
+pictures drawn tractions
+run 0 "$ex1" zoomed --plot --quiet --plot-scale 4 --plot-box 0.4,-0.2,0.8,0.2
+contour zoomed
+pictures zoomed mesh tractions
+says 'scale' zoomed/plots/mesh.gp 'scale = 4 '
+says 'box' zoomed/plots/contour-mises.gp 'set xrange [0.4:0.8]'
+says 'box' zoomed/plots/tractions.gp 'set yrange [-0.2:0.2]'
+run 0 "$ex1" beside --plot --quiet --plot-box 5,5,6,6
+says 'box' beside.err '[W-PLOT] --plot-box shows no body'
+contour beside
+# the displacements of the tables are those of the picture
+largest=$(awk '!/^#/ { u = sqrt($5*$5 + $6*$6); if (u > most) { most = u; node = $2 } } END { printf "largest %.4g at node %d", most, node }' drawn/nodes.tab)
+says 'largest displacement' drawn/plots/contour-displacement.gp "$largest"
+run 0 "$lessons_block" flat --plot --quiet
+contour flat
+says 'a flat field' flat/plots/contour-s22.gp 'the same everywhere: -10"'
+says 'a stress that is none' flat/plots/contour-s12.gp 'the same everywhere: 0"'
 
 # joints: on request, with one body, with many, and with none that touches
 joints_of() { # NAME DECK [options]
@@ -177,6 +209,58 @@ echo mine >without/plots
 says 'no folder' again.err 'warning [W-PLOT] no plots are written: without/plots'
 [ "$(cat without/plots)" = mine ] || complain 'a file of the user was replaced'
 
+# a scene before it is solved: pictures of it and nothing else, into a folder of its own
+rm -rf output here without
+run_again "$ex1" -o told --quiet --plot || complain 'the run beside the check failed'
+"$atrito" check "$ex1" >check.out 2>check.err || complain 'check failed'
+absent output
+"$atrito" check "$ex1" --plot >check.out 2>check.err || complain 'check --plot failed'
+checked=output/ex1-plate-on-support-check
+pictures "$checked" scene sets pairs
+[ "$(ls output)" = ex1-plate-on-support-check ] && [ "$(ls "$checked")" = plots ] || complain 'check --plot writes other files'
+[ "$have_gnuplot" = no ] || says 'check' check.out "plots in     $checked/plots: scene sets pairs"
+says 'supports' "$checked/plots/scene.gp" 'title "held in both directions"'
+says 'loads' "$checked/plots/scene.gp" 'title "loads on faces, resultant (0, -1.5) [F]"'
+says 'sides' "$checked/plots/scene.gp" 'title "slaves, with normals"'
+says 'names of bodies' "$checked/plots/scene.gp" "title 'PLATE' noenhanced"
+says 'mesh of a run' told/plots/mesh.gp 'title "loads on faces, resultant (0, -1.5) [F]"'
+says 'the surface that moves' "$checked/plots/pairs.gp" "title 'OVER-BOTTOM'"
+# beside a run, whose pictures stay; those of an earlier check go, with a scene that has no pair
+"$atrito" check "$ex1" --plot --quiet -o told 2>check.err || complain 'check into the folder of a run failed'
+pictures told mesh contact-1 scene sets pairs
+"$atrito" check "$here/../water/dam.inp" --plot --quiet -o told 2>check.err || complain 'check without pairs failed'
+pictures told mesh contact-1 scene sets
+absent told/plots/pairs.gp
+run_again "$ex1" -o told --quiet
+absent told/plots/mesh-symbols.dat
+[ -s told/plots/scene-symbols.dat ] || complain 'a run removed the pictures of a check'
+# what else is drawn: rows, temperatures, sections of bolts, reference nodes, the axis
+for scene in joints/rows thermal/plate thermal/tube pretension/joint rigid-histories/push axisymmetric/disc centrifugal/askew; do
+   "$atrito" check "$here/../$scene.inp" --plot --quiet -o here 2>check.err || complain "check --plot of $scene failed"
+   pictures here scene
+   cp here/plots/scene.gp "$(basename "$scene").gp"
+done
+for title in 'ties, with normals' springs 'equations (2)' 'forces at nodes, resultant (1.5, -5) [F]'; do
+   says 'rows' rows.gp "title \"$title\""
+done
+says 'temperature' plate.gp 'title "warmer by up to 100"'
+says 'bolt' joint.gp 'title "pre-tension section, force 0.03 [F]"'
+says 'reference node' push.gp 'title "reference nodes, in squares: no rotation"'
+says 'several steps' push.gp 'supports and loads of step 1 of 4, at its end'
+says 'axis' disc.gp 'title "axis of revolution"'
+says 'turning' askew.gp 'title "body loads, resultant (1.354, -0.677) [F]"'
+# nothing is a failure, as with a run
+(PATH=$PWD/empty; export PATH; "$atrito" check "$ex1" -o without --quiet --plot) >check.out 2>check.err || complain 'check without gnuplot: not exit 0'
+says 'check without gnuplot' check.err 'warning [W-PLOT]'
+rm -rf here
+echo mine >here
+"$atrito" check "$ex1" --plot --quiet -o here 2>check.err || complain 'check into a file: not exit 0'
+says 'check into a file' check.err 'warning [W-PLOT] no plots are written'
+[ "$(cat here)" = mine ] || complain 'check replaced a file of the user'
+if "$atrito" check "$ex1" -o nowhere 2>check.err; then complain 'check -o without --plot is taken'; fi
+says 'check -o' check.err 'without --plot'
+absent nowhere
+
 # sweeps: a legend up to ten runs, then a palette; a picture against one parameter
 "$atrito" sweep "$ex1" --vary nu=0,0.1,0.3 --plot --quiet -o sweep 2>sweep.err || complain 'the sweep failed'
 pictures sweep overlay-1 overlay-summary
@@ -205,8 +289,8 @@ lessons=$input/lessons
 run 0 "$lessons/press-and-push.inp" push --plot
 pictures push mesh history loop contact-1
 moving push 4
-[ "$have_gnuplot" = no ] || says 'summary' push.out 'plots in     push/plots: mesh history loop motion contact-1'
-says 'listing' push/press-and-push.lst 'mesh, history, loop, motion, contact-1'
+[ "$have_gnuplot" = no ] || says 'summary' push.out 'plots in     push/plots: mesh contours tractions history loop motion contact-1'
+says 'listing' push/press-and-push.lst 'history, loop, motion, contact-1'
 panels_draw 'history' push/plots/history.gp push/history.tab 'normal time:normal_resultant
 shear time:shear_resultant
 contact time:contact_length

@@ -73,13 +73,13 @@ near 'pressed: force' "$(end pressed-dense 1 r2)" -20 1e-9
 near 'pressed: plateau' "$(value "$(end pressed-dense 2 r1) + 0.5*($(end pressed-dense 2 r2))")" 0 1e-10
 
 # 4. Released, with the force that held it as a load: nothing changes. Without a load it lets go linearly over the step.
-steps released "*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 2, 2, $down/*END STEP/*STEP/*STATIC/0.25, 1/*BOUNDARY, OP=NEW/1000, 1/*CLOAD/1000, 2, $(end pressed-dense 1 r2)/*CONTACT PRINT, FREQUENCY=1/*END STEP"
+steps released "*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 2, 2, $down/*END STEP/*STEP/*STATIC/0.25, 1/*BOUNDARY, OP=NEW/BLOCK-BOTTOM, 1, 2/1000, 1/1000, 6/*CLOAD/1000, 2, $(end pressed-dense 1 r2)/*CONTACT PRINT, FREQUENCY=1/*END STEP"
 both released released.inp
 for increment in 1 2 3 4; do
    near "released, increment $increment: u2" "$(end released-dense 2 u2 $increment)" "$down" 1e-12
    near "released, increment $increment: reaction" "$(end released-dense 2 r2 $increment)" 0 0
 done
-steps fading "*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 2, 2, $down/*CONTACT PRINT/*END STEP/*STEP/*STATIC/0.25, 1/*BOUNDARY, OP=NEW/1000, 1/*CLOAD/1000, 2, -5/*CONTACT PRINT, FREQUENCY=1/*END STEP"
+steps fading "*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 2, 2, $down/*CONTACT PRINT/*END STEP/*STEP/*STATIC/0.25, 1/*BOUNDARY, OP=NEW/BLOCK-BOTTOM, 1, 2/1000, 1/1000, 6/*CLOAD/1000, 2, -5/*CONTACT PRINT, FREQUENCY=1/*END STEP"
 run 0 fading.inp fading --digits 17 --quiet
 near 'fading: what the block carries in the middle' "$(awk '!/^#/ && $1 == 2 && $2 == 2 { print $5 }' fading/history.tab)" 12.5 1e-9
 
@@ -107,7 +107,7 @@ near 'by a moment: rotation back' "$(end moment-dense 2 ur 6)" -0.003 1e-11
 
 # The rotation alone is let go, with the moment that held it: it stays. One increment follows an amplitude, too.
 { sed '/^\*STEP/,$d; /^1000, 6$/d; s/^<nu>$/0/' "$here/push.inp"
-   echo "*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 6, 6, 0.003/*CLOAD/1000, 2, -20/*END STEP/*STEP/*STATIC/0.5, 1/*BOUNDARY, OP=NEW/1000, 1/*CLOAD/1000, 6, $(end wave-dense 2 moment 2)/*CONTACT PRINT, FREQUENCY=1/*END STEP" | tr / '\n'; } >turns.inp
+   echo "*STEP/*STATIC/*BOUNDARY/1000, 1/1000, 6, 6, 0.003/*CLOAD/1000, 2, -20/*END STEP/*STEP/*STATIC/0.5, 1/*BOUNDARY, OP=NEW/BLOCK-BOTTOM, 1, 2/1000, 1/*CLOAD/1000, 6, $(end wave-dense 2 moment 2)/*CONTACT PRINT, FREQUENCY=1/*END STEP" | tr / '\n'; } >turns.inp
 both turns turns.inp
 near 'rotation let go: half way' "$(end turns-dense 2 ur 1)" 0.003 1e-12
 near 'rotation let go' "$(end turns-dense 2 ur 2)" 0.003 1e-12
@@ -125,7 +125,7 @@ for form in dense sparse; do
 done
 
 # 7. A force beyond nu N: the history ends where it begins to slide
-steps beyond "*STEP/*STATIC/*BOUNDARY/1000, 1/*CLOAD/1000, 2, -20/*END STEP/*STEP/*STATIC/0.25, 1, 0.001/*BOUNDARY, OP=NEW/1000, 6/*CLOAD/1000, 1, 12/*END STEP"
+steps beyond "*STEP/*STATIC/*BOUNDARY/1000, 1/*CLOAD/1000, 2, -20/*END STEP/*STEP/*STATIC/0.25, 1, 0.001/*BOUNDARY, OP=NEW/BLOCK-BOTTOM, 1, 2/1000, 6/*CLOAD/1000, 1, 12/*END STEP"
 for form in dense sparse; do
    run 4 beyond.inp beyond-$form --digits 17 --contact $form --quiet
    says "beyond, $form" beyond-$form.err 'ended in step 2, increment'

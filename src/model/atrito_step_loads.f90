@@ -6,7 +6,7 @@
 module atrito_step_loads
    use atrito_amplitudes, only: factor_at
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC
+   use atrito_model, only: element_load_t, model_t, nodal_values_t, step_t, LOAD_HYDROSTATIC, LOAD_LINEAR
    implicit none (type, external)
    private
    public :: moment_t, is_end, share_at, act_at, list_bases, base_of, base_factors, BASE_BEGIN, BASE_END
@@ -94,6 +94,7 @@ contains
       now%node = values%node
       now%dof = values%dof
       now%value = values%value
+      if (allocated(values%source)) now%source = values%source
       do i = 1, values%n
          a = amplitude_of(values%amplitude, i)
          if (a > 0) then
@@ -158,6 +159,7 @@ contains
 
       entries = [1_ip, 2_ip]
       if (kind == LOAD_HYDROSTATIC) entries = [1_ip]
+      if (kind == LOAD_LINEAR) entries = [1_ip, 2_ip, 3_ip]
    end function scaled
 
    !> Some loads, with their values.
@@ -171,6 +173,7 @@ contains
       now%element = loads%element(wanted)
       now%kind = loads%kind(wanted)
       now%face = loads%face(wanted)
+      if (allocated(loads%source)) now%source = loads%source(wanted)
       now%value = value(:, wanted)
    end subroutine take_loads
 
@@ -193,6 +196,7 @@ contains
       now%element = [own%element, going%element]
       now%kind = [own%kind, going%kind]
       now%face = [own%face, going%face]
+      if (allocated(own%source)) now%source = [own%source, going%source]
       now%value = reshape([own%value, going%value], [size(own%value, 1), int(now%n)])
    end subroutine add_levels_that_go
 

@@ -1,0 +1,22 @@
+// A quarter of a plate with a hole, pushed onto a rigid line. Units mm and N.
+width = 50; height = 60; r = 15;
+Point(1) = {r, 0, 0, 1.5};
+Point(2) = {width, 0, 0, 5};
+Point(3) = {width, height, 0, 5};
+Point(4) = {0, height, 0, 5};
+Point(5) = {0, r, 0, 1.5};
+Point(6) = {0, 0, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Circle(5) = {5, 6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Physical Surface("plate") = {1};
+Physical Curve("base") = {1};
+Physical Curve("right") = {2};
+Physical Curve("top") = {3};
+Physical Curve("left") = {4};
+Physical Curve("hole") = {5};
+Mesh.ElementOrder = 2;

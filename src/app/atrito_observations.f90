@@ -1,0 +1,266 @@
+!> The expressions of --observe: read once against the model, evaluated at the end of each increment.
+module atrito_observations
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use atrito_expression_calls, only: call_t
+   use atrito_expressions, only: evaluate_expression, expression_fault_t, is_name, list_calls
+   use atrito_kinds, only: ip, is_nan, wp
+   use atrito_messages, only: add_warning, message_t, SEVERITY_ERROR
+   use atrito_model, only: model_t
+   use atrito_observed_names, only: field_names, find_term, name_fault_t, observable_names
+   use atrito_observed_terms, only: step_quantity_list, term_t, value_of_term, FIRST_FORCE, FIRST_STRESS, TERM_NODES, TERM_STEP
+   use atrito_observer, only: observer_t
+   use atrito_results, only: observed_t, results_t
+   use atrito_strings, only: nearest_names, same_name, string_t, to_text
+   use atrito_summary, only: quantity_t
+   implicit none (type, external)
+   private
+   public :: observations_t, read_observations, observation_names
+
+   !> One of them.
+   type :: observation_t
+      character(len=:), allocatable :: name, text    !< text: the expression
+      type(call_t), allocatable :: calls(:)          !< of it
+      type(term_t), allocatable :: terms(:)          !< what they mean
+      logical :: has_warned = .false.
+   end type observation_t
+
+   type, extends(observer_t) :: observations_t
+      private
+      type(observation_t), allocatable :: list(:)
+      type(string_t), allocatable :: names(:)        !< parameters of the deck
+      real(wp), allocatable :: values(:)
+      logical :: has_own_degree = .false.            !< one of them is deg
+   contains
+      procedure :: observe => evaluate_all
+   end type observations_t
+
+   integer, parameter :: MOST_NEAREST = 3
+   !> Other columns of the tables in which the names stand.
+   character(len=*), parameter :: COLUMNS(19) = [character(len=14) :: 'step', 'increment', 'pair', 'quantity', 'value', 'run', &
+                                                         'exit', 'factorisations', 'folder', 'moment', 'contact_length', 'centre', &
+                                                 'dissipation', 'elastic_energy', 'level', 'element', 'h', 'dofs', 'contact_points']
+
+contains
+
+   !> Reads `NAME=EXPRESSION`, several. is_ok is false where one is wrong, and error says how.
+   subroutine read_observations(texts, model, observations, is_ok, error)
+      type(string_t), intent(in) :: texts(:)
+      type(model_t), intent(in) :: model
+      type(observations_t), intent(out) :: observations
+      logical, intent(out) :: is_ok
+      type(message_t), intent(out) :: error
+      integer :: i
+
+      is_ok = .true.
+      observations%is_there = size(texts) > 0
+      if (.not. observations%is_there) return
+      allocate (observations%list(size(texts)), observations%names(size(model%parameters)))
+      do i = 1, size(model%parameters)
+         observations%names(i)%s = model%parameters(i)%name
+         observations%has_own_degree = observations%has_own_degree .or. same_name(model%parameters(i)%name, 'deg')
+      end do
+      observations%values = model%parameters%value
+      do i = 1, size(texts)
+         associate (one => observations%list(i))
+            one%name = observation_name(texts(i)%s)
+            one%text = texts(i)%s(index(texts(i)%s, '=') + 1:)
+            call check_name(observations, i, is_ok, error)
+            if (is_ok) call find_terms(model, observations, i, is_ok, error)
+            if (.not. is_ok) return
+            observations%wants_stress = observations%wants_stress .or. wants_stress(one%terms)
+         end associate
+      end do
+   end subroutine read_observations
+
+   !> NAME of `NAME=EXPRESSION`.
+   pure function observation_name(text) result(name)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: name
+
+      name = trim(adjustl(text(:max(index(text, '=') - 1, 0))))
+   end function observation_name
+
+   !> The names of several.
+   pure function observation_names(texts) result(names)
+      type(string_t), intent(in) :: texts(:)           !< NAME=EXPRESSION
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(size(texts)))
+      do i = 1, size(texts)
+         names(i)%s = observation_name(texts(i)%s)
+      end do
+   end function observation_names
+
+   !> The name of the i-th one is a word, of its own, and no other column of the tables.
+   subroutine check_name(observations, i, is_ok, error)
+      type(observations_t), intent(in) :: observations
+      integer, intent(in) :: i
+      logical, intent(out) :: is_ok
+      type(message_t), intent(inout) :: error
+      type(observed_t) :: longest
+      character(len=:), allocatable :: what
+      integer :: k
+
+      associate (name => observations%list(i)%name)
+         what = ''
+         if (.not. is_name(name) .or. len(name) > len(longest%name)) what = 'is no name'
+         if (is_one_of(name, observable_names())) what = 'is a quantity or function already'
+         do k = 1, size(COLUMNS)
+            if (same_name(name, COLUMNS(k))) what = 'is a column of the tables already'
+         end do
+         if (is_one_of(name, observations%names)) what = 'is a parameter of the deck'
+         do k = 1, i - 1
+            if (same_name(name, observations%list(k)%name)) what = 'is given twice'
+         end do
+         is_ok = len(what) == 0
+         if (.not. is_ok) error = complaint(observations%list(i), name//' '//what, &
+                                            'another name: letters, digits and underscores, a letter first, at most ' &
+                                            //to_text(len(longest%name, kind=ip))//' characters')
+      end associate
+   end subroutine check_name
+
+   pure logical function is_one_of(name, list)
+      character(len=*), intent(in) :: name
+      type(string_t), intent(in) :: list(:)
+      integer :: i
+
+      is_one_of = .false.
+      do i = 1, size(list)
+         is_one_of = is_one_of .or. same_name(list(i)%s, name)
+      end do
+   end function is_one_of
+
+   !> What the names in the i-th expression mean.
+   subroutine find_terms(model, observations, i, is_ok, error)
+      type(model_t), intent(in) :: model
+      type(observations_t), intent(inout) :: observations
+      integer, intent(in) :: i
+      logical, intent(out) :: is_ok
+      type(message_t), intent(inout) :: error
+      type(expression_fault_t) :: fault
+      type(name_fault_t) :: wrong
+      integer :: k
+
+      associate (one => observations%list(i))
+         call list_calls(one%text, observations%names, field_names(), one%calls, fault, observations%has_own_degree)
+         is_ok = .not. allocated(fault%text)
+         if (.not. is_ok) then
+            error = complaint(one, fault%text, 'numbers, quantities, parameters of the deck, + - * / ** ( ), functions')
+            call put_place(one%text, fault%first, fault%last, error)
+            return
+         end if
+         allocate (one%terms(size(one%calls)))
+         do k = 1, size(one%calls)
+            call find_term(model, one%calls(k), one%terms(k), wrong)
+            is_ok = .not. allocated(wrong%text)
+            if (is_ok) cycle
+            error = complaint(one, wrong%text, wrong%expected)
+            call put_place(one%text, wrong%first, wrong%last, error)
+            if (allocated(wrong%known)) call put_known(one%text(wrong%first:wrong%last), wrong%known, error)
+            return
+         end do
+      end associate
+   end subroutine find_terms
+
+   !> An error of the command line.
+   function complaint(one, text, expected) result(error)
+      type(observation_t), intent(in) :: one
+      character(len=*), intent(in) :: text, expected
+      type(message_t) :: error
+
+      error%severity = SEVERITY_ERROR
+      error%id = 'E-OBSERVE'
+      error%file = 'atrito'
+      error%text = '--observe '//one%name//': '//text
+      error%expected = expected
+   end function complaint
+
+   !> The expression, and the place in it.
+   subroutine put_place(text, first, last, error)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first, last
+      type(message_t), intent(inout) :: error
+
+      error%text = error%text//', column '//to_text(int(first, ip))
+      error%source = text
+      error%column = int(first, ip)
+      error%length = int(last - first + 1, ip)
+   end subroutine put_place
+
+   !> The nearest names, or all where none is near and they are few.
+   subroutine put_known(name, known, error)
+      character(len=*), intent(in) :: name
+      type(string_t), intent(in) :: known(:)
+      type(message_t), intent(inout) :: error
+      integer, parameter :: FEW = 20
+
+      error%nearest = nearest_names(name, known, MOST_NEAREST)
+      if (size(error%nearest) == 0 .and. size(known) <= FEW) error%known = known
+   end subroutine put_known
+
+   !> Whether terms want what costs a recovery of stresses.
+   pure logical function wants_stress(terms)
+      type(term_t), intent(in) :: terms(:)
+      type(quantity_t), allocatable :: list(:)
+      integer :: i
+
+      wants_stress = .false.
+      list = step_quantity_list()
+      do i = 1, size(terms)
+         associate (term => terms(i))
+            if (term%kind == TERM_NODES) wants_stress = wants_stress .or. is_stress(term%field)
+            if (term%kind == TERM_STEP) wants_stress = wants_stress .or. list(term%field)%name == 'error_estimate_percent'
+         end associate
+      end do
+   end function wants_stress
+
+   pure logical function is_stress(field)
+      integer, intent(in) :: field                   !< place in NODAL_FIELDS
+
+      is_stress = field >= FIRST_STRESS .and. field < FIRST_FORCE
+   end function is_stress
+
+   !> Puts the values into the results.
+   subroutine evaluate_all(self, results)
+      class(observations_t), intent(inout) :: self
+      type(results_t), intent(inout) :: results
+      type(observed_t), allocatable :: found(:)
+      integer :: i
+
+      allocate (found(size(self%list)))
+      do i = 1, size(found)
+         found(i)%name = self%list(i)%name
+         call evaluate(self%list(i), self%names, self%values, self%has_own_degree, results, found(i)%value)
+      end do
+      call move_alloc(found, results%observed)
+   end subroutine evaluate_all
+
+   !> nan where a quantity is not defined, or the arithmetic has no result, which is told the first time.
+   subroutine evaluate(one, names, values, own_degree, results, value)
+      type(observation_t), intent(inout) :: one
+      type(string_t), intent(in) :: names(:)         !< parameters
+      real(wp), intent(in) :: values(:)
+      logical, intent(in) :: own_degree              !< one of them is deg
+      type(results_t), intent(in) :: results
+      real(wp), intent(out) :: value
+      type(expression_fault_t) :: fault
+      real(wp) :: amounts(size(one%terms))
+      integer :: k
+
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      do k = 1, size(amounts)
+         amounts(k) = value_of_term(one%terms(k), results)
+      end do
+      if (any(is_nan(amounts))) return
+      call evaluate_expression(one%text, names, values, value, fault, own_degree, one%calls, amounts)
+      if (.not. allocated(fault%text)) return
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (one%has_warned) return
+      one%has_warned = .true.
+      call add_warning('W-OBSERVE', '--observe '//one%name//' is nan in step '//to_text(results%step)//', increment ' &
+                       //to_text(results%increment)//': '//fault%text//', column '//to_text(int(fault%first, ip))// &
+                       ' of '//one%text)
+   end subroutine evaluate
+
+end module atrito_observations

@@ -1,0 +1,297 @@
+!> What the names of an expression of --observe mean in a model: terms, or what is wrong with them.
+module atrito_observed_names
+   use atrito_expression_calls, only: argument_t, call_t
+   use atrito_expression_names, only: DIGITS, reserved_names
+   use atrito_kinds, only: ip
+   use atrito_model, only: model_t
+   use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_observed_places, only: find_place, has_element, has_support, place_fault_t
+   use atrito_observed_terms, only: pair_quantity_list, step_quantity_list, term_t, FIRST_FORCE, FIRST_STRESS, NODAL_FIELDS, &
+                                    POINT_FIELDS, TAKE_LARGEST, TAKE_LEAST, TAKE_MEAN, TAKE_ONE, TAKE_SUM, TERM_NODES, TERM_PAIR, &
+                                    TERM_POINTS, TERM_STEP, TERM_TIME
+   use atrito_strings, only: string_t, append_string, lower_case, same_name, to_text
+   use atrito_summary, only: quantity_t
+   implicit none (type, external)
+   private
+   public :: name_fault_t, find_term, field_names, observable_names, TIME_NAME
+
+   !> What is wrong, and where in the expression.
+   type, extends(place_fault_t) :: name_fault_t
+      integer :: first = 1, last = 1
+   end type name_fault_t
+
+   character(len=*), parameter :: TIME_NAME = 'time'
+   character(len=*), parameter :: AGGREGATES(3) = ['mean', 'min ', 'max ']
+   integer, parameter :: TAKES(3) = [TAKE_MEAN, TAKE_LEAST, TAKE_LARGEST]
+
+contains
+
+   !> The term of a call. fault%text is allocated where it means nothing.
+   subroutine find_term(model, call, term, fault)
+      type(model_t), intent(in) :: model
+      type(call_t), intent(in) :: call
+      type(term_t), intent(out) :: term
+      type(name_fault_t), intent(out) :: fault
+      character(len=:), allocatable :: name
+      integer :: i
+
+      name = lower_case(call%name)
+      fault%first = call%first
+      fault%last = call%last
+      i = findloc(AGGREGATES == name, .true., dim=1)
+      if (i > 0) then
+         call find_aggregate(model, call, TAKES(i), term, fault)
+      else if (any(NODAL_FIELDS == name)) then
+         call find_of_node(model, call, findloc(NODAL_FIELDS == name, .true., dim=1), term, fault)
+      else if (any(POINT_FIELDS == name)) then
+         fault%text = name//' has a value at each contact point'
+         fault%expected = 'max('//name//', pair), min(...) or mean(...)'
+      else if (index_of(pair_quantity_list(), name) > 0) then
+         call find_of_pair(model, call, index_of(pair_quantity_list(), name), term, fault)
+      else
+         call find_of_step(model, call, name, term, fault)
+      end if
+   end subroutine find_term
+
+   !> A quantity of the step, or the time.
+   subroutine find_of_step(model, call, name, term, fault)
+      type(model_t), intent(in) :: model
+      type(call_t), intent(in) :: call
+      character(len=*), intent(in) :: name
+      type(term_t), intent(inout) :: term
+      type(name_fault_t), intent(inout) :: fault
+      integer :: i
+
+      term%field = index_of(step_quantity_list(), name)
+      term%kind = merge(TERM_STEP, TERM_TIME, term%field > 0)
+      if (term%field == 0 .and. name /= TIME_NAME) then
+         fault%last = call%first + len(call%name) - 1
+         fault%text = 'unknown quantity '//call%name
+         fault%expected = 'u2(node), rf1(set), mean(mises, set), a quantity of summary.tab, a parameter of the deck, a function'
+         fault%known = observable_names()
+         do i = 1, size(model%parameters)
+            call append_string(fault%known, model%parameters(i)%name)
+         end do
+      else if (call%has_parentheses) then
+         fault%text = call%name//' is one number of the step'
+         fault%expected = call%name//' without parentheses'
+      end if
+   end subroutine find_of_step
+
+   !> `max_pressure` or `max_pressure(2)`.
+   subroutine find_of_pair(model, call, field, term, fault)
+      type(model_t), intent(in) :: model
+      type(call_t), intent(in) :: call
+      integer, intent(in) :: field
+      type(term_t), intent(inout) :: term
+      type(name_fault_t), intent(inout) :: fault
+
+      term%kind = TERM_PAIR
+      term%field = field
+      if (call%has_parentheses .and. size(call%arguments) /= 1) then
+         call complain_of_count(call, call%name//'(pair), pair being its number or its slave', fault)
+      else
+         call find_pair(model, call, 1, term%pair, fault)
+      end if
+   end subroutine find_of_pair
+
+   !> The pair that an argument names, or the only one.
+   subroutine find_pair(model, call, i, pair, fault)
+      type(model_t), intent(in) :: model
+      type(call_t), intent(in) :: call
+      integer, intent(in) :: i                       !< of the argument, which may be missing
+      integer(ip), intent(out) :: pair
+      type(name_fault_t), intent(inout) :: fault
+      integer(ip) :: k, n, outcome
+
+      n = size(model%pairs, kind=ip)
+      pair = 1
+      if (n == 0) then
+         fault%text = 'the deck has no contact pair'
+      else if (i > size(call%arguments)) then
+         if (n == 1) return
+         fault%text = 'of which of the '//to_text(n)//' pairs?'
+      else
+         associate (argument => call%arguments(i))
+            if (verify(argument%text, DIGITS) == 0) then
+               call read_integer(argument%text, pair, outcome)
+               if (outcome == NUMBER_OK .and. pair >= 1 .and. pair <= n) return
+               fault%text = 'pair '//argument%text//' does not exist'
+            else
+               pair = 0
+               do k = 1, n
+                  if (.not. same_name(slave_name(model, k), argument%text)) cycle
+                  if (pair > 0) fault%text = argument%text//' is the slave of pair '//to_text(pair)//' and of pair '//to_text(k)
+                  pair = k
+               end do
+               if (pair > 0 .and. .not. allocated(fault%text)) return
+               if (pair == 0) fault%text = 'no pair has the slave '//argument%text
+            end if
+            call put_place(argument, fault)
+         end associate
+         allocate (fault%known(n))
+         do k = 1, n
+            fault%known(k)%s = slave_name(model, k)
+         end do
+      end if
+      fault%expected = 'the number of a pair, 1 to '//to_text(n)//', or the name of its slave'
+      if (n == 1) fault%expected = '1, or the name of its slave'
+      if (n == 0) fault%expected = 'quantities of nodes or of the step'
+   end subroutine find_pair
+
+   pure function slave_name(model, pair) result(name)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: pair
+      character(len=:), allocatable :: name
+
+      name = model%surfaces(model%pairs(pair)%slave)%name
+   end function slave_name
+
+   !> `u2(12)`, `rf2(BASE)`.
+   subroutine find_of_node(model, call, field, term, fault)
+      type(model_t), intent(in) :: model
+      type(call_t), intent(in) :: call
+      integer, intent(in) :: field                   !< place in NODAL_FIELDS
+      type(term_t), intent(inout) :: term
+      type(name_fault_t), intent(inout) :: fault
+      character(len=:), allocatable :: form
+
+      form = call%name//trim(merge('(node or set), the sum over the set', '(node or set of one node)          ', &
+                                   field >= FIRST_FORCE))
+      if (size(call%arguments) /= 1) then
+         call complain_of_count(call, form, fault)
+         return
+      end if
+      call find_nodes(model, call%arguments(1), field, term, fault)
+      if (allocated(fault%text)) return
+      term%take = merge(TAKE_SUM, TAKE_ONE, field >= FIRST_FORCE)
+      if (term%take == TAKE_SUM .or. size(term%nodes) == 1) return
+      call put_place(call%arguments(1), fault)
+      fault%text = call%arguments(1)%text//' has '//to_text(size(term%nodes, kind=ip))//' nodes'
+      fault%expected = form//'; or mean('//call%name//', '//call%arguments(1)%text//'), min(...), max(...)'
+   end subroutine find_of_node
+
+   !> `mean(u2, TOP)`, `max(pressure, 1)`.
+   subroutine find_aggregate(model, call, take, term, fault)
+      type(model_t), intent(in) :: model
+      type(call_t), intent(in) :: call
+      integer, intent(in) :: take
+      type(term_t), intent(inout) :: term
+      type(name_fault_t), intent(inout) :: fault
+      character(len=:), allocatable :: field
+      integer :: of_nodes, of_points
+
+      field = ''
+      if (size(call%arguments) > 0) field = lower_case(call%arguments(1)%text)
+      of_nodes = findloc(NODAL_FIELDS == field, .true., dim=1)
+      of_points = findloc(POINT_FIELDS == field, .true., dim=1)
+      term%take = take
+      if (field == '') then
+         call complain_of_count(call, call%name//'(quantity, set)', fault)
+      else if (of_nodes + of_points == 0) then
+         call put_place(call%arguments(1), fault)
+         fault%text = 'unknown quantity '//call%arguments(1)%text
+         fault%expected = 'a quantity of nodes or contact points: '//call%name//'(mises, set), '//call%name//'(pressure, pair)'
+         fault%known = field_names()
+      else if (of_nodes > 0 .and. size(call%arguments) /= 2) then
+         call complain_of_count(call, call%name//'('//field//', set)', fault)
+      else if (of_nodes > 0) then
+         call find_nodes(model, call%arguments(2), of_nodes, term, fault)
+      else if (size(call%arguments) > 2) then
+         call complain_of_count(call, call%name//'('//field//', pair)', fault)
+      else
+         term%kind = TERM_POINTS
+         term%field = of_points
+         call find_pair(model, call, 2, term%pair, fault)
+      end if
+   end subroutine find_aggregate
+
+   !> The nodes of an argument, where they have the field.
+   subroutine find_nodes(model, argument, field, term, fault)
+      type(model_t), intent(in) :: model
+      type(argument_t), intent(in) :: argument
+      integer, intent(in) :: field                   !< place in NODAL_FIELDS
+      type(term_t), intent(inout) :: term
+      type(name_fault_t), intent(inout) :: fault
+
+      term%kind = TERM_NODES
+      term%field = field
+      call find_place(model, argument, term%nodes, term%weights, fault%place_fault_t)
+      if (.not. allocated(fault%text)) then
+         if (field >= FIRST_FORCE) then
+            if (has_support(model, term%nodes)) return
+            fault%text = argument%text//' has no node with a prescribed displacement, so no reaction'
+            fault%expected = 'a node or set with supports'
+         else if (field >= FIRST_STRESS) then
+            if (has_element(model, term%nodes)) return
+            fault%text = argument%text//' has a node without elements, so without stresses'
+            fault%expected = 'nodes of elements'
+         else
+            return
+         end if
+      end if
+      call put_place(argument, fault)
+   end subroutine find_nodes
+
+   subroutine complain_of_count(call, form, fault)
+      type(call_t), intent(in) :: call
+      character(len=*), intent(in) :: form           !< how it should read
+      type(name_fault_t), intent(inout) :: fault
+      integer(ip) :: n
+
+      n = size(call%arguments, kind=ip)
+      fault%text = call%name//' stands with '//to_text(n)//trim(merge(' argument ', ' arguments', n == 1))
+      if (n == 0) fault%text = call%name//' stands without argument'
+      fault%expected = form
+   end subroutine complain_of_count
+
+   subroutine put_place(argument, fault)
+      type(argument_t), intent(in) :: argument
+      type(name_fault_t), intent(inout) :: fault
+
+      fault%first = argument%first
+      fault%last = argument%last
+   end subroutine put_place
+
+   !> Place of a quantity among others; 0: it is none of them.
+   pure integer function index_of(list, name) result(i)
+      type(quantity_t), intent(in) :: list(:)
+      character(len=*), intent(in) :: name
+
+      i = findloc(list%name == name, .true., dim=1)
+   end function index_of
+
+   !> Fields of nodes and of contact points: what mean, min and max take.
+   pure function field_names() result(names)
+      type(string_t), allocatable :: names(:)
+      integer :: i
+
+      allocate (names(0))
+      do i = 1, size(NODAL_FIELDS)
+         call append_string(names, trim(NODAL_FIELDS(i)))
+      end do
+      do i = 1, size(POINT_FIELDS)
+         call append_string(names, trim(POINT_FIELDS(i)))
+      end do
+   end function field_names
+
+   !> All names that an expression knows, without the parameters of the deck.
+   pure function observable_names() result(names)
+      type(string_t), allocatable :: names(:), functions(:)
+      type(quantity_t), allocatable :: list(:)
+      integer :: i
+
+      names = field_names()
+      list = [pair_quantity_list(), step_quantity_list()]
+      do i = 1, size(list)
+         call append_string(names, trim(list(i)%name))
+      end do
+      call append_string(names, TIME_NAME)
+      call append_string(names, trim(AGGREGATES(1)))
+      functions = reserved_names()
+      do i = 1, size(functions)
+         call append_string(names, functions(i)%s)
+      end do
+   end function observable_names
+
+end module atrito_observed_names

@@ -1,0 +1,239 @@
+!> Where --observe looks: the nodes that an argument names, with their weights in a mean.
+module atrito_observed_places
+   use atrito_bilateral_rows, only: ROW_SUPPORT
+   use atrito_element, only: body_load
+   use atrito_element_table, only: MOST_NODES
+   use atrito_expression_calls, only: argument_t
+   use atrito_expression_names, only: DIGITS
+   use atrito_face_loads, only: traction_load
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: depth_places, face_nodes, find_node
+   use atrito_model, only: model_t, nodal_values_t, SURFACE_ELEMENTS
+   use atrito_name_list, only: names_of
+   use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_sets, only: find_set
+   use atrito_strings, only: string_t, append_string, same_name, to_text
+   implicit none (type, external)
+   private
+   public :: place_fault_t, find_place, place_names, has_support, has_element
+
+   !> What is wrong with a name or number; text not allocated: nothing.
+   type :: place_fault_t
+      character(len=:), allocatable :: text, expected
+      type(string_t), allocatable :: known(:)        !< names of which the nearest may be meant
+   end type place_fault_t
+
+   character(len=*), parameter :: A_PLACE = 'a node number, a node set, an element set or a surface of elements'
+
+contains
+
+   !> The nodes of a place. A name is looked for among surfaces, element sets and node sets, in this order. The weights are areas of
+   !> faces, volumes of elements, or the same for each node of a node set.
+   subroutine find_place(model, argument, nodes, weights, fault)
+      type(model_t), intent(in) :: model
+      type(argument_t), intent(in) :: argument
+      integer(ip), allocatable, intent(out) :: nodes(:) !< places
+      real(wp), allocatable, intent(out) :: weights(:)  !< their sum is 1
+      type(place_fault_t), intent(out) :: fault
+      real(wp), allocatable :: of_node(:)
+      logical, allocatable :: is_there(:)
+      integer(ip) :: i, surface, elements
+
+      call find_numbered(model, argument%text, nodes, fault)
+      if (.not. (allocated(nodes) .or. allocated(fault%text))) then
+         surface = index_of_surface(model, argument%text)
+         elements = find_set(model%element_sets, argument%text)
+         allocate (of_node(model%mesh%n_nodes), source=0.0_wp)
+         allocate (is_there(model%mesh%n_nodes), source=.false.)
+         if (surface > 0) then
+            call weigh_faces(model, surface, of_node, is_there, fault)
+         else if (elements > 0) then
+            call weigh_elements(model, model%element_sets%sets(elements)%members, of_node, is_there)
+         else
+            call weigh_nodes(model, argument%text, of_node, is_there, fault)
+         end if
+         nodes = pack([(i, i=1, model%mesh%n_nodes)], is_there)
+         weights = of_node(nodes)/sum(of_node(nodes))
+         if (size(nodes) == 0 .and. .not. allocated(fault%text)) fault%text = argument%text//' is empty'
+      else if (allocated(nodes)) then
+         weights = [1.0_wp]
+      end if
+   end subroutine find_place
+
+   !> `12`, or `LEFT.12` of an instance. nodes is not allocated where it is no number.
+   subroutine find_numbered(model, text, nodes, fault)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: text
+      integer(ip), allocatable, intent(out) :: nodes(:)
+      type(place_fault_t), intent(inout) :: fault
+      integer(ip) :: id, i, first, next
+      integer :: dot, outcome
+
+      dot = index(text, '.', back=.true.)
+      if (dot == len(text) .or. verify(text(dot + 1:), DIGITS) > 0) return
+      call read_integer(text(dot + 1:), id, outcome)
+      first = 1
+      next = huge(1_ip)
+      if (dot > 0) then
+         if (.not. allocated(model%instances)) return
+         do i = 1, size(model%instances, kind=ip)
+            if (same_name(model%instances(i)%name, text(:dot - 1))) exit
+         end do
+         if (i > size(model%instances)) return
+         first = model%instances(i)%first_number
+         if (any(model%instances%first_number > first)) next = minval(model%instances%first_number, &
+                                                                      model%instances%first_number > first)
+      end if
+      if (outcome == NUMBER_OK .and. id < next - first + 1) then
+         nodes = pack([find_node(model%mesh, first - 1 + id)], [find_node(model%mesh, first - 1 + id) > 0])
+         if (size(nodes) == 1) return
+         deallocate (nodes)
+      end if
+      fault%text = 'node '//text//' does not exist'
+      fault%expected = A_PLACE//' ('//to_text(model%mesh%n_nodes)//' nodes, the greatest ' &
+                       //to_text(maxval(model%mesh%node_id(:model%mesh%n_nodes)))//')'
+   end subroutine find_numbered
+
+   pure integer(ip) function index_of_surface(model, name) result(i)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: name
+
+      do i = 1, size(model%surfaces, kind=ip)
+         if (same_name(model%surfaces(i)%name, name)) return
+      end do
+      i = 0
+   end function index_of_surface
+
+   !> Each node by the integral of its shape function over the faces, the depth included.
+   subroutine weigh_faces(model, surface, of_node, is_there, fault)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface
+      real(wp), intent(inout) :: of_node(:)
+      logical, intent(inout) :: is_there(:)
+      type(place_fault_t), intent(inout) :: fault
+      integer(ip), allocatable :: nodes(:)
+      real(wp) :: f(2, 3)
+      integer(ip) :: i, e
+
+      if (model%surfaces(surface)%kind /= SURFACE_ELEMENTS) then
+         fault%text = model%surfaces(surface)%name//' is a rigid surface and has no nodes'
+         fault%expected = A_PLACE
+         return
+      end if
+      associate (faces => model%surfaces(surface)%faces, mesh => model%mesh)
+         do i = 1, faces%n
+            e = faces%element(i)
+            nodes = face_nodes(mesh, e, faces%face(i))
+            call traction_load(mesh%x(:, nodes), [1.0_wp, 0.0_wp], model%sections(model%section_of(e))%thickness, mesh%state(e), &
+                               f(:, :size(nodes)), depth_places(mesh, mesh%state(e), nodes))
+            of_node(nodes) = of_node(nodes) + f(1, :size(nodes))
+            is_there(nodes) = .true.
+         end do
+      end associate
+   end subroutine weigh_faces
+
+   !> The same over elements.
+   subroutine weigh_elements(model, elements, of_node, is_there)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: elements(:)
+      real(wp), intent(inout) :: of_node(:)
+      logical, intent(inout) :: is_there(:)
+      real(wp) :: f(2, MOST_NODES)
+      integer(ip) :: i, e, n
+
+      do i = 1, size(elements, kind=ip)
+         e = elements(i)
+         n = model%mesh%shape(e)
+         associate (nodes => model%mesh%nodes(:n, e), state => model%mesh%state(e))
+            call body_load(model%mesh%x(:, nodes), [1.0_wp, 0.0_wp], model%sections(model%section_of(e))%thickness, state, &
+                           f(:, :n), places=depth_places(model%mesh, state, nodes))
+            of_node(nodes) = of_node(nodes) + f(1, :n)
+            is_there(nodes) = .true.
+         end associate
+      end do
+   end subroutine weigh_elements
+
+   !> Those of a node set, each the same.
+   subroutine weigh_nodes(model, name, of_node, is_there, fault)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: name
+      real(wp), intent(inout) :: of_node(:)
+      logical, intent(inout) :: is_there(:)
+      type(place_fault_t), intent(inout) :: fault
+      integer(ip) :: i
+
+      i = find_set(model%node_sets, name)
+      if (i == 0) then
+         fault%text = 'the deck has no set or surface '//name
+         fault%expected = A_PLACE
+         fault%known = place_names(model)
+         return
+      end if
+      is_there(model%node_sets%sets(i)%members) = .true.
+      where (is_there) of_node = 1.0_wp
+   end subroutine weigh_nodes
+
+   !> The names that a place may have, each once.
+   function place_names(model) result(names)
+      type(model_t), intent(in) :: model
+      type(string_t), allocatable :: names(:), others(:)
+      integer :: i, k
+
+      names = names_of(model%node_sets%names)
+      others = names_of(model%element_sets%names)
+      do i = 1, size(model%surfaces)
+         call append_string(others, model%surfaces(i)%name)
+      end do
+      do i = 1, size(others)
+         do k = 1, size(names)
+            if (same_name(names(k)%s, others(i)%s)) exit
+         end do
+         if (k > size(names)) call append_string(names, others(i)%s)
+      end do
+   end function place_names
+
+   !> Whether any of some nodes has a prescribed displacement in any step: else there is no reaction to be told.
+   pure logical function has_support(model, nodes)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: nodes(:)
+      logical :: is_one(model%mesh%n_nodes)
+      integer(ip) :: i
+
+      is_one = .false.
+      is_one(nodes) = .true.
+      has_support = .false.
+      do i = 1, size(model%steps, kind=ip)
+         has_support = has_support .or. any_of(model%steps(i)%prescribed) .or. any_of(model%steps(i)%rigid_prescribed)
+      end do
+      do i = 1, model%bilateral%n
+         associate (rows => model%bilateral)
+            if (rows%kind(i) == ROW_SUPPORT) has_support = has_support .or. is_one(rows%node(rows%first(i)))
+         end associate
+      end do
+
+   contains
+
+      pure logical function any_of(values)
+         type(nodal_values_t), intent(in) :: values
+
+         any_of = .false.
+         if (values%n > 0) any_of = any(is_one(values%node(:values%n)))
+      end function any_of
+
+   end function has_support
+
+   !> Whether each of some nodes belongs to an element: others have no stress.
+   pure logical function has_element(model, nodes)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: nodes(:)
+      logical :: is_held(0:model%mesh%n_nodes)
+      integer(ip) :: e
+
+      is_held = .false.
+      do e = 1, model%mesh%n_elements
+         is_held(model%mesh%nodes(:, e)) = .true.
+      end do
+      has_element = all(is_held(nodes))
+   end function has_element
+
+end module atrito_observed_places

@@ -1,0 +1,68 @@
+!> `--report`: hands what a command found to the room that writes reports, with the words of the command.
+module atrito_report_maker
+   use atrito_command_line, only: command_t, fetch_arguments, output_folder
+   use atrito_gnuplot, only: shell_quoted
+   use atrito_listing, only: date_text
+   use atrito_model, only: model_t
+   use atrito_report, only: report_t
+   use atrito_report_file, only: REPORT_NAME
+   use atrito_reporter, only: reporter_t, report_progress
+   use atrito_results, only: history_t
+   use atrito_run_report, only: report_of_run
+   use atrito_strings, only: string_t, append_string
+   use atrito_version, only: PROGRAM_NAME
+   use atrito_write_report, only: write_report
+   implicit none (type, external)
+   private
+   public :: make_run_report, make_report, command_text
+
+contains
+
+   !> The report of a run; its name is added to the files that were written.
+   subroutine make_run_report(command, model, history, files, pictures)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(in) :: model
+      type(history_t), intent(in) :: history
+      type(string_t), allocatable, intent(inout) :: files(:)   !< names without folder
+      type(string_t), intent(in) :: pictures(:)                !< that were drawn
+      type(report_t) :: report
+      logical :: is_written
+
+      call report_of_run(model, history, output_folder(command), files, pictures, report)
+      call make_report(command, report, is_written)
+      if (is_written) call append_string(files, REPORT_NAME)
+   end subroutine make_run_report
+
+   !> Writes a report, which knows everything but the command. A failure is a warning.
+   subroutine make_report(command, report, is_written)
+      type(command_t), intent(in) :: command
+      type(report_t), intent(inout) :: report
+      logical, intent(out) :: is_written
+      type(string_t), allocatable :: arguments(:)
+      type(reporter_t) :: reporter
+
+      reporter%quiet = command%quiet .or. command%json
+      call report_progress(reporter, 'report '//report%folder//'/'//REPORT_NAME)
+      call fetch_arguments(arguments)
+      report%command = command_text(arguments)
+      call write_report(report, date_text(), is_written)
+   end subroutine make_report
+
+   !> The command as it can be given to a shell.
+   pure function command_text(arguments) result(text)
+      type(string_t), intent(in) :: arguments(:)
+      character(len=:), allocatable :: text
+      character(len=*), parameter :: PLAIN = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/%@'
+      integer :: i
+
+      text = PROGRAM_NAME
+      do i = 1, size(arguments)
+         if (len(arguments(i)%s) > 0 .and. verify(arguments(i)%s, PLAIN) == 0) then
+            text = text//' '//arguments(i)%s
+         else
+            text = text//' '//shell_quoted(arguments(i)%s)
+         end if
+      end do
+   end function command_text
+
+end module atrito_report_maker

@@ -1,0 +1,114 @@
+!> A text in pieces: places of other texts, which are not copied, and words that stand between them. So a text of 100 MB of which
+!> some words are replaced takes no second 100 MB.
+module atrito_patched_text
+   use atrito_digest, only: text_digest_t, add_characters, hexadecimal
+   use atrito_files, only: file_set_t, text_file_t, open_text, put_text, close_text
+   use atrito_kinds, only: ip
+   use atrito_status, only: status_t
+   use atrito_strings, only: string_t
+   implicit none (type, external)
+   private
+   public :: patched_text_t, named_text_t, append_place, append_words, write_patched, digest_of_texts, OWN_WORDS, UNCOUNTED
+
+   !> In the place of a text: a piece is a place in `words`; or one that no digest counts, the name of another file.
+   integer(ip), parameter :: OWN_WORDS = 0, UNCOUNTED = -1
+
+   !> The pieces follow each other.
+   type :: patched_text_t
+      type(string_t), allocatable :: texts(:)
+      character(len=:), allocatable :: words         !< all words between the places, those up to n_words in use
+      integer(ip) :: n = 0, n_words = 0
+      integer(ip), allocatable :: text(:)            !< of each piece: place in texts, OWN_WORDS or UNCOUNTED
+      integer(ip), allocatable :: first(:), last(:)  !< of each piece: its characters there
+   end type patched_text_t
+
+   type :: named_text_t
+      character(len=:), allocatable :: name          !< of the file, without folder
+      type(patched_text_t) :: text
+   end type named_text_t
+
+   integer, parameter :: SOME = 64
+
+contains
+
+   !> Appends a place of one of the texts; an empty one is passed over.
+   pure subroutine append_place(patched, text, first, last)
+      type(patched_text_t), intent(inout) :: patched
+      integer(ip), intent(in) :: text, first, last
+
+      if (last < first) return
+      if (.not. allocated(patched%text)) allocate (patched%text(SOME), patched%first(SOME), patched%last(SOME))
+      if (patched%n == size(patched%text)) then
+         patched%text = [patched%text, patched%text]
+         patched%first = [patched%first, patched%first]
+         patched%last = [patched%last, patched%last]
+      end if
+      patched%n = patched%n + 1
+      patched%text(patched%n) = text
+      patched%first(patched%n) = first
+      patched%last(patched%n) = last
+   end subroutine append_place
+
+   !> Appends words of their own.
+   pure subroutine append_words(patched, words)
+      type(patched_text_t), intent(inout) :: patched
+      character(len=*), intent(in) :: words
+      integer(ip) :: n
+
+      n = patched%n_words + len(words, kind=ip)
+      if (.not. allocated(patched%words)) patched%words = repeat(' ', max(SOME, len(words)))
+      if (n > len(patched%words)) patched%words = patched%words//repeat(' ', max(len(patched%words), len(words)))
+      patched%words(patched%n_words + 1:n) = words
+      call append_place(patched, OWN_WORDS, patched%n_words + 1, n)
+      patched%n_words = n
+   end subroutine append_words
+
+   !> Writes it as a file of a set. status: STATUS_FILE when it could not be written.
+   subroutine write_patched(set, name, patched, status)
+      type(file_set_t), intent(inout) :: set
+      character(len=*), intent(in) :: name           !< final name, without folder
+      type(patched_text_t), intent(in) :: patched
+      type(status_t), intent(out) :: status
+      type(text_file_t) :: file
+      integer(ip) :: i
+
+      call open_text(set, name, file)
+      do i = 1, patched%n
+         associate (k => patched%text(i), first => patched%first(i), last => patched%last(i))
+            if (k < 1) then
+               call put_text(file, patched%words(first:last))
+            else
+               call put_text(file, patched%texts(k)%s(first:last))
+            end if
+         end associate
+      end do
+      call close_text(file, status)
+   end subroutine write_patched
+
+   !> Sixteen hexadecimal digits of texts one after the other, whatever the pieces they are made of.
+   pure function digest_of_texts(list) result(text)
+      type(named_text_t), intent(in) :: list(:)
+      character(len=16) :: text
+      type(text_digest_t) :: digest
+      integer :: i
+
+      do i = 1, size(list)
+         call add_patched(digest, list(i)%text)
+      end do
+      text = hexadecimal(digest)
+   end function digest_of_texts
+
+   pure subroutine add_patched(digest, patched)
+      type(text_digest_t), intent(inout) :: digest
+      type(patched_text_t), intent(in) :: patched
+      integer(ip) :: i
+
+      do i = 1, patched%n
+         associate (k => patched%text(i), first => patched%first(i), last => patched%last(i))
+            if (k == OWN_WORDS) call add_characters(digest, patched%words(first:last))
+            if (k > 0) call add_characters(digest, patched%texts(k)%s(first:last))
+         end associate
+      end do
+   end subroutine add_patched
+
+end module atrito_patched_text

@@ -1,0 +1,109 @@
+!> A deck as it was run: all files that it includes in their places, parameters replaced by their values. It runs by itself.
+module atrito_deck_as_run
+   use atrito_as_run_names, only: as_run_name, mesh_copy_name
+   use atrito_deck, only: deck_t, after_byte_order_mark
+   use atrito_kinds, only: ip
+   use atrito_patched_text, only: patched_text_t, named_text_t, append_place, append_words, OWN_WORDS, UNCOUNTED
+   use atrito_strings, only: deck_name
+   implicit none (type, external)
+   private
+   public :: take_deck_as_run
+
+   character(len=1), parameter :: LINE_FEED = achar(10)
+
+contains
+
+   !> The deck first, then the meshes of other programs that it includes. The texts of the deck are moved; it is of no use
+   !> afterwards.
+   subroutine take_deck_as_run(deck, files)
+      type(deck_t), intent(inout) :: deck
+      type(named_text_t), allocatable, intent(out) :: files(:)
+      integer(ip) :: i, n, edit
+
+      n = count(deck%sources(:deck%n_sources)%is_mesh, kind=ip)
+      allocate (files(n + 1))
+      files(1)%name = as_run_name(deck_name(deck%path))
+      if (allocated(deck%edits%words)) call move_alloc(deck%edits%words, files(1)%text%words)
+      files(1)%text%n_words = deck%edits%n_words
+      edit = 1
+      call put_source(deck, 1_ip, edit, files(1)%text)
+      allocate (files(1)%text%texts(deck%n_sources))
+      n = 1
+      do i = 1, deck%n_sources
+         if (deck%sources(i)%is_mesh) then
+            n = n + 1
+            files(n)%name = mesh_copy_name(deck_name(deck%path), n - 1)
+            allocate (files(n)%text%texts(1))
+            call append_place(files(n)%text, 1_ip, 1_ip, len(deck%sources(i)%text, kind=ip))
+            call move_alloc(deck%sources(i)%text, files(n)%text%texts(1)%s)
+         else
+            call move_alloc(deck%sources(i)%text, files(1)%text%texts(i)%s)
+         end if
+      end do
+   end subroutine take_deck_as_run
+
+   !> A file of the deck, with what it includes.
+   recursive subroutine put_source(deck, source, edit, patched)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: source
+      integer(ip), intent(inout) :: edit               !< the next one
+      type(patched_text_t), intent(inout) :: patched
+      integer(ip) :: position, child, last
+
+      last = len(deck%sources(source)%text, kind=ip)
+      position = after_byte_order_mark(deck%sources(source)%text)
+      child = next_child(deck, source, source)
+      do while (child > 0)
+         associate (included => deck%sources(child))
+            call put_edited(deck, source, included%include_first - 1, position, edit, patched)
+            call put_source(deck, child, edit, patched)
+            call end_line(included%text, patched)
+            position = included%include_last + 1
+         end associate
+         child = next_child(deck, source, child)
+      end do
+      call put_edited(deck, source, last, position, edit, patched)
+   end subroutine put_source
+
+   !> The next file, not a mesh, that one includes; 0: there is none.
+   pure integer(ip) function next_child(deck, source, before) result(child)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: source, before
+
+      do child = before + 1, deck%n_sources
+         if (deck%sources(child)%parent == source .and. .not. deck%sources(child)%is_mesh) return
+      end do
+      child = 0
+   end function next_child
+
+   !> The characters of a file up to `last`, with the edits among them.
+   subroutine put_edited(deck, source, last, position, edit, patched)
+      type(deck_t), intent(in) :: deck
+      integer(ip), intent(in) :: source, last
+      integer(ip), intent(inout) :: position           !< the first character that is left
+      integer(ip), intent(inout) :: edit
+      type(patched_text_t), intent(inout) :: patched
+
+      associate (edits => deck%edits)
+         do while (edit <= edits%n)
+            if (edits%source(edit) /= source .or. edits%first(edit) > last) exit
+            call append_place(patched, source, position, edits%first(edit) - 1)
+            call append_place(patched, merge(UNCOUNTED, OWN_WORDS, edits%is_name(edit)), edits%from(edit), edits%to(edit))
+            position = edits%last(edit) + 1
+            edit = edit + 1
+         end do
+      end associate
+      call append_place(patched, source, position, last)
+      position = max(position, last + 1)
+   end subroutine put_edited
+
+   !> What follows an included file begins a line.
+   subroutine end_line(text, patched)
+      character(len=*), intent(in) :: text
+      type(patched_text_t), intent(inout) :: patched
+
+      if (len(text) == 0) return
+      if (text(len(text):) /= LINE_FEED) call append_words(patched, LINE_FEED)
+   end subroutine end_line
+
+end module atrito_deck_as_run

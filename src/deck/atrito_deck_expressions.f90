@@ -1,0 +1,177 @@
+!> Expressions that stand in a deck: the parameters that they may use, and their faults at their places.
+module atrito_deck_expressions
+   use atrito_kinds, only: ip, wp
+   use atrito_deck, only: deck_t, token_t, token_text, reading_order
+   use atrito_diagnostics, only: report_error
+   use atrito_expressions, only: expression_fault_t, evaluate_expression, reserved_names
+   use atrito_strings, only: string_t, join, lower_case, same_name, to_text
+   implicit none (type, external)
+   private
+   public :: evaluate_at, try_expression, has_own_degree, report_fault, report_later, collect_known, put_before, &
+             index_of_parameter, parameter_names
+
+contains
+
+   !> The value of an expression of earlier parameters. known: .false. when it has none; that is reported, except when it
+   !> uses a parameter that has none itself.
+   subroutine evaluate_at(deck, expression, value, known)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      real(wp), intent(out) :: value
+      logical, intent(out) :: known
+      type(expression_fault_t) :: fault
+
+      call evaluate_quietly(deck, expression, value, fault)
+      known = .not. allocated(fault%text)
+      if (.not. known) call report_fault(deck, expression, fault, [string_t ::], 'PARAMETER')
+   end subroutine evaluate_at
+
+   !> The same, with nothing reported.
+   subroutine try_expression(deck, expression, value, known)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      real(wp), intent(out) :: value
+      logical, intent(out) :: known
+      type(expression_fault_t) :: fault
+
+      call evaluate_quietly(deck, expression, value, fault)
+      known = .not. allocated(fault%text)
+   end subroutine try_expression
+
+   subroutine evaluate_quietly(deck, expression, value, fault)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      real(wp), intent(out) :: value
+      type(expression_fault_t), intent(out) :: fault
+      type(string_t), allocatable :: names(:)
+      real(wp), allocatable :: values(:)
+
+      call collect_known(deck, expression, .true., names, values)
+      call evaluate_expression(token_text(deck, expression), names, values, value, fault, has_own_degree(deck))
+   end subroutine evaluate_quietly
+
+   !> The deck has a parameter of the name deg: before its definition deg is nothing.
+   pure logical function has_own_degree(deck)
+      type(deck_t), intent(in) :: deck
+
+      has_own_degree = index_of_parameter(deck, 'deg') > 0
+   end function has_own_degree
+
+   !> A fault of an expression, at its place. Passed over in silence when it is a parameter whose definition was reported.
+   subroutine report_fault(deck, expression, fault, also, keyword)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: expression
+      type(expression_fault_t), intent(in) :: fault
+      type(string_t), intent(in) :: also(:)            !< names that the expression knows besides
+      character(len=*), intent(in) :: keyword
+      type(token_t) :: place
+      type(string_t), allocatable :: names(:)
+      character(len=:), allocatable :: others
+      integer(ip) :: i
+
+      place = expression
+      place%first = expression%first + fault%first - 1
+      place%last = min(expression%last, expression%first + fault%last - 1)
+      place%column = expression%column + fault%first - 1
+      others = join(also, ', ')
+      if (len(others) > 0) others = others//', '
+      i = 0
+      if (fault%unknown_name) i = index_of_parameter(deck, token_text(deck, place))
+      if (.not. fault%unknown_name) then
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, &
+                           expected='numbers, '//others//'earlier parameters, + - * / ** ( ), functions')
+      else if (i == 0) then
+         if (deck%has_lost_parameters) return
+         names = reserved_names()
+         call put_before(parameter_names(deck), names)
+         call put_before(also, names)
+         call report_error(deck, place, 'E-EXPRESSION', fault%text, keyword=keyword, known=names, &
+                           expected=others//'an earlier parameter, a function or pi')
+      else if (deck%parameters(i)%known) then
+         call report_later(deck, place, i, others//'an earlier parameter, a function or pi')
+      end if
+   end subroutine report_fault
+
+   !> Not an array constructor: what function results hold in one is never given back (gfortran 12).
+   pure subroutine put_before(first, names)
+      type(string_t), intent(in) :: first(:)
+      type(string_t), allocatable, intent(inout) :: names(:)
+      type(string_t), allocatable :: both(:)
+      integer :: i
+
+      allocate (both(size(first) + size(names)))
+      do i = 1, size(first)
+         both(i)%s = first(i)%s
+      end do
+      do i = 1, size(names)
+         call move_alloc(names(i)%s, both(size(first) + i)%s)
+      end do
+      call move_alloc(both, names)
+   end subroutine put_before
+
+   !> The parameters that have values and are defined before the place of an expression.
+   subroutine collect_known(deck, place, named, names, values)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      logical, intent(in) :: named                     !< only those that the expression may name: a deck can have thousands
+      type(string_t), allocatable, intent(out) :: names(:)
+      real(wp), allocatable, intent(out) :: values(:)
+      character(len=:), allocatable :: text
+      integer(ip), allocatable :: used(:)
+      integer(ip) :: i, n, here
+
+      text = lower_case(token_text(deck, place))
+      here = reading_order(deck, place%source, place%line)
+      allocate (used(deck%n_parameters))
+      n = 0
+      do i = 1, deck%n_parameters
+         if (.not. deck%parameters(i)%known .or. deck%parameters(i)%order >= here) cycle
+         if (named .and. index(text, lower_case(deck%parameters(i)%name)) == 0) cycle
+         n = n + 1
+         used(n) = i
+      end do
+      allocate (names(n), values(n))
+      do i = 1, n
+         names(i)%s = deck%parameters(used(i))%name
+         values(i) = deck%parameters(used(i))%value
+      end do
+   end subroutine collect_known
+
+   !> A parameter is used before its definition.
+   subroutine report_later(deck, place, i, what)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: i                     !< the parameter
+      character(len=*), intent(in) :: what             !< what was expected
+
+      associate (parameter => deck%parameters(i))
+         call report_error(deck, place, 'E-PARAMETER', 'parameter '//token_text(deck, place)//' is used before its '// &
+                           'definition in '//deck%sources(parameter%place%source)%name//':'//to_text(parameter%place%line), &
+                           expected=what, keyword='PARAMETER')
+      end associate
+   end subroutine report_later
+
+   !> Index of a parameter, 0 when there is none of this name.
+   pure integer(ip) function index_of_parameter(deck, name) result(i)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: name
+
+      do i = deck%n_parameters, 1, -1
+         if (same_name(deck%parameters(i)%name, name)) return
+      end do
+      i = 0
+   end function index_of_parameter
+
+   !> Names of the deck's parameters in the order of their definition.
+   function parameter_names(deck) result(names)
+      type(deck_t), intent(in) :: deck
+      type(string_t), allocatable :: names(:)
+      integer(ip) :: i
+
+      allocate (names(deck%n_parameters))
+      do i = 1, deck%n_parameters
+         names(i)%s = deck%parameters(i)%name
+      end do
+   end function parameter_names
+
+end module atrito_deck_expressions

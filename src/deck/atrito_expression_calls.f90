@@ -1,0 +1,143 @@
+!> Names in an expression that are no arithmetic, with what stands in parentheses behind them: `u2(12)`, `max(mises, BEAM)`. What
+!> they mean is not known here.
+module atrito_expression_calls
+   use atrito_strings, only: string_t, same_name
+   implicit none (type, external)
+   private
+   public :: call_t, argument_t, read_call, has_argument_of, append_call
+
+   !> A name or number in parentheses.
+   type :: argument_t
+      character(len=:), allocatable :: text          !< without the blanks round it, not empty
+      integer :: first = 1, last = 1                 !< its characters in the expression
+   end type argument_t
+
+   type :: call_t
+      character(len=:), allocatable :: name
+      integer :: first = 1, last = 1                 !< characters of the expression, with the parentheses
+      logical :: has_parentheses = .false.
+      type(argument_t), allocatable :: arguments(:)  !< none without parentheses
+   end type call_t
+
+   character(len=*), parameter :: BLANKS = ' '//achar(9)
+
+contains
+
+   !> Reads the call whose name stands at some characters of an expression.
+   pure subroutine read_call(text, first, last, one, trouble, place)
+      character(len=*), intent(in) :: text             !< the expression
+      integer, intent(in) :: first, last               !< of the name
+      type(call_t), intent(out) :: one
+      character(len=:), allocatable, intent(out) :: trouble !< what is wrong; not allocated: nothing
+      integer, intent(out) :: place                    !< and where
+      integer :: i, depth, begin
+
+      one%name = text(first:last)
+      one%first = first
+      one%last = last
+      allocate (one%arguments(0))
+      place = first_behind(text, last)
+      one%has_parentheses = symbol_at(text, place) == '('
+      if (.not. one%has_parentheses) return
+      begin = place + 1
+      depth = 0
+      do i = place, len(text)
+         if (text(i:i) == '(') depth = depth + 1
+         if (text(i:i) == ')') depth = depth - 1
+         if (.not. (depth == 0 .or. (depth == 1 .and. text(i:i) == ','))) cycle
+         call add_argument(text, begin, i - 1, one%arguments, trouble, place)
+         begin = i + 1
+         if (allocated(trouble)) return
+         if (depth > 0) cycle
+         one%last = i
+         return
+      end do
+      place = len(text) + 1
+      trouble = "')' is missing"
+   end subroutine read_call
+
+   !> Whether the first argument behind a name is one of some names: so a minimum of a field is told from one of numbers.
+   pure logical function has_argument_of(text, last, names)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: last                      !< of the name
+      type(string_t), intent(in) :: names(:)           !< without case
+      type(call_t) :: one
+      character(len=:), allocatable :: trouble
+      integer :: i, place
+
+      has_argument_of = .false.
+      call read_call(text, last, last, one, trouble, place)
+      if (allocated(trouble) .or. size(one%arguments) == 0) return
+      do i = 1, size(names)
+         has_argument_of = has_argument_of .or. same_name(names(i)%s, one%arguments(1)%text)
+      end do
+   end function has_argument_of
+
+   pure subroutine append_call(one, list)
+      type(call_t), intent(in) :: one
+      type(call_t), allocatable, intent(inout) :: list(:)
+      type(call_t), allocatable :: longer(:)
+
+      allocate (longer(size(list) + 1))
+      longer(:size(list)) = list
+      longer(size(longer)) = one
+      call move_alloc(longer, list)
+   end subroutine append_call
+
+   !> Appends what stands at some characters, without the blanks round it.
+   pure subroutine add_argument(text, first, last, list, trouble, place)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first, last               !< last may be first - 1: nothing
+      type(argument_t), allocatable, intent(inout) :: list(:)
+      character(len=:), allocatable, intent(inout) :: trouble
+      integer, intent(inout) :: place
+      type(argument_t), allocatable :: longer(:)
+      integer :: i, n
+
+      i = first_behind(text, first - 1)
+      if (i > last) then
+         place = last + 1
+         trouble = 'a name or a number is missing'
+         return
+      end if
+      n = size(list)
+      allocate (longer(n + 1))
+      longer(:n) = list
+      longer(n + 1)%first = i
+      longer(n + 1)%last = first + len_trim(replaced(text(first:last))) - 1
+      longer(n + 1)%text = text(i:longer(n + 1)%last)
+      call move_alloc(longer, list)
+   end subroutine add_argument
+
+   !> Tabs as blanks.
+   pure function replaced(text) result(plain)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: plain
+      integer :: i
+
+      plain = text
+      do i = 1, len(text)
+         if (scan(text(i:i), BLANKS) == 1) plain(i:i) = ' '
+      end do
+   end function replaced
+
+   !> The first character behind a place that is no blank; one behind the end when there is none.
+   pure integer function first_behind(text, place) result(i)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: place
+
+      do i = place + 1, len(text)
+         if (scan(text(i:i), BLANKS) == 0) return
+      end do
+      i = len(text) + 1
+   end function first_behind
+
+   pure character(len=1) function symbol_at(text, place) result(symbol)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: place
+
+      symbol = ' '
+      if (place <= len(text)) symbol = text(place:place)
+   end function symbol_at
+
+end module atrito_expression_calls

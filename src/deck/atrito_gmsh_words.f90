@@ -1,0 +1,226 @@
+!> Words of a text, line by line: what the reader of Gmsh's files walks on. It keeps the first thing that is wrong, and where.
+module atrito_gmsh_words
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_numbers, only: read_real, NUMBER_OK
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: words_t, fault_t, next_line, take_word, take_integer, take_real, end_line, fail, word_is
+   public :: go_on, begin_line, read_head, check_count, check_number
+
+   !> What is wrong with a text, and where.
+   type :: fault_t
+      character(len=:), allocatable :: text        !< not allocated: nothing
+      character(len=:), allocatable :: expected
+      integer(ip) :: line = 1, column = 1
+      integer(ip) :: first = 1, last = 0           !< characters of the text
+   end type fault_t
+
+   !> A place in a text. A line is over when take_word finds nothing more.
+   type :: words_t
+      integer(ip) :: position = 1                  !< next character
+      integer(ip) :: line = 0                      !< number of the present line
+      integer(ip) :: start = 1                     !< its first character
+      integer(ip) :: first = 1, last = 0           !< the word taken last; last < first: there was none
+      logical :: ok = .true.
+      type(fault_t) :: fault
+   end type words_t
+
+   character(len=1), parameter :: LINE_FEED = achar(10)
+
+contains
+
+   !> Goes to the next line that has a word, and takes that word; found is .false. at the end of the text.
+   subroutine next_line(text, words, found)
+      character(len=*), intent(in) :: text
+      type(words_t), intent(inout) :: words
+      logical, intent(out) :: found
+      integer(ip) :: i
+
+      found = .false.
+      do
+         if (words%line > 0) then                  ! over the rest of the present line
+            do i = words%position, len(text)
+               if (text(i:i) == LINE_FEED) exit
+            end do
+            words%position = min(i, len(text)) + 1
+         end if
+         if (words%position > len(text)) exit
+         words%line = words%line + 1
+         words%start = words%position
+         call take_word(text, words)
+         found = words%last >= words%first
+         if (found) return
+      end do
+   end subroutine next_line
+
+   !> The next word of the line; none: last < first.
+   pure subroutine take_word(text, words)
+      character(len=*), intent(in) :: text
+      type(words_t), intent(inout) :: words
+      integer(ip) :: i, n
+
+      n = len(text)
+      do i = words%position, n
+         if (text(i:i) == LINE_FEED .or. iachar(text(i:i)) > iachar(' ')) exit
+      end do
+      words%first = i
+      do i = words%first, n
+         if (iachar(text(i:i)) <= iachar(' ')) exit
+      end do
+      words%last = i - 1
+      words%position = i
+   end subroutine take_word
+
+   !> The next word, which must be an integer.
+   subroutine take_integer(text, words, what, value)
+      character(len=*), intent(in) :: text, what
+      type(words_t), intent(inout) :: words
+      integer(ip), intent(out) :: value
+      integer(lp) :: sum
+      integer(ip) :: i, first
+      integer :: digit
+
+      value = 0
+      if (.not. words%ok) return
+      call take_word(text, words)
+      sum = 0_lp
+      first = words%first
+      if (first < words%last) then
+         if (text(first:first) == '-') first = first + 1
+      end if
+      words%ok = words%last >= first
+      do i = first, words%last
+         digit = iachar(text(i:i)) - iachar('0')
+         words%ok = words%ok .and. digit >= 0 .and. digit <= 9
+         sum = min(10_lp*sum + int(digit, lp), int(huge(1_ip), lp) + 1_lp)
+      end do
+      if (.not. words%ok) then
+         call fail(words, missing_or(words, 'this is not an integer'), what//', an integer')
+      else if (sum > int(huge(1_ip), lp)) then
+         call fail(words, 'this number is too large', what//', at most '//to_text(huge(1_ip)))
+      else
+         value = int(sum, ip)
+         if (first > words%first) value = -value
+      end if
+   end subroutine take_integer
+
+   !> The next word, which must be a real.
+   subroutine take_real(text, words, what, value)
+      character(len=*), intent(in) :: text, what
+      type(words_t), intent(inout) :: words
+      real(wp), intent(out) :: value
+      integer :: outcome
+
+      value = 0.0_wp
+      if (.not. words%ok) return
+      call take_word(text, words)
+      call read_real(text(words%first:words%last), value, outcome)
+      if (outcome /= NUMBER_OK) call fail(words, missing_or(words, 'this is not a number'), what//', a real')
+   end subroutine take_real
+
+   pure function missing_or(words, text) result(problem)
+      type(words_t), intent(in) :: words
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: problem
+
+      problem = text
+      if (words%last < words%first) problem = 'the line ends too early'
+   end function missing_or
+
+   !> Nothing more may stand in the line.
+   subroutine end_line(text, words, expected)
+      character(len=*), intent(in) :: text, expected
+      type(words_t), intent(inout) :: words
+      integer(ip) :: first, last
+
+      if (.not. words%ok) return
+      first = words%first
+      last = words%last
+      call take_word(text, words)
+      if (words%last >= words%first) call fail(words, 'an item too many', expected)
+      words%first = first                          ! what is said next is of the last item
+      words%last = last
+   end subroutine end_line
+
+   !> Keeps what is wrong at the word taken last; only the first time counts.
+   subroutine fail(words, text, expected)
+      type(words_t), intent(inout) :: words
+      character(len=*), intent(in) :: text, expected
+
+      words%ok = .false.
+      if (allocated(words%fault%text)) return
+      words%fault%text = text
+      words%fault%expected = expected
+      words%fault%line = max(words%line, 1_ip)
+      words%fault%first = words%first
+      words%fault%last = words%last
+      words%fault%column = words%first - words%start + 1
+   end subroutine fail
+
+   pure logical function word_is(text, words, word)
+      character(len=*), intent(in) :: text, word
+      type(words_t), intent(in) :: words
+
+      word_is = words%last - words%first + 1 == len(word)
+      if (word_is) word_is = text(words%first:words%last) == word
+   end function word_is
+
+   !> To the next line, which must be there.
+   subroutine go_on(text, words, expected)
+      character(len=*), intent(in) :: text, expected
+      type(words_t), intent(inout) :: words
+      logical :: found
+
+      if (.not. words%ok) return
+      call next_line(text, words, found)
+      if (.not. found) call fail(words, 'the file ends too early', expected)
+   end subroutine go_on
+
+   !> The first word of the next line as an integer.
+   subroutine begin_line(text, words, what, value)
+      character(len=*), intent(in) :: text, what
+      type(words_t), intent(inout) :: words
+      integer(ip), intent(out) :: value
+
+      value = 0
+      call go_on(text, words, what)
+      if (.not. words%ok) return
+      words%position = words%first
+      call take_integer(text, words, what, value)
+   end subroutine begin_line
+
+   !> A count of lines that the rest of the text can hold; each of so many characters at the least.
+   subroutine check_count(text, words, n, least)
+      character(len=*), intent(in) :: text
+      type(words_t), intent(inout) :: words
+      integer(ip), intent(in) :: n, least
+
+      if (.not. words%ok) return
+      if (n < 0) call fail(words, 'a negative number', 'a number of lines')
+      if (n > (len(text) - words%position)/least + 1) call fail(words, 'the rest of the file is too short for so many', &
+                                                                'as many as follow')
+   end subroutine check_count
+
+   subroutine check_number(words, number)
+      type(words_t), intent(inout) :: words
+      integer(ip), intent(in) :: number
+
+      if (words%ok .and. number <= 0) call fail(words, 'this number is not positive', 'a number from 1')
+   end subroutine check_number
+
+   !> The head of a block of format 4.1.
+   subroutine read_head(text, words, what, head)
+      character(len=*), intent(in) :: text, what
+      type(words_t), intent(inout) :: words
+      integer(ip), intent(out) :: head(4)              !< dimension, entity, kind, how many
+
+      head = 0
+      call begin_line(text, words, 'dimension of the entity', head(1))
+      call take_integer(text, words, 'tag of the entity', head(2))
+      call take_integer(text, words, 'kind', head(3))
+      call take_integer(text, words, what, head(4))
+      call end_line(text, words, 'four integers')
+   end subroutine read_head
+
+end module atrito_gmsh_words

@@ -1,0 +1,94 @@
+!> Which files an *INCLUDE may read, and where they are.
+module atrito_includes
+   use atrito_deck, only: deck_t, card_t, token_t, token_text, LEVEL_STEP
+   use atrito_diagnostics, only: report_error
+   use atrito_files, only: true_path
+   use atrito_items, only: option_word
+   use atrito_kinds, only: ip, lp
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: relative_path, may_include, is_told
+
+   integer, parameter :: DEEPEST_INCLUDE = 20
+   !> Includes that each include two others would fill any memory at a depth of 20.
+   integer(ip), parameter :: MOST_SOURCES = 10000
+   integer(lp), parameter :: MOST_CHARACTERS = 2000000000_lp   !< of all files
+
+contains
+
+   !> No circle, and not too deep.
+   logical function may_include(deck, depth, from, name, place)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: depth                     !< of the includes so far
+      integer(ip), intent(in) :: from
+      character(len=*), intent(in) :: name
+      type(token_t), intent(in) :: place
+      character(len=:), allocatable :: path
+      integer(ip) :: above
+
+      may_include = .false.
+      path = true_path(name)                       ! a/../a/deck.inp is deck.inp again
+      above = from
+      do while (above > 0)
+         if (true_path(deck%sources(above)%name) == path) exit
+         above = deck%sources(above)%parent
+      end do
+      if (above > 0) then
+         call report_error(deck, place, 'E-INCLUDE', 'the includes go in a circle: '//name//' is being read', &
+                           expected='another file', keyword='INCLUDE')
+      else if (depth >= DEEPEST_INCLUDE) then
+         call report_error(deck, place, 'E-INCLUDE', 'includes more than '//to_text(DEEPEST_INCLUDE)//' deep', keyword='INCLUDE')
+      else if (deck%n_sources >= MOST_SOURCES .or. characters(deck) > MOST_CHARACTERS) then
+         call report_error(deck, place, 'E-INCLUDE', 'includes of more than '//to_text(MOST_SOURCES)//' files, or 2 GB in all', &
+                           keyword='INCLUDE')
+      else
+         may_include = .true.
+      end if
+   end function may_include
+
+   !> Characters of all files so far.
+   pure integer(lp) function characters(deck) result(n)
+      type(deck_t), intent(in) :: deck
+      integer(ip) :: i
+
+      n = 0_lp
+      do i = 1, deck%n_sources
+         n = n + len(deck%sources(i)%text, kind=lp)
+      end do
+   end function characters
+
+   !> The path of a file relative to the folder of another one, without `./`.
+   pure function relative_path(from, name) result(path)
+      character(len=*), intent(in) :: from, name
+      character(len=:), allocatable :: path
+
+      path = name
+      do while (index(path, './') == 1 .and. len(path) > 2)
+         path = path(3:)
+         do while (path(1:1) == '/' .and. len(path) > 1)
+            path = path(2:)                        ! .//a is no absolute path
+         end do
+      end do
+      if (path(1:1) /= '/') path = from(:index(from, '/', back=.true.))//path
+   end function relative_path
+
+   !> A mesh of Gmsh is no deck, and stands before the steps.
+   logical function is_told(deck, card, text, place)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: text
+      type(token_t), intent(in) :: place               !< of the file's name
+
+      is_told = (index(text(:min(len(text), 80)), '$MeshFormat') == 0) .or. option_word(deck, card, 'TYPE') == 'GMSH'
+      if (.not. is_told) then
+         call report_error(deck, place, 'E-INCLUDE', 'this file is a mesh of Gmsh', &
+                           expected='TYPE=GMSH: *INCLUDE, INPUT='//token_text(deck, place)//', TYPE=GMSH', keyword='INCLUDE')
+      else if (option_word(deck, card, 'TYPE') == 'GMSH' .and. card%level == LEVEL_STEP) then
+         is_told = .false.
+         call report_error(deck, card%place, 'E-LEVEL', 'a mesh stands inside the step', expected='its place before *STEP', &
+                           keyword='INCLUDE')
+      end if
+   end function is_told
+
+end module atrito_includes

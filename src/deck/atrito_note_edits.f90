@@ -1,0 +1,238 @@
+!> Notes what of a deck is replaced when it is written as it was run: expressions by their values, *PARAMETER by comments, meshes of
+!> other programs by the names of their copies.
+!>
+!> Asked of the cards as they were read, before instances take copies of them: in their order, each item once. Nothing is reported,
+!> and of a deck with errors nothing is noted: it is not run.
+module atrito_note_edits
+   use atrito_as_run_names, only: mesh_copy_name
+   use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, KEYWORD_UNKNOWN
+   use atrito_deck_expressions, only: try_expression, index_of_parameter
+   use atrito_edits, only: append_edit, append_known_edit, take_known_edit
+   use atrito_expressions, only: next_name
+   use atrito_items, only: has_option, option_text
+   use atrito_keyword, only: form_t, KIND_NAME, KIND_REAL, KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME, KIND_REAL_OR_NAME, KIND_TEXT
+   use atrito_kinds, only: ip, wp
+   use atrito_messages, only: count_messages, SEVERITY_ERROR
+   use atrito_numbers, only: exact_text
+   use atrito_strings, only: deck_name, same_name
+   implicit none (type, external)
+   private
+   public :: note_edits
+
+   character(len=1), parameter :: FOR_INTEGERS = '#'   !< before the text of an expression that is to be whole
+   character(len=1), parameter :: OPENING = '<'
+
+contains
+
+   subroutine note_edits(deck)
+      type(deck_t), intent(inout) :: deck
+      integer(ip) :: i, n_parameters, n_meshes
+
+      if (count_messages(SEVERITY_ERROR) > 0) return
+      n_parameters = 0
+      n_meshes = 0
+      do i = 1, deck%n_cards
+         if (deck%cards(i)%keyword == KEYWORD_UNKNOWN) cycle
+         select case (deck%cards(i)%name)
+         case ('PARAMETER')
+            call note_parameters(deck, deck%cards(i), n_parameters)
+         case ('INCLUDE')
+            n_meshes = n_meshes + 1
+            call note_mesh(deck, deck%cards(i), n_meshes)
+         case default
+            call note_options(deck, deck%cards(i))
+            call note_lines(deck, deck%cards(i))
+         end select
+      end do
+   end subroutine note_edits
+
+   !> `** PARAMETER`, and a comment a line with the value.
+   subroutine note_parameters(deck, card, n)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(inout) :: n              !< parameters so far: each line defines the next
+      type(token_t) :: token
+      integer(ip) :: i
+
+      associate (place => card%place)
+         i = index(deck%sources(place%source)%text(:place%first - 1), '*', back=.true.)
+         call append_edit(deck%edits, place%source, i, place%first - 1, '** ')
+      end associate
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         token = deck%tokens(deck%lines(i)%first_token)
+         n = n + 1
+         associate (parameter => deck%parameters(n))
+            call append_edit(deck%edits, token%source, token%first, token%last, '** '//parameter%name//' = '// &
+                             exact_text(parameter%value))
+         end associate
+      end do
+   end subroutine note_parameters
+
+   subroutine note_mesh(deck, card, n)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(in) :: card
+      integer(ip), intent(in) :: n
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      logical :: found
+
+      call option_text(deck, card, 'INPUT', name, found, place)
+      if (found) call append_edit(deck%edits, place%source, place%first, place%last, mesh_copy_name(deck_name(deck%path), n), &
+                                  is_name=.true.)
+   end subroutine note_mesh
+
+   !> Values of options that are numbers.
+   subroutine note_options(deck, card)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(in) :: card
+      integer :: i
+
+      do i = 1, size(card%options)
+         if (card%options(i)%spec < 1 .or. .not. card%options(i)%has_value) cycle
+         if (.not. is_bracketed(deck, card%options(i)%value)) cycle
+         select case (deck%keywords(card%keyword)%options(card%options(i)%spec)%kind)
+         case (KIND_REAL, KIND_REAL_OR_NAME)
+            call note_value(deck, card%options(i)%value, .false.)
+         case (KIND_INTEGER)
+            call note_value(deck, card%options(i)%value, .true.)
+         end select
+      end do
+   end subroutine note_options
+
+   subroutine note_lines(deck, card)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(in) :: card
+      logical :: has_function
+      integer(ip) :: i, k
+
+      has_function = card%name == 'BOUNDARY'
+      if (has_function) has_function = has_option(deck, card, 'FUNCTION')
+      do i = card%first_line, card%first_line + card%n_lines - 1
+         associate (line => deck%lines(i))
+            do k = 1, line%n_tokens
+               if (has_function .and. k > 3) exit
+               if (.not. is_bracketed(deck, deck%tokens(line%first_token + k - 1))) cycle
+               call note_item(deck, card, line, k)
+            end do
+            if (has_function .and. line%n_tokens > 3) call note_function(deck, line)
+         end associate
+      end do
+   end subroutine note_lines
+
+   !> An item begins like an expression.
+   pure logical function is_bracketed(deck, token)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: token
+
+      is_bracketed = .false.
+      if (is_empty_token(token)) return
+      associate (text => deck%sources(token%source)%text, first => token%first)
+         is_bracketed = text(first:first) == OPENING
+         if (text(first:first) == '-' .and. token%last > first) is_bracketed = text(first + 1:first + 1) == OPENING
+      end associate
+   end function is_bracketed
+
+   !> The k-th item of a line, unless it is a name.
+   subroutine note_item(deck, card, line, k)
+      type(deck_t), intent(inout) :: deck
+      type(card_t), intent(in) :: card
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: k
+      logical :: is_name, is_whole
+      integer :: f
+
+      is_name = .true.
+      is_whole = .true.
+      associate (forms => deck%keywords(card%keyword)%forms)
+         do f = 1, size(forms)
+            if (.not. may_be_form(deck, line, forms(f))) cycle
+            select case (kind_of_item(forms(f), int(k)))
+            case (KIND_NAME)
+               cycle
+            case (KIND_INTEGER, KIND_ID, KIND_ID_OR_NAME)
+               is_name = .false.
+            case (KIND_TEXT)                        ! further terms of an equation: node, dof, coefficient
+               is_name = .false.
+               is_whole = is_whole .and. mod(k, 3_ip) /= 0
+            case default
+               is_name = .false.
+               is_whole = .false.
+            end select
+         end do
+      end associate
+      if (.not. is_name) call note_value(deck, deck%tokens(line%first_token + k - 1), is_whole)
+   end subroutine note_item
+
+   !> A form with a leading word is told by it.
+   pure logical function may_be_form(deck, line, form)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      type(form_t), intent(in) :: form
+
+      may_be_form = size(form%items) > 0
+      if (may_be_form .and. len(form%word) > 0) may_be_form = same_name(form%word, token_text(deck, &
+                                                                                              deck%tokens(line%first_token)))
+   end function may_be_form
+
+   !> The last item of a form may be repeated.
+   pure integer function kind_of_item(form, k) result(kind)
+      type(form_t), intent(in) :: form
+      integer, intent(in) :: k
+
+      kind = form%items(max(1, min(k - merge(1, 0, len(form%word) > 0), size(form%items))))%kind
+   end function kind_of_item
+
+   !> `<expression>` or `-<expression>` becomes a number that reads as the same value.
+   subroutine note_value(deck, token, is_whole)
+      type(deck_t), intent(inout) :: deck
+      type(token_t), intent(in) :: token
+      logical, intent(in) :: is_whole
+      character(len=:), allocatable :: text
+      type(token_t) :: place
+      real(wp) :: value
+      integer(ip) :: parameter
+      logical :: known
+
+      text = deck%sources(token%source)%text(token%first:token%last)
+      if (is_whole) text = FOR_INTEGERS//text
+      call take_known_edit(deck%edits, text, token%source, token%first, token%last, known)
+      if (known) return
+      place = token
+      place%first = token%first + index(text, OPENING) - merge(1, 0, is_whole)
+      place%last = token%last - 1
+      parameter = index_of_parameter(deck, deck%sources(place%source)%text(place%first:place%last))
+      if (parameter > 0) then
+         value = deck%parameters(parameter)%value
+      else
+         call try_expression(deck, place, value, known)
+         if (.not. known) return
+      end if
+      if (index(text, '-'//OPENING) > 0 .and. index(text, '-') < index(text, OPENING)) value = -value
+      if (is_whole) value = anint(value)
+      call append_known_edit(deck%edits, text, token%source, token%first, token%last, exact_text(value))
+   end subroutine note_value
+
+   !> The names of parameters in an expression of x and y; a value below 0 stands in parentheses, for a power of it.
+   subroutine note_function(deck, line)
+      type(deck_t), intent(inout) :: deck
+      type(data_line_t), intent(in) :: line
+      character(len=:), allocatable :: text, value
+      integer(ip) :: i
+      integer :: first, last
+
+      associate (token => deck%tokens(line%first_token + 3), end => deck%tokens(line%first_token + line%n_tokens - 1)%last)
+         text = deck%sources(token%source)%text(token%first:end)
+         last = 0
+         do
+            call next_name(text, last, first)
+            if (first > len(text)) exit
+            i = index_of_parameter(deck, text(first:last))
+            if (i == 0) cycle
+            value = exact_text(deck%parameters(i)%value)
+            if (value(1:1) == '-') value = '('//value//')'
+            call append_edit(deck%edits, token%source, token%first + first - 1, token%first + last - 1, value)
+         end do
+      end associate
+   end subroutine note_function
+
+end module atrito_note_edits

@@ -1,0 +1,340 @@
+!> Where a straight line goes through the bodies of a mesh: pieces of the line, element by element, and crossings, each a stretch of
+!> the line within one body.
+!>
+!> A piece is inside where there is material on both sides of the line: an element that the line parts, a face on the line between
+!> two elements, a node on the line that elements of both sides share. Else it is an edge: a face of the outline on the line.
+!> Elements of the second degree count as polygons of all nodes on their sides.
+module atrito_crossings
+   use atrito_element_table, only: MOST_SIDES
+   use atrito_faces, only: node_elements_t, is_outer_face
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t, face_end, middle_node, side_count
+   use atrito_sorting, only: order_key, sorted_places
+   implicit none (type, external)
+   private
+   public :: cut_line_t, piece_t, crossing_t, line_through, height_over, place_along, point_at, outline_of, is_ahead, slack_of, &
+             find_crossings, INSIDE, EDGE_BEHIND, EDGE_AHEAD, MOST_OUTLINE
+
+   !> A line from one point to another. Behind it is where its normal comes from.
+   type :: cut_line_t
+      real(wp) :: start(2) = 0.0_wp                 !< the first point [L]
+      real(wp) :: along(2) = 0.0_wp                 !< unit vector towards the second
+      real(wp) :: normal(2) = 0.0_wp                !< that one turned by -90 degrees
+      real(wp) :: length = 0.0_wp                   !< between the points [L]
+   end type cut_line_t
+
+   integer(ip), parameter :: INSIDE = 1, EDGE_BEHIND = 2, EDGE_AHEAD = 3 !< an edge whose body lies behind or ahead of the line
+   integer(ip), parameter :: MOST_OUTLINE = 2*MOST_SIDES
+
+   !> What the line has of an element.
+   type :: piece_t
+      integer(ip) :: kind = INSIDE
+      integer(ip) :: element = 0
+      integer(ip) :: face = 0                       !< on the line; 0: none
+      logical :: is_split = .false.                 !< the line parts the element
+      integer(ip) :: crossing = 0                   !< place in the list of crossings
+      real(wp) :: from = 0.0_wp, to = 0.0_wp        !< along the line [L]
+   end type piece_t
+
+   !> A stretch of the line within a body.
+   type :: crossing_t
+      integer(ip) :: kind = INSIDE
+      integer(ip) :: body = 0
+      real(wp) :: from = 0.0_wp, to = 0.0_wp        !< along the line [L]
+      logical :: is_met = .false.                   !< some of it lies between the two points
+      logical :: is_whole = .false.                 !< as good as all of it does
+      logical :: is_wanted = .true.                 !< it has elements that are asked for
+      logical :: is_all_wanted = .true.             !< and no others
+      logical :: is_taken = .false.                 !< it belongs to the cross-section
+   end type crossing_t
+
+   !> A node is on the line when it is no farther from it than this part of its element's size.
+   real(wp), parameter :: SLACK = 1.0e-6_wp
+   !> A crossing of which no more than this part is missing is meant as a whole: nodes on arcs have chords between them, which a
+   !> point of the arc does not reach.
+   real(wp), parameter :: SHORT = 0.1_wp
+
+contains
+
+   pure type(cut_line_t) function line_through(ends) result(line)
+      real(wp), intent(in) :: ends(2, 2)            !< two points that differ [L]
+
+      line%start = ends(:, 1)
+      line%length = norm2(ends(:, 2) - ends(:, 1))
+      line%along = (ends(:, 2) - ends(:, 1))/line%length
+      line%normal = [line%along(2), -line%along(1)]
+   end function line_through
+
+   !> Distance of a point from the line [L]: negative behind it.
+   pure real(wp) function height_over(line, x)
+      type(cut_line_t), intent(in) :: line
+      real(wp), intent(in) :: x(2)                  !< [L]
+
+      height_over = dot_product(line%normal, x - line%start)
+   end function height_over
+
+   !> Where along the line a point lies, from its first point [L].
+   pure real(wp) function place_along(line, x)
+      type(cut_line_t), intent(in) :: line
+      real(wp), intent(in) :: x(2)                  !< [L]
+
+      place_along = dot_product(line%along, x - line%start)
+   end function place_along
+
+   pure function point_at(line, place) result(x)
+      type(cut_line_t), intent(in) :: line
+      real(wp), intent(in) :: place                 !< along the line [L]
+      real(wp) :: x(2)
+
+      x = line%start + place*line%along
+   end function point_at
+
+   !> The nodes on the sides of an element in their order round it, corners and middles.
+   pure subroutine outline_of(mesh, element, nodes, n)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+      integer(ip), intent(out) :: nodes(MOST_OUTLINE)
+      integer(ip), intent(out) :: n
+      integer(ip) :: side
+
+      n = 0
+      do side = 1, side_count(mesh, element)
+         n = n + 1
+         nodes(n) = mesh%nodes(side, element)
+         if (middle_node(mesh, element, side) == 0) cycle
+         n = n + 1
+         nodes(n) = middle_node(mesh, element, side)
+      end do
+   end subroutine outline_of
+
+   !> On which side of the line an element counts: that of the mean of its corners.
+   pure logical function is_ahead(mesh, line, element)
+      type(mesh_t), intent(in) :: mesh
+      type(cut_line_t), intent(in) :: line
+      integer(ip), intent(in) :: element
+      integer(ip) :: k
+      real(wp) :: mean
+
+      mean = 0.0_wp
+      do k = 1, side_count(mesh, element)
+         mean = mean + height_over(line, mesh%x(:, mesh%nodes(k, element)))
+      end do
+      is_ahead = mean > slack_of(mesh, element)
+   end function is_ahead
+
+   !> Nodes of an element that are no farther from a line are on it [L].
+   pure real(wp) function slack_of(mesh, element)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element
+
+      associate (corners => mesh%nodes(:side_count(mesh, element), element))
+         slack_of = SLACK*maxval(maxval(mesh%x(:, corners), dim=2) - minval(mesh%x(:, corners), dim=2))
+      end associate
+   end function slack_of
+
+   !> All pieces of the line, however far it goes, and the crossings that they make.
+   pure subroutine find_crossings(mesh, around, of_element, line, pieces, crossings)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: of_element(:)      !< body of each element
+      type(cut_line_t), intent(in) :: line
+      type(piece_t), allocatable, intent(out) :: pieces(:)
+      type(crossing_t), allocatable, intent(out) :: crossings(:)
+      type(piece_t), allocatable :: list(:)
+      integer(ip) :: e, n
+
+      allocate (list(64))
+      n = 0
+      do e = 1, mesh%n_elements
+         call look_at_element(mesh, around, line, e, list, n)
+      end do
+      pieces = list(:n)
+      call join_pieces(mesh, of_element, pieces, crossings)
+      call compare_with_points(line, crossings)
+   end subroutine find_crossings
+
+   !> The pieces of an element: most have none.
+   pure subroutine look_at_element(mesh, around, line, e, list, n)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      type(cut_line_t), intent(in) :: line
+      integer(ip), intent(in) :: e
+      type(piece_t), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(inout) :: n
+      integer(ip) :: nodes(MOST_OUTLINE), n_nodes, k
+      real(wp) :: height(MOST_OUTLINE), near
+      type(piece_t) :: piece
+
+      call outline_of(mesh, e, nodes, n_nodes)
+      do k = 1, n_nodes
+         height(k) = height_over(line, mesh%x(:, nodes(k)))
+      end do
+      near = slack_of(mesh, e)
+      if (minval(height(:n_nodes)) > near .or. maxval(height(:n_nodes)) < -near) return
+      piece%element = e
+      if (minval(height(:n_nodes)) < -near .and. maxval(height(:n_nodes)) > near) then
+         piece%is_split = .true.
+         call span_of_split(mesh, line, nodes(:n_nodes), height(:n_nodes), piece%from, piece%to)
+         call add_piece(piece, list, n)
+      else
+         call look_at_sides(mesh, around, line, e, near, list, n)
+         call look_at_nodes(mesh, around, line, e, near, list, n)
+      end if
+   end subroutine look_at_element
+
+   !> From where to where along the line it runs through a polygon.
+   pure subroutine span_of_split(mesh, line, nodes, height, from, to)
+      type(mesh_t), intent(in) :: mesh
+      type(cut_line_t), intent(in) :: line
+      integer(ip), intent(in) :: nodes(:)           !< in their order
+      real(wp), intent(in) :: height(:)             !< of the nodes [L]
+      real(wp), intent(out) :: from, to             !< [L]
+      real(wp) :: place, share
+      integer(ip) :: k, next
+
+      from = huge(from)
+      to = -huge(to)
+      do k = 1, size(nodes, kind=ip)
+         next = mod(k, size(nodes, kind=ip)) + 1
+         if (height(k) > 0.0_wp .eqv. height(next) > 0.0_wp) cycle
+         share = height(k)/(height(k) - height(next))
+         place = (1 - share)*place_along(line, mesh%x(:, nodes(k))) + share*place_along(line, mesh%x(:, nodes(next)))
+         from = min(from, place)
+         to = max(to, place)
+      end do
+   end subroutine span_of_split
+
+   !> The sides on the line of an element that lies beside it.
+   pure subroutine look_at_sides(mesh, around, line, e, near, list, n)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      type(cut_line_t), intent(in) :: line
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: near                  !< [L]
+      type(piece_t), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(inout) :: n
+      type(piece_t) :: piece
+      real(wp) :: place(2)
+      integer(ip) :: side
+
+      piece%element = e
+      do side = 1, side_count(mesh, e)
+         associate (first => mesh%nodes(side, e), last => mesh%nodes(face_end(mesh, e, side), e), &
+                    middle => middle_node(mesh, e, side))
+            if (.not. (is_on(first) .and. is_on(last))) cycle
+            if (middle > 0) then
+               if (.not. is_on(middle)) cycle
+            end if
+            place = [place_along(line, mesh%x(:, first)), place_along(line, mesh%x(:, last))]
+         end associate
+         piece%face = side
+         piece%from = minval(place)
+         piece%to = maxval(place)
+         piece%kind = INSIDE
+         if (is_outer_face(mesh, around, e, side)) piece%kind = merge(EDGE_AHEAD, EDGE_BEHIND, is_ahead(mesh, line, e))
+         call add_piece(piece, list, n)
+      end do
+
+   contains
+
+      pure logical function is_on(node)
+         integer(ip), intent(in) :: node
+
+         is_on = abs(height_over(line, mesh%x(:, node))) <= near
+      end function is_on
+
+   end subroutine look_at_sides
+
+   !> The nodes on the line of an element that lies beside it, where elements lie on the other side, too.
+   pure subroutine look_at_nodes(mesh, around, line, e, near, list, n)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      type(cut_line_t), intent(in) :: line
+      integer(ip), intent(in) :: e
+      real(wp), intent(in) :: near                  !< [L]
+      type(piece_t), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(inout) :: n
+      type(piece_t) :: piece
+      integer(ip) :: k, i
+      logical :: ahead, has_other
+
+      piece%element = e
+      ahead = is_ahead(mesh, line, e)
+      do k = 1, side_count(mesh, e)
+         associate (node => mesh%nodes(k, e))
+            if (abs(height_over(line, mesh%x(:, node))) > near) cycle
+            has_other = .false.
+            do i = around%first(node), around%first(node + 1) - 1
+               if (is_ahead(mesh, line, around%list(i)) .neqv. ahead) has_other = .true.
+            end do
+            piece%from = place_along(line, mesh%x(:, node))
+         end associate
+         piece%to = piece%from
+         if (has_other) call add_piece(piece, list, n)
+      end do
+   end subroutine look_at_nodes
+
+   pure subroutine add_piece(piece, list, n)
+      type(piece_t), intent(in) :: piece
+      type(piece_t), allocatable, intent(inout) :: list(:)
+      integer(ip), intent(inout) :: n
+      type(piece_t), allocatable :: longer(:)
+
+      if (n == size(list)) then
+         allocate (longer(2*n))
+         longer(:n) = list
+         call move_alloc(longer, list)
+      end if
+      n = n + 1
+      list(n) = piece
+   end subroutine add_piece
+
+   !> Pieces of one kind and body that touch make one crossing.
+   pure subroutine join_pieces(mesh, of_element, pieces, crossings)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: of_element(:)
+      type(piece_t), intent(inout) :: pieces(:)
+      type(crossing_t), allocatable, intent(out) :: crossings(:)
+      type(crossing_t) :: found(size(pieces))
+      integer(ip) :: last(EDGE_AHEAD, maxval([of_element, 0_ip])), order(size(pieces)), i, n
+
+      order = sorted_places(order_key(pieces%from))
+      last = 0
+      n = 0
+      do i = 1, size(pieces, kind=ip)
+         associate (piece => pieces(order(i)))
+            associate (open => last(piece%kind, of_element(piece%element)))
+               if (open > 0) then
+                  if (piece%from > found(open)%to + slack_of(mesh, piece%element)) open = 0
+               end if
+               if (open == 0) then
+                  n = n + 1
+                  open = n
+                  found(n) = crossing_t(piece%kind, of_element(piece%element), piece%from, piece%to)
+               end if
+               found(open)%to = max(found(open)%to, piece%to)
+               piece%crossing = open
+            end associate
+         end associate
+      end do
+      crossings = found(:n)
+   end subroutine join_pieces
+
+   !> How much of each crossing lies between the points of the line.
+   pure subroutine compare_with_points(line, crossings)
+      type(cut_line_t), intent(in) :: line
+      type(crossing_t), intent(inout) :: crossings(:)
+      real(wp) :: common, size_of
+      integer(ip) :: i
+
+      do i = 1, size(crossings, kind=ip)
+         associate (c => crossings(i))
+            size_of = c%to - c%from
+            common = min(c%to, line%length) - max(c%from, 0.0_wp)
+            c%is_met = common > SLACK*size_of .or. (size_of <= SLACK*line%length .and. common >= -SLACK*line%length)
+            c%is_whole = c%is_met .and. (common >= (1 - SHORT)*size_of .or. size_of <= SLACK*line%length)
+         end associate
+      end do
+   end subroutine compare_with_points
+
+end module atrito_crossings

@@ -1,0 +1,265 @@
+!> *SECTION PRINT: the cuts that a step asks for, and where they go through the bodies.
+module atrito_build_cuts
+   use atrito_bodies, only: bodies_t, find_bodies
+   use atrito_body_names, only: name_bodies
+   use atrito_build_context, only: build_context_t, place_text
+   use atrito_cross_section, only: find_cross_section
+   use atrito_crossings, only: crossing_t, point_at, INSIDE
+   use atrito_deck, only: card_t, data_line_t, token_t, line_item
+   use atrito_diagnostics, only: report_error, report_note, report_warning
+   use atrito_faces, only: list_node_elements
+   use atrito_items, only: get_real, has_option, option_text
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: cut_t, requests_t
+   use atrito_references, only: report_unknown
+   use atrito_sets, only: find_set
+   use atrito_strings, only: same_name, to_text
+   implicit none (type, external)
+   private
+   public :: read_cut_card, place_cuts
+
+   character(len=*), parameter :: KEYWORD = 'SECTION PRINT'
+   character(len=2), parameter :: ITEMS(4) = ['x1', 'y1', 'x2', 'y2']
+   integer, parameter :: DIGITS = 6                     !< of coordinates in messages
+
+contains
+
+   !> The cuts of a card; with SURFACE= it is that of another program, which has been noted.
+   subroutine read_cut_card(context, card, requests)
+      type(build_context_t), intent(inout) :: context
+      type(card_t), intent(in) :: card
+      type(requests_t), intent(inout) :: requests
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      type(cut_t) :: cut
+      integer(ip) :: i
+      logical :: found, ok
+
+      if (has_option(context%deck, card, 'SURFACE')) return
+      call option_text(context%deck, card, 'NAME', name, found, place)
+      if (.not. (card%ok .and. found)) return
+      call find_elset(context, card, cut%elset, ok)
+      if (.not. ok) return
+      do i = 1, card%n_lines
+         associate (line => context%deck%lines(card%first_line + i - 1))
+            if (.not. line%ok) cycle
+            cut%name = name
+            if (card%n_lines > 1) cut%name = name//'-'//to_text(i)
+            call check_name(context, cut%name, place, requests, ok)
+            if (.not. ok) return
+            call read_line(context, line, cut%ends, ok)
+            if (ok) call add_cut(context, cut, line_item(context%deck, line, 1_ip), requests)
+         end associate
+      end do
+   end subroutine read_cut_card
+
+   !> A step has one cut of a name.
+   subroutine check_name(context, name, place, requests, ok)
+      type(build_context_t), intent(in) :: context
+      character(len=*), intent(in) :: name
+      type(token_t), intent(in) :: place
+      type(requests_t), intent(in) :: requests             !< of the step so far
+      logical, intent(out) :: ok
+      integer(ip) :: i
+
+      ok = .true.
+      if (.not. allocated(requests%cuts)) return
+      do i = 1, size(requests%cuts, kind=ip)
+         associate (other => requests%cuts(i))
+            if (.not. same_name(context%model%cuts(other)%name, name)) cycle
+            ok = .false.
+            call report_error(context%deck, place, 'E-TWICE', 'cut '//name//' is defined already in this step, in '// &
+                              place_text(context%deck, context%cut_lines(other), place), &
+                              expected='another NAME=, or all lines in one card', keyword=KEYWORD)
+            return
+         end associate
+      end do
+   end subroutine check_name
+
+   !> The set that chooses crossings; 0: none is given.
+   subroutine find_elset(context, card, elset, ok)
+      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card
+      integer(ip), intent(out) :: elset
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      logical :: found
+
+      elset = 0
+      call option_text(context%deck, card, 'ELSET', name, found, place)
+      ok = .true.
+      if (.not. found) return
+      elset = find_set(context%model%element_sets, name)
+      ok = elset > 0
+      if (.not. ok) call report_unknown(context, place, 'element set', 'E-SET', context%model%element_sets%names, KEYWORD)
+   end subroutine find_elset
+
+   !> x1, y1, x2, y2
+   subroutine read_line(context, line, ends, ok)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      real(wp), intent(out) :: ends(2, 2)
+      logical, intent(out) :: ok
+      real(wp) :: x(4)
+      integer(ip) :: k
+      logical :: good(4)
+
+      do k = 1, 4
+         call get_real(context%deck, line_item(context%deck, line, k), ITEMS(k)//', a real [L]', x(k), good(k), keyword=KEYWORD)
+      end do
+      ok = all(good)
+      if (.not. ok) return
+      ends = reshape(x, [2, 2])
+      if (any(ends(:, 1) /= ends(:, 2))) return
+      ok = .false.
+      call report_error(context%deck, line_item(context%deck, line, 3_ip), 'E-VALUE', 'both points of the cut are the same', &
+                        expected='x1, y1, x2, y2: two points of a line through a body [L]', keyword=KEYWORD)
+   end subroutine read_line
+
+   subroutine add_cut(context, cut, place, requests)
+      type(build_context_t), intent(inout) :: context
+      type(cut_t), intent(in) :: cut
+      type(token_t), intent(in) :: place
+      type(requests_t), intent(inout) :: requests
+      type(cut_t), allocatable :: longer(:)
+      integer(ip) :: n
+
+      if (.not. allocated(context%model%cuts)) allocate (context%model%cuts(0), context%cut_lines(0))
+      if (.not. allocated(requests%cuts)) allocate (requests%cuts(0))
+      n = size(context%model%cuts, kind=ip)
+      allocate (longer(n + 1))
+      longer(:n) = context%model%cuts
+      longer(n + 1) = cut
+      call move_alloc(longer, context%model%cuts)
+      context%cut_lines = [context%cut_lines, place]
+      requests%cuts = [requests%cuts, n + 1]
+   end subroutine add_cut
+
+   !> Finds where the cuts go through the bodies. The mesh is complete.
+   subroutine place_cuts(context)
+      type(build_context_t), intent(inout) :: context
+      type(bodies_t) :: bodies
+      integer(ip) :: i
+
+      if (.not. allocated(context%model%cuts)) return
+      call find_bodies(context%model%mesh, bodies)
+      call name_bodies(context%model, bodies)
+      context%around = list_node_elements(context%model%mesh)   ! bolts may have cut the mesh since it was listed
+      do i = 1, size(context%model%cuts, kind=ip)
+         call place_cut(context, bodies, i)
+      end do
+   end subroutine place_cuts
+
+   subroutine place_cut(context, bodies, i)
+      type(build_context_t), intent(inout) :: context
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: i                         !< place in the model's cuts
+      type(crossing_t), allocatable :: crossings(:)
+      logical, allocatable :: wanted(:)
+
+      associate (model => context%model, cut => context%model%cuts(i))
+         allocate (wanted(model%mesh%n_elements), source=cut%elset == 0)
+         if (cut%elset > 0) wanted(model%element_sets%sets(cut%elset)%members) = .true.
+         call find_cross_section(model%mesh, context%around, bodies%of_element, cut%ends, wanted, cut%section, crossings)
+         if (.not. any(crossings%is_taken)) then
+            call report_miss(context, bodies, i, crossings)
+         else if (.not. all(crossings%is_whole .or. .not. crossings%is_taken)) then
+            call report_part(context, bodies, i, crossings)
+         else
+            call tell_of_several(context, bodies, i, pack(crossings, crossings%is_taken))
+         end if
+      end associate
+   end subroutine place_cut
+
+   !> The cut meets nothing: where its line would, or where the bodies are.
+   subroutine report_miss(context, bodies, i, crossings)
+      type(build_context_t), intent(in) :: context
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: i
+      type(crossing_t), intent(in) :: crossings(:)
+      character(len=:), allocatable :: text, hint
+      integer(ip) :: k
+
+      associate (cut => context%model%cuts(i), mesh => context%model%mesh)
+         text = 'cut '//cut%name//' meets no body'
+         if (cut%elset > 0) text = 'cut '//cut%name//' meets no element of '//context%model%element_sets%sets(cut%elset)%name
+         k = findloc(crossings%kind == INSIDE .and. crossings%is_wanted, .true., dim=1, kind=ip)
+         if (k > 0) then
+            hint = 'points farther apart: the line goes through '//span_text(context, bodies, i, crossings(k))
+         else
+            hint = 'a line through a body; the bodies lie between '//point_text(minval(mesh%x(:, :mesh%n_nodes), dim=2))// &
+                   ' and '//point_text(maxval(mesh%x(:, :mesh%n_nodes), dim=2))
+         end if
+      end associate
+      call report_error(context%deck, context%cut_lines(i), 'E-CROSSING', text, expected=hint, keyword=KEYWORD)
+   end subroutine report_miss
+
+   !> The cut ends within a body: through what is left of it forces go, too.
+   subroutine report_part(context, bodies, i, crossings)
+      type(build_context_t), intent(in) :: context
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: i
+      type(crossing_t), intent(in) :: crossings(:)
+      integer(ip) :: k
+
+      k = findloc(crossings%is_taken .and. .not. crossings%is_whole, .true., dim=1, kind=ip)
+      call report_error(context%deck, context%cut_lines(i), 'E-CROSSING', 'cut '//context%model%cuts(i)%name// &
+                        ' ends within body '//bodies%list(crossings(k)%body)%name, expected='a line through the whole of '// &
+                        span_text(context, bodies, i, crossings(k)), keyword=KEYWORD)
+   end subroutine report_part
+
+   !> `BODY from (x, y) to (x, y)`.
+   function span_text(context, bodies, i, crossing) result(text)
+      type(build_context_t), intent(in) :: context
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: i
+      type(crossing_t), intent(in) :: crossing
+      character(len=:), allocatable :: text
+
+      associate (line => context%model%cuts(i)%section%line)
+         text = bodies%list(crossing%body)%name//', from '//point_text(point_at(line, crossing%from))//' to '// &
+                point_text(point_at(line, crossing%to))
+      end associate
+   end function span_text
+
+   pure function point_text(x) result(text)
+      real(wp), intent(in) :: x(2)
+      character(len=:), allocatable :: text
+
+      text = '('//to_text(x(1), DIGITS)//', '//to_text(x(2), DIGITS)//')'
+   end function point_text
+
+   !> What may not be meant: several bodies, one body several times, more than the set, an edge.
+   subroutine tell_of_several(context, bodies, i, taken)
+      type(build_context_t), intent(in) :: context
+      type(bodies_t), intent(in) :: bodies
+      integer(ip), intent(in) :: i
+      type(crossing_t), intent(in) :: taken(:)
+      character(len=:), allocatable :: text
+
+      associate (cut => context%model%cuts(i), name => bodies%list(taken(1)%body)%name)
+         if (size(taken) > 1) then
+            if (all(taken%body == taken(1)%body)) then
+               text = 'cut '//cut%name//' goes through body '//name//' '//to_text(size(taken, kind=ip))//' times'
+            else
+               text = 'cut '//cut%name//' goes through bodies at '//to_text(size(taken, kind=ip))//' places, from '//name// &
+                      ' to '//bodies%list(taken(size(taken))%body)%name
+            end if
+            call report_warning(context%deck, context%cut_lines(i), 'W-CROSSING', text//': n, v and m are those of all together', &
+                                expected='a shorter line, or ELSET=, for one of them', keyword=KEYWORD)
+         end if
+         if (.not. all(taken%is_all_wanted)) then
+            call report_warning(context%deck, context%cut_lines(i), 'W-CROSSING', 'cut '//cut%name//' goes through elements of '// &
+                                context%model%element_sets%sets(cut%elset)%name//' and of others: it counts as a whole', &
+                                keyword=KEYWORD)
+         end if
+         if (any(taken%kind /= INSIDE)) then
+            call report_note(context%deck, context%cut_lines(i), 'N-EDGE', 'cut '//cut%name//' runs along the edge of '// &
+                             bodies%list(taken(findloc(taken%kind /= INSIDE, .true., dim=1))%body)%name// &
+                             ': what acts on the edge is told', keyword=KEYWORD)
+         end if
+      end associate
+   end subroutine tell_of_several
+
+end module atrito_build_cuts

@@ -1,0 +1,248 @@
+!> Line elements (T3D2, T3D3), as Gmsh writes the curves of a drawing into an Abaqus file. They have no stiffness here: the nodes of
+!> an element set of lines are a node set, and the faces that lie on them a surface, of the same name.
+module atrito_build_lines
+   use atrito_build_context, only: build_context_t, spoil_number, invalidate_name
+   use atrito_build_nodes, only: put_node_set
+   use atrito_curves, only: add_curve
+   use atrito_deck, only: card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name
+   use atrito_diagnostics, only: report_error, report_note
+   use atrito_growth, only: resize
+   use atrito_id_map, only: add_id, find_id
+   use atrito_items, only: has_option, option_text, option_word
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: signed_area
+   use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_numbers, only: read_integer, NUMBER_OK
+   use atrito_references, only: get_id, find_one_node
+   use atrito_sets, only: find_set, grow_set
+   use atrito_strings, only: to_text
+   use atrito_turned_elements, only: turned_nodes
+   implicit none (type, external)
+   private
+   public :: is_line_card, read_lines, is_line_item, line_items_of_range, turn_elements
+
+contains
+
+   !> *ELEMENT of lines.
+   logical function is_line_card(context, card)
+      type(build_context_t), intent(in) :: context
+      type(card_t), intent(in) :: card
+
+      is_line_card = keyword_name(card) == 'ELEMENT'
+      if (is_line_card) is_line_card = index(option_word(context%deck, card, 'TYPE'), 'T3D') == 1
+   end function is_line_card
+
+   !> All lines of the deck, behind its nodes, and the sets that name them.
+   subroutine read_lines(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: i
+
+      do i = 1, context%deck%n_cards
+         if (is_line_card(context, context%deck%cards(i))) call read_line_card(i, context)
+      end do
+      if (context%lines%ids%n == 0) return
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'ELSET') call read_line_set(i, context)
+      end do
+      do i = 1, context%deck%n_cards
+         if (keyword_name(context%deck%cards(i)) == 'SOLID SECTION') call refuse_section(context%deck%cards(i), context)
+      end do
+   end subroutine read_lines
+
+   subroutine read_line_card(i_card, context)
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
+      type(number_list_t) :: members
+      character(len=:), allocatable :: name
+      integer(ip) :: i
+      logical :: found, ok, whole
+
+      whole = .true.
+      associate (card => context%deck%cards(i_card))
+         if (context%lines%ids%n == 0) call report_note(context%deck, card%place, 'N-LINES', 'line elements have no stiffness '// &
+                                                        'here: each of their sets is a node set and a surface', keyword='ELEMENT')
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            ok = card%ok .and. context%deck%lines(i)%ok
+            if (ok) call read_line(context%deck%lines(i), context, ok)
+            if (ok) call add_number(members, context%lines%ids%n)
+            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
+            whole = whole .and. ok
+         end do
+         call option_text(context%deck, card, 'ELSET', name, found)
+      end associate
+      if (.not. found) return
+      if (.not. whole) call invalidate_name(context, name)
+      if (len(name) > 0) call put_line_set(name, numbers_of(members), i_card, context)
+   end subroutine read_line_card
+
+   !> number, first end[, middle], last end
+   subroutine read_line(line, context, ok)
+      type(data_line_t), intent(in) :: line
+      type(build_context_t), intent(inout) :: context
+      logical, intent(out) :: ok
+      integer(ip) :: id, nodes(3), i, n
+      logical :: good, known
+
+      nodes = 0
+      call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, ok, 'ELEMENT')
+      do i = 1, line%n_tokens - 1
+         call find_one_node(context, line_item(context%deck, line, i + 1), nodes(i), good, 'ELEMENT')
+         ok = ok .and. good
+      end do
+      if (.not. ok) return
+      n = context%lines%ids%n
+      call add_id(context%lines%ids, id, n + 1, known)
+      ok = .not. known
+      if (known) then
+         call report_error(context%deck, context%deck%tokens(line%first_token), 'E-TWICE', 'element '//to_text(id)// &
+                           ' is given twice', expected='an element number that is free', keyword='ELEMENT')
+         return
+      end if
+      if (.not. allocated(context%lines%nodes)) allocate (context%lines%nodes(4, 0))
+      if (n == size(context%lines%nodes, 2)) call resize(context%lines%nodes, n, 2*n + 16)
+      context%lines%nodes(:, n + 1) = [nodes(1), merge(nodes(2), nodes(3), nodes(3) == 0), merge(nodes(2), 0_ip, nodes(3) > 0), id]
+   end subroutine read_line
+
+   !> A set of lines is a node set and a curve.
+   subroutine put_line_set(name, lines, i_card, context)
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: lines(:)              !< places
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
+      type(number_list_t) :: nodes
+      integer(ip) :: i
+
+      call grow_set(context%lines%sets, name, lines)
+      do i = 1, size(lines, kind=ip)
+         call add_numbers(nodes, context%lines%nodes(:2, lines(i)))
+         if (context%lines%nodes(3, lines(i)) > 0) call add_number(nodes, context%lines%nodes(3, lines(i)))
+      end do
+      call put_node_set(context, i_card, name, numbers_of(nodes))
+      if (.not. allocated(context%lines%nodes)) return    ! all of them are faulty
+      call add_curve(context%curves, name, i_card, context%lines%nodes(:2, lines))
+   end subroutine put_line_set
+
+   !> The lines among the members of an *ELSET; what is none of them is read with the elements.
+   subroutine read_line_set(i_card, context)
+      integer(ip), intent(in) :: i_card
+      type(build_context_t), intent(inout) :: context
+      type(number_list_t) :: members
+      character(len=:), allocatable :: name
+      integer(ip) :: i, k
+      logical :: found
+
+      associate (card => context%deck%cards(i_card), deck => context%deck)
+         call option_text(deck, card, 'ELSET', name, found)
+         if (.not. found) return
+         do i = card%first_line, card%first_line + card%n_lines - 1
+            if (.not. deck%lines(i)%ok) cycle
+            if (has_option(deck, card, 'GENERATE')) then
+               call add_numbers(members, line_items_of_range(context, deck%lines(i)))
+               cycle
+            end if
+            do k = 1, deck%lines(i)%n_tokens
+               call add_numbers(members, lines_of_item(context, line_item(deck, deck%lines(i), k)))
+            end do
+         end do
+      end associate
+      if (members%n > 0) call put_line_set(name, numbers_of(members), i_card, context)
+   end subroutine read_line_set
+
+   !> The lines that an item of an *ELSET names: by its number, or by a set of them.
+   function lines_of_item(context, token) result(lines)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token
+      integer(ip), allocatable :: lines(:)
+      character(len=:), allocatable :: text
+      integer(ip) :: id, i
+      integer :: outcome
+
+      allocate (lines(0))
+      if (is_empty_token(token)) return
+      text = token_text(context%deck, token)
+      if (is_id_token(context%deck, token)) then
+         call read_integer(text, id, outcome)
+         if (outcome /= NUMBER_OK) return
+         i = find_id(context%lines%ids, id)
+         if (i > 0) lines = [i]
+      else
+         i = find_set(context%lines%sets, text)
+         if (i > 0) lines = context%lines%sets%sets(i)%members
+      end if
+   end function lines_of_item
+
+   !> The lines in a range of numbers.
+   function line_items_of_range(context, line) result(lines)
+      type(build_context_t), intent(in) :: context
+      type(data_line_t), intent(in) :: line
+      integer(ip), allocatable :: lines(:)
+      type(number_list_t) :: found
+      integer(ip) :: range(3), k, i
+      integer :: outcome
+
+      range = [0_ip, -1_ip, 1_ip]
+      do k = 1, min(3_ip, line%n_tokens)
+         if (is_empty_token(line_item(context%deck, line, k))) cycle
+         call read_integer(token_text(context%deck, line_item(context%deck, line, k)), i, outcome)
+         if (outcome == NUMBER_OK) range(k) = i
+      end do
+      do i = 1, context%lines%ids%n
+         k = context%lines%nodes(4, i)
+         if (k < range(1) .or. k > range(2) .or. range(3) < 1) cycle
+         if (modulo(k - range(1), range(3)) == 0) call add_number(found, i)
+      end do
+      lines = numbers_of(found)
+   end function line_items_of_range
+
+   !> An item of an *ELSET names lines, and no elements.
+   logical function is_line_item(context, token)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: token
+
+      is_line_item = context%lines%ids%n > 0
+      if (is_line_item) is_line_item = size(lines_of_item(context, token)) > 0
+      if (is_line_item .and. .not. is_id_token(context%deck, token)) then
+         is_line_item = find_set(context%model%element_sets, token_text(context%deck, token)) == 0
+      end if
+   end function is_line_item
+
+   !> Lines with a section would be trusses.
+   subroutine refuse_section(card, context)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(inout) :: context
+      character(len=:), allocatable :: name
+      type(token_t) :: place
+      logical :: found
+
+      call option_text(context%deck, card, 'ELSET', name, found, place)
+      if (.not. found) return
+      if (find_set(context%lines%sets, name) == 0) return
+      call report_error(context%deck, place, 'E-OUTSIDE', 'the elements of set '//name//' would be trusses, which atrito has not', &
+                        expected='elements of the plane; a spring along a line is *SPRING', keyword='SOLID SECTION')
+      call invalidate_name(context, name)
+   end subroutine refuse_section
+
+   !> Beside lines of Gmsh elements may run clockwise, as the surfaces of a drawing do: they are turned, and it is told.
+   subroutine turn_elements(context)
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: e, n, turned
+
+      if (context%lines%ids%n == 0) return
+      turned = 0
+      associate (mesh => context%model%mesh)
+         do e = 1, mesh%n_elements
+            if (signed_area(mesh, e) >= 0.0_wp) cycle
+            n = mesh%shape(e)
+            mesh%nodes(:n, e) = turned_nodes(mesh%nodes(:n, e))
+            turned = turned + 1
+         end do
+      end associate
+      if (turned == 0) return
+      do e = 1, context%deck%n_cards
+         if (is_line_card(context, context%deck%cards(e))) exit
+      end do
+      call report_note(context%deck, context%deck%cards(e)%place, 'N-TURNED', to_text(turned)//' elements ran clockwise and '// &
+                       'are turned, and so are their faces S1, S2, ...', keyword='ELEMENT')
+   end subroutine turn_elements
+
+end module atrito_build_lines

@@ -1,0 +1,79 @@
+!> What a build context is made of: blocks, sections, what is known of nodes and elements by their numbers, the step that is built.
+module atrito_build_parts
+   use atrito_block_map, only: block_map_t
+   use atrito_id_map, only: id_map_t
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: nodal_values_t
+   implicit none (type, external)
+   private
+   public :: open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES
+   public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
+
+   !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
+   character(len=7), parameter :: BLOCK_SIDES(4) = ['-BOTTOM', '-RIGHT ', '-TOP   ', '-LEFT  ']
+
+   !> A *BLOCK between the pass that makes its nodes and the one that makes its elements.
+   type :: block_t
+      character(len=:), allocatable :: name
+      integer(ip) :: card = 0                          !< place in deck%cards
+      integer(ip) :: state = 0                         !< place in STATES
+      integer(ip) :: shape = 0                         !< place in SHAPES
+      integer(ip) :: order = 1                         !< node intervals along an edge of an element
+      integer(ip), allocatable :: nodes(:, :)          !< (0:order*nx, 0:order*ny), places; 0: none
+      integer(ip) :: first_element = 0                 !< place; row by row from BOTTOM
+      integer(ip) :: n_elements = 0
+      integer(ip) :: body = 0                          !< the same for blocks that MERGE joins
+      character(len=:), allocatable :: array           !< name of the copies of which it is one; not allocated: it is none
+      logical :: at_side(4) = .false.                  !< it stands at this side of all copies, as in BLOCK_SIDES
+      type(block_map_t) :: map                         !< of its unit square
+      real(wp), allocatable :: along(:), across(:)     !< places of its nodes in the unit square, (0:order*nx), (0:order*ny)
+   end type block_t
+
+   !> A *PRE-TENSION SECTION: the nodes on the side of its surface's elements, and those on the other that stand there, too.
+   type :: section_cut_t
+      integer(ip) :: body = 0                          !< its node, place in the model's rigid bodies
+      integer(ip), allocatable :: own(:), other(:)
+      real(wp) :: normal(2) = 0.0_wp
+      real(wp) :: size = 0.0_wp                        !< [L] across the nodes
+   end type section_cut_t
+
+   !> What is known of the nodes or the elements by their numbers.
+   type :: numbered_t
+      type(id_map_t) :: invalid                        !< numbers whose definition is faulty
+      integer(ip) :: greatest = 0                      !< number
+      integer(ip), allocatable :: place(:)             !< of each, by its place in the mesh; > 0: token; < 0: card
+   end type numbered_t
+
+   !> Loads that a step has from the one before, in lists by the dof or the element on which they act.
+   type :: carried_t
+      integer(ip) :: n = 0                             !< the first of the step's loads
+      integer(ip), allocatable :: head(:)              !< of each dof or element the last of these; 0: none
+      integer(ip), allocatable :: next(:)              !< (n)
+      integer(ip), allocatable :: label(:)             !< (n) of loads on elements: place in the labels of the deck
+      logical, allocatable :: is_given(:)              !< (n) a line of the step has taken its place
+   end type carried_t
+
+   !> What is prescribed and applied at the reference nodes of rigid surfaces.
+   type :: references_t
+      type(nodal_values_t) :: prescribed, loads
+      integer(ip), allocatable :: token(:)             !< first of the line that prescribes each
+      type(carried_t) :: old_loads
+   end type references_t
+
+   !> The step that is being built.
+   type :: open_step_t
+      integer(ip) :: number = 1
+      integer(ip) :: first_token = 0                   !< of its lines: what stands before it has been carried on
+      integer(ip) :: line = 0                          !< of the deck, that is being read
+      integer(ip) :: label = 0                         !< of its load, place in the labels of the deck
+      integer(ip) :: amplitude = 0                     !< that the card being read names
+      integer(ip) :: source = 0                        !< of the line being read, place in the model's sources
+      type(nodal_values_t) :: supports, forces         !< along the dofs of the deck, which may be local axes
+      type(carried_t) :: old_forces, old_loads
+      type(references_t) :: references
+   end type open_step_t
+
+   !> A dof of a node of no element: held at 0 so far, no longer, or moved or held later than in the first step; 0: free.
+   integer(ip), parameter :: LOOSE_HELD = 1, LOOSE_RELEASED = 2, LOOSE_MOVES = 3
+
+end module atrito_build_parts

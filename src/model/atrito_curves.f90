@@ -1,0 +1,155 @@
+!> Lines between nodes that carry a name, as meshes of Gmsh have them, and the faces of elements that lie on them.
+module atrito_curves
+   use atrito_faces, only: face_list_t, node_elements_t, add_face, is_outer_face
+   use atrito_kinds, only: ip
+   use atrito_growth, only: resize
+   use atrito_id_map, only: id_map_t
+   use atrito_mesh, only: mesh_t, face_nodes, side_count, face_end, middle_node
+   use atrito_name_list, only: name_list_t, add_name, find_name
+   use atrito_sets, only: set_list_t
+   implicit none (type, external)
+   private
+   public :: curve_t, curve_list_t, line_list_t, add_curve, find_curve_faces, find_node_faces, nodes_of_no_face
+
+   type :: curve_t
+      character(len=:), allocatable :: name
+      integer(ip) :: card = 0                          !< that makes it, place in the deck's cards
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: ends(:, :)           !< (2, >= n) places of nodes
+      type(face_list_t) :: faces                       !< of the deck's own mesh, on its outline
+      integer(ip) :: n_inside = 0                      !< lines that have none
+   end type curve_t
+
+   type :: curve_list_t
+      integer(ip) :: n = 0
+      type(curve_t), allocatable :: list(:)            !< the first n are in use
+      type(name_list_t) :: names                       !< in their order
+   end type curve_list_t
+
+   !> Line elements, which only name nodes and faces.
+   type :: line_list_t
+      type(id_map_t) :: ids                            !< numbers
+      integer(ip), allocatable :: nodes(:, :)          !< (4, lines) places: the ends, then the middle or 0; last the number
+      type(set_list_t) :: sets
+   end type line_list_t
+
+contains
+
+   !> Keeps lines under a name; a name that is there already grows.
+   subroutine add_curve(curves, name, card, ends)
+      type(curve_list_t), intent(inout) :: curves
+      character(len=*), intent(in) :: name
+      integer(ip), intent(in) :: card
+      integer(ip), intent(in) :: ends(:, :)            !< (2, lines) places of nodes
+      integer(ip) :: i, n
+
+      if (find_name(curves%names, name) == 0) call add_name(curves%names, name)
+      i = find_name(curves%names, name)
+      call reserve(curves, i)
+      associate (curve => curves%list(i))
+         if (i > curves%n) then
+            curves%n = i
+            curve%name = name
+            curve%card = card
+         end if
+         n = curve%n + size(ends, 2, kind=ip)
+         if (.not. allocated(curve%ends)) allocate (curve%ends(2, 0))
+         if (n > size(curve%ends, 2)) call resize(curve%ends, curve%n, n + curve%n)
+         curve%ends(:, curve%n + 1:n) = ends
+         curve%n = n
+      end associate
+   end subroutine add_curve
+
+   !> Room for so many; the list doubles.
+   subroutine reserve(curves, n)
+      type(curve_list_t), intent(inout) :: curves
+      integer(ip), intent(in) :: n
+      type(curve_t), allocatable :: longer(:)
+
+      if (.not. allocated(curves%list)) allocate (curves%list(8))
+      if (n <= size(curves%list)) return
+      allocate (longer(2*n))
+      longer(:curves%n) = curves%list(:curves%n)
+      call move_alloc(longer, curves%list)
+   end subroutine reserve
+
+   !> The faces on the outline that lie on the lines of a curve; each once.
+   subroutine find_curve_faces(mesh, around, curve)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      type(curve_t), intent(inout) :: curve
+      integer(ip) :: i, place(2), n_sides
+
+      do i = 1, curve%n
+         call find_side(mesh, around, curve%ends(:, i), place, n_sides)
+         if (n_sides == 1) then
+            call add_face(curve%faces, place(1), place(2))
+         else
+            curve%n_inside = curve%n_inside + 1
+         end if
+      end do
+   end subroutine find_curve_faces
+
+   !> The element and the side that join two corners, and how many do: inside a mesh there are two.
+   pure subroutine find_side(mesh, around, ends, place, n_sides)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: ends(2)
+      integer(ip), intent(out) :: place(2), n_sides
+      integer(ip) :: k, e, side, corners(2)
+
+      place = 0
+      n_sides = 0
+      do k = around%first(ends(1)), around%first(ends(1) + 1) - 1
+         e = around%list(k)
+         do side = 1, side_count(mesh, e)
+            corners = [mesh%nodes(side, e), mesh%nodes(face_end(mesh, e, side), e)]
+            if (any(corners /= ends) .and. any(corners /= ends([2, 1]))) cycle
+            place = [e, side]
+            n_sides = n_sides + 1
+         end do
+      end do
+   end subroutine find_side
+
+   !> The nodes of a list that belong to none of the faces.
+   pure function nodes_of_no_face(mesh, nodes, faces) result(loose)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: nodes(:)              !< places
+      type(face_list_t), intent(in) :: faces
+      integer(ip), allocatable :: loose(:)             !< places
+      logical, allocatable :: held(:)
+      integer(ip) :: i
+
+      allocate (held(0:mesh%n_nodes), source=.false.)
+      do i = 1, faces%n
+         held(face_nodes(mesh, faces%element(i), faces%face(i))) = .true.
+      end do
+      loose = pack(nodes,.not. held(nodes))
+   end function nodes_of_no_face
+
+   !> The faces on the outline both of whose corners are among these nodes, and the node in their middle, if there is one.
+   subroutine find_node_faces(mesh, around, nodes, faces)
+      type(mesh_t), intent(in) :: mesh
+      type(node_elements_t), intent(in) :: around
+      integer(ip), intent(in) :: nodes(:)              !< places
+      type(face_list_t), intent(inout) :: faces
+      logical, allocatable :: chosen(:)
+      integer(ip) :: i, k, e, side
+
+      allocate (chosen(0:mesh%n_nodes), source=.false.)
+      chosen(0) = .true.                               ! no node in the middle
+      chosen(nodes) = .true.
+      do i = 1, size(nodes, kind=ip)
+         do k = around%first(nodes(i)), around%first(nodes(i) + 1) - 1
+            e = around%list(k)
+            do side = 1, side_count(mesh, e)           ! a face is found at its first corner
+               if (mesh%nodes(side, e) /= nodes(i)) cycle
+               if (.not. chosen(mesh%nodes(face_end(mesh, e, side), e))) cycle
+               if (.not. chosen(middle_node(mesh, e, side))) cycle
+               if (is_outer_face(mesh, around, e, side)) call add_face(faces, e, side)
+            end do
+         end do
+      end do
+   end subroutine find_node_faces
+
+end module atrito_curves

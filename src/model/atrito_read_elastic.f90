@@ -1,0 +1,217 @@
+!> *ELASTIC: E and mu, engineering constants or stiffnesses of an orthotropic material.
+module atrito_read_elastic
+   use atrito_build_context, only: build_context_t
+   use atrito_deck, only: card_t, deck_t, data_line_t, token_t, token_text, line_item
+   use atrito_diagnostics, only: report_error
+   use atrito_items, only: get_real, option_word
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: material_t
+   use atrito_orthotropy, only: SPATIAL, compliance_of_constants, inverse_of, is_positive_definite
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_elastic_card, check_constant
+
+   character(len=*), parameter :: KEYWORD = 'ELASTIC'
+   character(len=*), parameter :: WHAT_E = "Young's modulus E, a real > 0 [F/L^2]", &
+                                  WHAT_MU = "Poisson's ratio mu, plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5 [-]", &
+                                  WHAT_CONSTANT = 'elastic constant, a real [F/L^2]', WHAT_RATIO = "Poisson's ratio, a real [-]", &
+                                  WHAT_MODULUS = 'modulus, a real > 0 [F/L^2]'
+
+   integer(ip), parameter :: N_CONSTANTS = 9           !< of an orthotropic material, the last one on the second line
+   integer(ip), parameter :: N_FIRST = 8
+
+contains
+
+   subroutine read_elastic_card(card, material, context, i)
+      type(card_t), intent(in) :: card
+      type(material_t), intent(inout) :: material
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i                     !< place of the material
+      logical :: ok
+
+      if (context%elastic_given(i)) then
+         if (card%ok) call report_error(context%deck, card%place, 'E-TWICE', 'material '//material%name//' has two *ELASTIC', &
+                                        expected='one *ELASTIC a material', keyword=KEYWORD)
+         return
+      end if
+      context%elastic_given(i) = .true.
+      context%elastic_invalid(i) = .true.
+      if (card%n_lines == 0) return
+      select case (option_word(context%deck, card, 'TYPE'))
+      case ('ISOTROPIC', 'ISO')
+         call read_isotropic(card, material, context%deck, ok)
+         context%poisson(i) = line_item(context%deck, context%deck%lines(card%first_line), 2_ip)
+      case default
+         call read_orthotropic(card, material, context%deck, ok)
+      end select
+      context%elastic_invalid(i) = .not. ok
+   end subroutine read_elastic_card
+
+   subroutine read_isotropic(card, material, deck, all_ok)
+      type(card_t), intent(in) :: card
+      type(material_t), intent(inout) :: material
+      type(deck_t), intent(in) :: deck
+      logical, intent(out) :: all_ok
+      logical :: ok(2)
+
+      all_ok = .false.
+      associate (line => deck%lines(card%first_line))
+         if (.not. line%ok) return
+         call get_real(deck, line_item(deck, line, 1_ip), WHAT_E, material%young, ok(1), keyword=KEYWORD)
+         call get_real(deck, line_item(deck, line, 2_ip), WHAT_MU, material%poisson, ok(2), keyword=KEYWORD)
+         if (ok(1) .and. material%young <= 0.0_wp) then
+            ok(1) = .false.
+            call report_error(deck, line_item(deck, line, 1_ip), 'E-VALUE', 'E = '//to_text(material%young)// &
+                              ' is not positive', expected=WHAT_E, keyword=KEYWORD)
+         end if
+         if (ok(2) .and. (material%poisson <= -1.0_wp .or. material%poisson > 0.5_wp)) then
+            ok(2) = .false.
+            call report_error(deck, line_item(deck, line, 2_ip), 'E-VALUE', 'mu = '//to_text(material%poisson, 15)// &
+                              ' is out of range', expected=WHAT_MU, keyword=KEYWORD)
+         end if
+      end associate
+      all_ok = all(ok)
+      if (all_ok) call check_comma(deck, deck%lines(card%first_line), all_ok)
+      if (all_ok) call check_constant(deck, card, [material%young, material%poisson], 'E and mu', all_ok)
+   end subroutine read_isotropic
+
+   !> `1000, 0,3` is a decimal comma, and no temperature behind mu = 0.
+   subroutine check_comma(deck, line, ok)
+      type(deck_t), intent(in) :: deck
+      type(data_line_t), intent(in) :: line
+      logical, intent(inout) :: ok
+      type(token_t) :: ratio, temperature
+
+      if (line%n_tokens < 3) return
+      ratio = line_item(deck, line, 2_ip)
+      temperature = line_item(deck, line, 3_ip)
+      if (token_text(deck, ratio) /= '0' .or. temperature%column /= ratio%column + 2) return
+      if (verify(token_text(deck, temperature), '0123456789') > 0) return
+      ok = .false.
+      call report_error(deck, temperature, 'E-ITEMS', '3 items, where 2 belong', &
+                        expected='E [F/L^2], mu [-]; a temperature behind mu = 0 as 0., 20.', keyword=KEYWORD)
+   end subroutine check_comma
+
+   !> Lines for further temperatures say the same.
+   subroutine check_constant(deck, card, values, what, ok)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      real(wp), intent(in) :: values(:)                !< of the first line
+      character(len=*), intent(in) :: what             !< they are
+      logical, intent(inout) :: ok
+      real(wp) :: value
+      integer(ip) :: i, k
+      logical :: good
+
+      do k = card%first_line + 1, card%first_line + card%n_lines - 1
+         if (.not. deck%lines(k)%ok) cycle
+         do i = 1, size(values, kind=ip)
+            call get_real(deck, line_item(deck, deck%lines(k), i), 'a real', value, good, keyword=deck%keywords(card%keyword)%name)
+            ok = ok .and. good
+            if (.not. good) cycle
+            if (abs(value - values(i)) <= 0.0_wp) cycle
+            ok = .false.
+            call report_error(deck, line_item(deck, deck%lines(k), i), 'E-OUTSIDE', what//' that depend on the temperature are '// &
+                              'not what atrito computes', expected='one line: the values at the temperature of the step', &
+                              keyword=deck%keywords(card%keyword)%name)
+            return
+         end do
+      end do
+   end subroutine check_constant
+
+   !> Nine constants on two lines.
+   subroutine read_orthotropic(card, material, deck, ok)
+      type(card_t), intent(in) :: card
+      type(material_t), intent(inout) :: material
+      type(deck_t), intent(in) :: deck
+      logical, intent(out) :: ok
+      real(wp) :: values(N_CONSTANTS), s(SPATIAL, SPATIAL)
+      type(token_t) :: first
+      logical :: is_engineering
+
+      is_engineering = option_word(deck, card, 'TYPE') == 'ENGINEERING CONSTANTS'
+      ok = .false.
+      if (card%n_lines < 2) return
+      call read_constants(card, deck, is_engineering, values, ok)
+      if (.not. ok) return
+      first = line_item(deck, deck%lines(card%first_line), 1_ip)
+      if (is_engineering) then
+         s = compliance_of_constants(values(1:3), values(4:6), values(7))
+      else
+         s = stiffness_of_constants(values)
+      end if
+      ok = is_positive_definite(s)
+      if (.not. ok) then
+         call report_indefinite(deck, first, is_engineering)
+         return
+      end if
+      material%is_orthotropic = .true.
+      material%stiffness = s
+      if (is_engineering) material%stiffness = inverse_of(s)
+      if (.not. is_engineering) s = inverse_of(s)
+      material%young = 2/(s(1, 1) + s(2, 2))
+      material%poisson = 0.0_wp
+   end subroutine read_orthotropic
+
+   subroutine report_indefinite(deck, first, is_engineering)
+      type(deck_t), intent(in) :: deck
+      type(token_t), intent(in) :: first
+      logical, intent(in) :: is_engineering
+      character(len=:), allocatable :: wanted
+
+      if (is_engineering) then
+         wanted = 'nu12^2 < E1/E2, nu13^2 < E1/E3, nu23^2 < E2/E3, '// &
+                  'nu12 nu21 + nu13 nu31 + nu23 nu32 + 2 nu21 nu32 nu13 < 1, where nu21 = nu12 E2/E1 ...'
+      else
+         wanted = 'a positive definite matrix D1111, D1122, D1133; D1122, D2222, D2233; D1133, D2233, D3333, and D1212 > 0'
+      end if
+      call report_error(deck, first, 'E-VALUE', 'these constants give some strains no energy', expected=wanted, keyword=KEYWORD)
+   end subroutine report_indefinite
+
+   subroutine read_constants(card, deck, is_engineering, values, ok)
+      type(card_t), intent(in) :: card
+      type(deck_t), intent(in) :: deck
+      logical, intent(in) :: is_engineering
+      real(wp), intent(out) :: values(N_CONSTANTS)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: what
+      type(token_t) :: item
+      integer(ip) :: i
+      logical :: is_ratio, good
+
+      ok = all(deck%lines(card%first_line:card%first_line + 1)%ok)
+      if (.not. ok) return
+      do i = 1, N_CONSTANTS
+         item = line_item(deck, deck%lines(card%first_line + merge(0_ip, 1_ip, i <= N_FIRST)), merge(i, i - N_FIRST, i <= N_FIRST))
+         is_ratio = is_engineering .and. i > 3 .and. i < 7
+         what = WHAT_CONSTANT
+         if (is_engineering) what = trim(merge(WHAT_RATIO, WHAT_MODULUS, is_ratio))
+         call get_real(deck, item, what, values(i), good, keyword=KEYWORD)
+         ok = ok .and. good
+         if (.not. (good .and. is_engineering) .or. is_ratio .or. values(i) > 0.0_wp) cycle
+         ok = .false.
+         call report_error(deck, item, 'E-VALUE', 'the modulus '//to_text(values(i))//' is not positive', &
+                           expected=WHAT_MODULUS, keyword=KEYWORD)
+      end do
+   end subroutine read_constants
+
+   !> D1111, D1122, D2222, D1133, D2233, D3333, D1212, ...
+   pure function stiffness_of_constants(values) result(c)
+      real(wp), intent(in) :: values(N_CONSTANTS)      !< [F/L^2]
+      real(wp) :: c(SPATIAL, SPATIAL)
+
+      c = 0.0_wp
+      c(1, 1) = values(1)
+      c(1, 2) = values(2)
+      c(2, 2) = values(3)
+      c(1, 3) = values(4)
+      c(2, 3) = values(5)
+      c(3, 3) = values(6)
+      c(4, 4) = values(7)
+      c(2, 1) = c(1, 2)
+      c(3, 1) = c(1, 3)
+      c(3, 2) = c(2, 3)
+   end function stiffness_of_constants
+
+end module atrito_read_elastic

@@ -1,0 +1,88 @@
+!> Rows of a table as comma-separated values, RFC 4180: names in the first row, lines that end with CR LF, quotes where a value
+!> holds a comma or a quote. No comments: many programs that read such files know none.
+module atrito_csv_text
+   use atrito_files, only: text_file_t, put_line
+   use atrito_table, only: table_t
+   implicit none (type, external)
+   private
+   public :: put_csv_names, put_csv_rows
+
+   character(len=1), parameter :: CARRIAGE_RETURN = achar(13), QUOTE = '"'
+
+contains
+
+   !> Writes the names of the columns.
+   subroutine put_csv_names(file, table)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = ''
+      do i = 1, size(table%columns)
+         if (i > 1) line = line//','
+         line = line//csv_item(table%columns(i)%name)
+      end do
+      call put_line(file, line//CARRIAGE_RETURN)
+   end subroutine put_csv_names
+
+   !> Writes rows that are laid out already, each column at its place of the line.
+   subroutine put_csv_rows(file, table, rows)
+      type(text_file_t), intent(inout) :: file
+      type(table_t), intent(in) :: table
+      character(len=*), contiguous, intent(in) :: rows(:)
+      character(len=:), allocatable :: line
+      integer :: i, row, last, first
+
+      allocate (character(len=2*len(rows) + 2*size(table%columns) + 1) :: line)
+      do row = 1, size(rows)
+         last = 0
+         do i = 1, size(table%columns)
+            associate (field => rows(row) (table%columns(i)%first:table%columns(i)%last))
+               first = max(1, verify(field, ' '))
+               call append_item(field(first:len_trim(field)), line, last)
+            end associate
+         end do
+         line(last:last) = CARRIAGE_RETURN           ! in the place of the last comma
+         call put_line(file, line(:last))
+      end do
+   end subroutine put_csv_rows
+
+   !> Appends an item and a comma to the first `last` characters of a line.
+   pure subroutine append_item(item, line, last)
+      character(len=*), intent(in) :: item
+      character(len=*), intent(inout) :: line
+      integer, intent(inout) :: last
+      character(len=:), allocatable :: quoted
+      integer :: n
+
+      if (scan(item, ','//QUOTE) > 0) then
+         quoted = csv_item(item)                    ! no associate: gfortran 12 would free it twice
+         n = len(quoted)
+         line(last + 1:last + n) = quoted
+      else
+         n = len(item)
+         line(last + 1:last + n) = item
+         if (item == 'nan') line(last + 1:last + n) = 'NaN'
+      end if
+      line(last + n + 1:last + n + 1) = ','
+      last = last + n + 1
+   end subroutine append_item
+
+   !> An item, in quotes where it needs them; quotes within are doubled.
+   pure function csv_item(text) result(item)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: item
+      integer :: i
+
+      item = text
+      if (scan(text, ','//QUOTE) == 0) return
+      item = QUOTE
+      do i = 1, len(text)
+         if (text(i:i) == QUOTE) item = item//QUOTE
+         item = item//text(i:i)
+      end do
+      item = item//QUOTE
+   end function csv_item
+
+end module atrito_csv_text

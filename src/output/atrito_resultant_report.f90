@@ -1,0 +1,143 @@
+!> Forces of supports and loads, set by set: resultants.tab, and their lines of the listing and on the screen.
+module atrito_resultant_report
+   use atrito_kinds, only: ip, wp
+   use atrito_model, only: model_t
+   use atrito_page, only: page_t, add_blank, add_item, add_line, left, right, number
+   use atrito_resultants, only: resultant_t, find_resultants, holds
+   use atrito_results, only: results_t
+   use atrito_strings, only: string_t, to_text
+   use atrito_summary, only: scales_t
+   use atrito_table, only: table_t, begin_table, add_integers, add_real_columns, add_words, clear_small, one_word
+   implicit none (type, external)
+   private
+   public :: has_resultants, build_resultants, describe_resultants, add_supports
+
+   integer, parameter :: DIGITS = 6, SCREEN_DIGITS = 5
+   real(wp), parameter :: SUMMED = 10.0_wp          !< round-offs of a reaction, which is a sum over elements
+
+contains
+
+   !> Whether the deck has supports, loads or contact pairs.
+   pure logical function has_resultants(model) result(has)
+      type(model_t), intent(in) :: model
+
+      has = .false.
+      if (allocated(model%sources)) has = size(model%sources) > 0
+   end function has_resultants
+
+   !> The resultants of a frame; what is rounding in them is 0.
+   subroutine find_clear_resultants(model, results, length, list)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      real(wp), intent(in) :: length                !< of the mesh [L]
+      type(resultant_t), allocatable, intent(out) :: list(:)
+      real(wp) :: all_forces, scale, moment(1)
+      integer :: i
+
+      call find_resultants(model, results, list)
+      all_forces = sum(list%force%terms)
+      do i = 1, size(list)
+         associate (force => list(i)%force)
+            scale = force%terms
+            if (holds(list(i))) scale = SUMMED*all_forces
+            call clear_small(scale, force%f)
+            moment = force%moment
+            call clear_small(scale*length, moment)
+            force%moment = moment(1)
+         end associate
+      end do
+   end subroutine find_clear_resultants
+
+   !> A row a support, a rigid surface or a load.
+   subroutine build_resultants(model, results, scales, table)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      type(table_t), intent(out) :: table
+      type(resultant_t), allocatable :: list(:)
+      type(string_t), allocatable :: names(:), keywords(:)
+      real(wp), allocatable :: field(:, :)
+      integer :: i
+
+      call find_clear_resultants(model, results, scales%length, list)
+      allocate (names(size(list)), keywords(size(list)), field(size(list), 3))
+      do i = 1, size(list)
+         names(i)%s = one_word(list(i)%name)
+         keywords(i)%s = list(i)%keyword
+         field(i, :) = [list(i)%force%f, list(i)%force%moment]
+      end do
+      call begin_table(table, 'resultants', 'a row a support or a load: its force upon the bodies, and moment about the origin', &
+                       size(list, kind=ip))
+      call add_integers(table, 'step', [results%step])
+      call add_words(table, 'set', '-', names, on_the_left=.true.)
+      call add_words(table, 'keyword', '-', keywords, on_the_left=.true.)
+      call add_real_columns(table, ['fx    ', 'fy    ', 'moment'], ['F  ', 'F  ', 'F*L'], field)
+      call add_integers(table, 'increment', [results%increment])
+   end subroutine build_resultants
+
+   !> For the listing: all of them.
+   subroutine describe_resultants(page, model, results, scales)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      type(scales_t), intent(in) :: scales
+      integer, parameter :: MOST = 40                !< lines
+      type(resultant_t), allocatable :: list(:)
+      integer :: i
+
+      call find_clear_resultants(model, results, scales%length, list)
+      if (size(list) == 0) return
+      call add_blank(page)
+      call add_line(page, '   '//left('set by set', 30)//right('F1 [F]', 18)//right('F2 [F]', 18)//right('moment about 0,0', 20))
+      do i = 1, min(size(list), MOST)
+         associate (force => list(i)%force)
+            call add_line(page, '   '//left('*'//list(i)%keyword//' '//list(i)%name, 30)//right(number(force%f(1), DIGITS), 18)// &
+                          right(number(force%f(2), DIGITS), 18)//right(number(force%moment, DIGITS), 20))
+         end associate
+      end do
+      if (size(list) > MOST) call add_line(page, '   ... and '//to_text(size(list, kind=ip) - MOST)//' more in resultants.tab')
+   end subroutine describe_resultants
+
+   !> For the screen: what holds the bodies, set by set where there is room, else in all. What is small beside the rest is 0.
+   subroutine add_supports(page, model, results)
+      type(page_t), intent(inout) :: page
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: results
+      integer, parameter :: ROOM = 66                !< columns behind the label
+      real(wp), parameter :: SHOWN = 1.0e5_wp        !< 1e-9 of all forces
+      type(resultant_t), allocatable :: list(:)
+      character(len=:), allocatable :: text
+      real(wp) :: f(2), total(2), scale
+      integer :: i, n
+
+      call find_clear_resultants(model, results, 0.0_wp, list)
+      text = ''
+      total = 0.0_wp
+      scale = SHOWN*sum(list%force%terms)
+      n = 0
+      do i = 1, size(list)
+         if (.not. holds(list(i))) cycle
+         n = n + 1
+         f = list(i)%force%f
+         total = total + f
+         call clear_small(scale, f)
+         if (len(text) > ROOM) cycle
+         if (n > 1) text = text//', '
+         text = text//list(i)%name//' '//force_text(f)
+      end do
+      if (n == 0) return
+      call clear_small(scale, total)
+      text = text//' [F]'
+      if (len(text) > ROOM) text = force_text(total)//' [F] in all; resultants.tab has the '//to_text(int(n, ip))//' sets'
+      call add_item(page, 'held by', text)
+   end subroutine add_supports
+
+   !> `(1.5, 0)`
+   pure function force_text(f) result(text)
+      real(wp), intent(in) :: f(2)
+      character(len=:), allocatable :: text
+
+      text = '('//number(f(1), SCREEN_DIGITS)//', '//number(f(2), SCREEN_DIGITS)//')'
+   end function force_text
+
+end module atrito_resultant_report

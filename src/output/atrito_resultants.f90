@@ -1,0 +1,270 @@
+!> What holds and loads the bodies in an increment, set by set: the forces of supports and of rigid surfaces upon them, and loads.
+module atrito_resultants
+   use atrito_kinds, only: ip, wp
+   use atrito_load_resultants, only: force_t, add_to, add_element_load
+   use atrito_mesh, only: is_revolved
+   use atrito_model, only: model_t, step_t, nodal_values_t, element_load_t, SURFACE_SEGMENTS
+   use atrito_results, only: results_t, contact_result_t
+   use atrito_step_loads, only: act_at, is_end, moment_t
+   use atrito_strings, only: string_t
+   use atrito_summary, only: pair_count
+   implicit none (type, external)
+   private
+   public :: resultant_t, find_resultants, holds
+
+   character(len=*), parameter :: SUPPORT = 'BOUNDARY', RIGID_SURFACE = 'RIGID_BODY'
+
+   !> What is of one keyword and one name of the deck.
+   type :: resultant_t
+      character(len=:), allocatable :: keyword      !< BOUNDARY, RIGID_BODY, CLOAD, DLOAD or DSLOAD
+      character(len=:), allocatable :: name         !< of a set or a surface, or the number of a node or an element
+      type(force_t) :: force                        !< upon the bodies; moment about the origin
+   end type resultant_t
+
+   !> Sums by source while they are made.
+   type :: sums_t
+      type(force_t), allocatable :: of(:)           !< (sources)
+      logical, allocatable :: acts(:)               !< (sources) the step has something of it
+   end type sums_t
+
+contains
+
+   !> Supports in the order of the deck, then rigid surfaces that stay where they are, then loads. Of bodies of revolution what is
+   !> radial, and moments, balance in themselves and are 0.
+   pure subroutine find_resultants(model, frame, list)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: frame
+      type(resultant_t), allocatable, intent(out) :: list(:)
+      type(sums_t) :: sums
+      type(resultant_t), allocatable :: rigid(:)
+      integer, allocatable :: supports(:), loads(:)
+      integer :: i, n
+
+      n = 0
+      if (allocated(model%sources)) n = size(model%sources)
+      allocate (sums%of(n), sums%acts(n))
+      sums%acts = .false.
+      call add_supports(model, frame, sums)
+      call add_loads(model, frame, sums)
+      call find_rigid_surfaces(model, frame, rigid)
+      supports = pack([(i, i=1, n)], [(sums%acts(i) .and. model%sources(i)%keyword == SUPPORT, i=1, n)])
+      loads = pack([(i, i=1, n)], [(sums%acts(i) .and. model%sources(i)%keyword /= SUPPORT, i=1, n)])
+      allocate (list(size(supports) + size(rigid) + size(loads)))
+      do i = 1, size(supports)
+         list(i) = of_source(supports(i))
+      end do
+      do i = 1, size(rigid)
+         list(size(supports) + i) = rigid(i)
+      end do
+      do i = 1, size(loads)
+         list(size(supports) + size(rigid) + i) = of_source(loads(i))
+      end do
+      if (.not. is_revolved(model%mesh)) return
+      do i = 1, size(list)
+         list(i)%force%f(1) = 0.0_wp
+         list(i)%force%moment = 0.0_wp
+      end do
+
+   contains
+
+      pure type(resultant_t) function of_source(k)
+         integer, intent(in) :: k
+
+         of_source%keyword = model%sources(k)%keyword
+         of_source%name = model%sources(k)%name
+         of_source%force = sums%of(k)
+      end function of_source
+
+   end subroutine find_resultants
+
+   !> Whether it holds the bodies, as supports and rigid surfaces do; loads do not.
+   pure elemental logical function holds(resultant)
+      type(resultant_t), intent(in) :: resultant
+
+      holds = resultant%keyword == SUPPORT .or. resultant%keyword == RIGID_SURFACE
+   end function holds
+
+   !> The reactions, each by the line that prescribes its displacement.
+   pure subroutine add_supports(model, frame, sums)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: frame
+      type(sums_t), intent(inout) :: sums
+      integer(ip) :: i
+      real(wp) :: f(2)
+
+      if (.not. allocated(frame%reaction)) return
+      associate (held => model%steps(frame%step)%prescribed)
+         if (allocated(held%source)) then
+            do i = 1, held%n
+               f = 0.0_wp
+               f(held%dof(i)) = frame%reaction(held%dof(i), held%node(i))
+               call add(held%source(i), f, model%mesh%x(:, held%node(i)), 0.0_wp, sums)
+            end do
+         end if
+      end associate
+      associate (held => model%inclined)
+         if (allocated(held%source)) then
+            do i = 1, held%n
+               call add(held%source(i), frame%reaction(:, held%node(i)), model%mesh%x(:, held%node(i)), 0.0_wp, sums)
+            end do
+         end if
+      end associate
+      call add_reference_reactions(model, frame, model%steps(frame%step)%rigid_prescribed, sums)
+   end subroutine add_supports
+
+   !> Reactions at the reference nodes of rigid surfaces; a pre-tension section has none that holds a body.
+   pure subroutine add_reference_reactions(model, frame, held, sums)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: frame
+      type(nodal_values_t), intent(in) :: held
+      type(sums_t), intent(inout) :: sums
+      integer(ip) :: i, body
+      real(wp) :: f(2), moment
+
+      if (.not. (allocated(held%source) .and. allocated(frame%rigid))) return
+      do i = 1, held%n
+         body = findloc(model%rigid_bodies%node, held%node(i), dim=1, kind=ip)
+         if (model%rigid_bodies(body)%is_section) cycle
+         f = 0.0_wp
+         moment = 0.0_wp
+         if (held%dof(i) <= 2) then
+            f(held%dof(i)) = frame%rigid(body)%reaction(held%dof(i))
+         else
+            moment = frame%rigid(body)%moment
+         end if
+         call add(held%source(i), f, model%mesh%x(:, held%node(i)), moment, sums)
+      end do
+   end subroutine add_reference_reactions
+
+   !> A force at a place, with a moment of its own.
+   pure subroutine add(source, f, x, moment, sums)
+      integer(ip), intent(in) :: source             !< 0: none
+      real(wp), intent(in) :: f(2), x(2), moment
+      type(sums_t), intent(inout) :: sums
+
+      if (source == 0) return
+      sums%acts(source) = .true.
+      call add_to(sums%of(source), f, x)
+      sums%of(source)%moment = sums%of(source)%moment + moment
+   end subroutine add
+
+   !> What acts at the time of the increment.
+   pure subroutine add_loads(model, frame, sums)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: frame
+      type(sums_t), intent(inout) :: sums
+      type(step_t) :: now
+      type(moment_t) :: moment
+
+      moment = moment_t(frame%step_time, frame%time)
+      if (is_end(model%steps(frame%step), moment)) then
+         call add_loads_of(model, model%steps(frame%step), sums)
+      else
+         call act_at(model, model%steps(frame%step), moment, now)
+         call add_loads_of(model, now, sums)
+      end if
+   end subroutine add_loads
+
+   pure subroutine add_loads_of(model, now, sums)
+      type(model_t), intent(in) :: model
+      type(step_t), intent(in) :: now               !< with the loads of a moment
+      type(sums_t), intent(inout) :: sums
+
+      call add_forces(model, now%node_loads, sums)
+      call add_forces(model, now%rigid_loads, sums)
+      call add_element_loads(model, now%element_loads, sums)
+   end subroutine add_loads_of
+
+   !> Forces at nodes, and moments at reference nodes. The force of a pre-tension section balances itself.
+   pure subroutine add_forces(model, loads, sums)
+      type(model_t), intent(in) :: model
+      type(nodal_values_t), intent(in) :: loads
+      type(sums_t), intent(inout) :: sums
+      integer(ip) :: i
+      real(wp) :: f(2), moment
+
+      if (.not. allocated(loads%source)) return
+      do i = 1, loads%n
+         if (is_section_node(model, loads%node(i))) cycle
+         f = 0.0_wp
+         moment = 0.0_wp
+         if (loads%dof(i) <= 2) then
+            f(loads%dof(i)) = loads%value(i)
+         else
+            moment = loads%value(i)
+         end if
+         call add(loads%source(i), f, model%mesh%x(:, loads%node(i)), moment, sums)
+      end do
+   end subroutine add_forces
+
+   pure logical function is_section_node(model, node) result(is)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: node
+
+      is = .false.
+      if (allocated(model%rigid_bodies)) is = any(model%rigid_bodies%is_section .and. model%rigid_bodies%node == node)
+   end function is_section_node
+
+   pure subroutine add_element_loads(model, loads, sums)
+      type(model_t), intent(in) :: model
+      type(element_load_t), intent(in) :: loads
+      type(sums_t), intent(inout) :: sums
+      integer(ip) :: i
+
+      if (.not. allocated(loads%source)) return
+      do i = 1, loads%n
+         if (loads%source(i) == 0) cycle
+         sums%acts(loads%source(i)) = .true.
+         call add_element_load(model, loads, i, sums%of(loads%source(i)))
+      end do
+   end subroutine add_element_loads
+
+   !> The tractions of rigid surfaces without a reference node, over all pairs of each.
+   pure subroutine find_rigid_surfaces(model, frame, rigid)
+      type(model_t), intent(in) :: model
+      type(results_t), intent(in) :: frame
+      type(resultant_t), allocatable, intent(out) :: rigid(:)
+      integer(ip), allocatable :: surfaces(:)
+      integer(ip) :: i, k
+
+      allocate (surfaces(0))
+      do i = 1, pair_count(frame)
+         associate (master => model%pairs(i)%master)
+            if (model%surfaces(master)%kind /= SURFACE_SEGMENTS .or. any(surfaces == master)) cycle
+            if (moves(model, master)) cycle
+            surfaces = [surfaces, master]
+         end associate
+      end do
+      allocate (rigid(size(surfaces)))
+      do k = 1, size(surfaces, kind=ip)
+         rigid(k)%keyword = RIGID_SURFACE
+         rigid(k)%name = model%surfaces(surfaces(k))%name
+         do i = 1, pair_count(frame)
+            if (model%pairs(i)%master == surfaces(k)) call add_tractions(frame%contact(i), rigid(k)%force)
+         end do
+      end do
+   end subroutine find_rigid_surfaces
+
+   !> Whether a rigid surface has a reference node, whose support or load is told.
+   pure logical function moves(model, surface)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface
+
+      moves = .false.
+      if (allocated(model%rigid_bodies)) moves = any(model%rigid_bodies%surface == surface)
+   end function moves
+
+   !> Pressure against the normal of the slave, shear along its tangent, which is the normal turned by +90 degrees.
+   pure subroutine add_tractions(contact, force)
+      type(contact_result_t), intent(in) :: contact
+      type(force_t), intent(inout) :: force
+      integer(ip) :: j
+
+      do j = 1, contact%n
+         associate (n => contact%normal(:, j))
+            call add_to(force, contact%weight(j)*(contact%shear(j)*[-n(2), n(1)] - contact%pressure(j)*n), contact%x(:, j))
+         end associate
+      end do
+   end subroutine add_tractions
+
+end module atrito_resultants

@@ -1,0 +1,242 @@
+!> Arrows of the loads on faces, with the line that joins their free ends: of several loads on a face their sum.
+module atrito_face_symbols
+   use atrito_element_table, only: MOST_SIDES
+   use atrito_face_geometry, only: outward_normal
+   use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_kinds, only: ip, wp
+   use atrito_load_resultants, only: last_factor
+   use atrito_mesh, only: face_nodes
+   use atrito_model, only: model_t, is_on_volume, LOAD_TRACTION, LOAD_HYDROSTATIC
+   use atrito_shape_functions, only: face_shape_values
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_path, put_arrow, thinned, ARROW_LOOKS, SLANT
+   implicit none (type, external)
+   private
+   public :: put_face_loads
+
+   !> Lengths in pixels.
+   real(wp), parameter :: LONGEST = 40.0_wp, LEAST = 9.0_wp, SPACING = 20.0_wp, PIECE = 8.0_wp, OFF = 5.0_wp, HALF_SHEAR = 13.0_wp
+   integer(ip), parameter :: MOST_PIECES = 40
+   real(wp), parameter :: AXIS_OF_SHEAR = 0.2_wp    !< a load whose normal part is less than this is drawn along the face
+   character(len=*), parameter :: LOOKS = ' lt 1 lw 1 lc rgb "#C8102E"', ARROWS = ARROW_LOOKS//' lw 1.2 lc rgb "#C8102E"'
+
+   !> The faces with loads.
+   type :: loaded_faces_t
+      integer(ip) :: n = 0
+      integer(ip), allocatable :: load(:)           !< (n) the first load of each
+      integer(ip), allocatable :: next(:)           !< (loads) the next one on the same face; 0: none
+      real(wp), allocatable :: factor(:)            !< (loads) of its amplitude
+   end type loaded_faces_t
+
+   !> A place of a loaded face, and what is drawn there.
+   type :: spot_t
+      real(wp) :: place(2) = 0.0_wp, u(2) = 0.0_wp  !< [L]
+      real(wp) :: from(2) = 0.0_wp, arrow(2) = 0.0_wp   !< [L]
+      logical :: is_shear = .false.                 !< the load goes along the face
+   end type spot_t
+
+contains
+
+   !> Puts the arrows of a step, as loads are at its end.
+   subroutine put_face_loads(model, step, u, legend, symbols)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      character(len=*), intent(in) :: legend        !< of the arrows
+      type(symbols_t), intent(inout) :: symbols
+      type(loaded_faces_t) :: faces
+      real(wp) :: largest
+      integer(ip) :: i, k
+
+      call list_faces(model, step, faces)
+      largest = 0.0_wp
+      do i = 1, faces%n
+         do k = -1, 1
+            largest = max(largest, size_of(traction_on(model, step, faces, i, real(k, wp))))
+         end do
+      end do
+      if (.not. largest > 0.0_wp) return
+      call put_lines_of_ends(model, step, faces, largest, u, symbols)
+      call put_arrows(model, step, faces, largest, u, legend, symbols)
+   end subroutine put_face_loads
+
+   pure real(wp) function size_of(traction)
+      real(wp), intent(in) :: traction(2)
+
+      size_of = hypot(traction(1), traction(2))
+   end function size_of
+
+   !> Each face once, with its loads one behind the other.
+   subroutine list_faces(model, step, faces)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      type(loaded_faces_t), intent(out) :: faces
+      type(id_map_t) :: known_faces
+      integer(ip) :: i, key, at
+      logical :: known
+
+      associate (loads => model%steps(step)%element_loads)
+         allocate (faces%load(loads%n), faces%next(loads%n), source=0_ip)
+         allocate (faces%factor(loads%n), source=1.0_wp)
+         do i = 1, loads%n
+            if (is_on_volume(loads%kind(i))) cycle
+            if (allocated(loads%amplitude)) faces%factor(i) = last_factor(model, step, loads%amplitude(i))
+            if (.not. abs(faces%factor(i)) > 0.0_wp) faces%factor(i) = 1.0_wp
+            key = MOST_SIDES*(loads%element(i) - 1) + loads%face(i)
+            call add_id(known_faces, key, faces%n + 1, known)
+            at = find_id(known_faces, key)
+            if (known) faces%next(i) = faces%load(at)
+            faces%load(at) = i
+            faces%n = max(faces%n, at)
+         end do
+      end associate
+   end subroutine list_faces
+
+   !> The force per area at a place of a face.
+   pure function traction_on(model, step, faces, i, t) result(traction)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step, i
+      type(loaded_faces_t), intent(in) :: faces
+      real(wp), intent(in) :: t                     !< in [-1,1]
+      real(wp) :: traction(2)                       !< [F/L^2]
+      real(wp), allocatable :: x(:, :)
+      real(wp) :: normal(2), depth
+      integer(ip) :: k
+
+      traction = 0.0_wp
+      x = model%mesh%x(:, nodes_of(model, step, faces%load(i)))
+      normal = outward_normal(x, t)
+      k = faces%load(i)
+      associate (loads => model%steps(step)%element_loads)
+         do while (k > 0)
+            associate (value => loads%value(:, k))
+               select case (loads%kind(k))
+               case (LOAD_TRACTION)
+                  traction = traction + faces%factor(k)*value(:2)
+               case (LOAD_HYDROSTATIC)
+                  depth = dot_product(x(2, :), face_shape_values(size(x, 2, kind=ip), t))
+                  traction = traction - faces%factor(k)*value(1)*max(0.0_wp, (depth - value(2))/(value(3) - value(2)))*normal
+               case default
+                  traction = traction - faces%factor(k)*value(1)*normal
+               end select
+            end associate
+            k = faces%next(k)
+         end do
+      end associate
+   end function traction_on
+
+   !> The nodes of the face of a load.
+   pure function nodes_of(model, step, load) result(nodes)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step, load
+      integer(ip), allocatable :: nodes(:)
+
+      associate (loads => model%steps(step)%element_loads)
+         nodes = face_nodes(model%mesh, loads%element(load), loads%face(load))
+      end associate
+   end function nodes_of
+
+   !> What is drawn at a place of a face.
+   pure type(spot_t) function spot_on(model, step, faces, i, t, u, scale, pixel) result(spot)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step, i
+      type(loaded_faces_t), intent(in) :: faces
+      real(wp), intent(in) :: t, u(:, :)
+      real(wp), intent(in) :: scale                 !< largest traction [F/L^2]
+      real(wp), intent(in) :: pixel                 !< [L]
+      real(wp), allocatable :: x(:, :), n(:)
+      integer(ip), allocatable :: nodes(:)
+      real(wp) :: share(2), normal(2), length, along
+
+      nodes = nodes_of(model, step, faces%load(i))
+      x = model%mesh%x(:, nodes)
+      normal = outward_normal(x, t)
+      n = face_shape_values(size(nodes, kind=ip), t)
+      spot%place = matmul(x, n)
+      spot%u = matmul(u(:, nodes), n)
+      share = traction_on(model, step, faces, i, t)/scale
+      length = norm2(share)
+      spot%from = spot%place
+      spot%arrow = LONGEST*pixel*share
+      if (.not. length > 0.0_wp) return
+      along = dot_product(share, normal)/length
+      spot%is_shear = abs(along) < AXIS_OF_SHEAR
+      if (spot%is_shear) then
+         spot%arrow = 2*HALF_SHEAR*pixel*max(0.5_wp, length)/length*share
+         spot%from = spot%place + OFF*pixel*normal - 0.5_wp*spot%arrow
+      else if (along < -SLANT) then
+         spot%from = spot%place - spot%arrow
+      end if
+   end function spot_on
+
+   !> The lines that join the free ends, which show how a load goes along a side.
+   subroutine put_lines_of_ends(model, step, faces, largest, u, symbols)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      type(loaded_faces_t), intent(in) :: faces
+      real(wp), intent(in) :: largest, u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp) :: ends(2, 0:MOST_PIECES), moves(2, 0:MOST_PIECES)
+      type(spot_t) :: spot
+      integer(ip) :: i, k, n
+
+      call begin_block(symbols, 'ends of the loads on faces', '', 'with lines'//LOOKS)
+      do i = 1, faces%n
+         spot = spot_on(model, step, faces, i, 0.0_wp, u, largest, symbols%pixel)
+         if (spot%is_shear) cycle
+         n = pieces_of(model, step, faces, i, PIECE*symbols%pixel)
+         do k = 0, n
+            spot = spot_on(model, step, faces, i, 2*real(k, wp)/n - 1, u, largest, symbols%pixel)
+            ends(:, k) = spot%from
+            if (all(.not. abs(spot%from - spot%place) > 0.0_wp)) ends(:, k) = spot%place + spot%arrow
+            moves(:, k) = spot%u
+         end do
+         call put_path(symbols, moves(:, :n), ends(:, :n))
+      end do
+      call end_block(symbols)
+   end subroutine put_lines_of_ends
+
+   !> Equal pieces of a face, none of which is shorter than a length.
+   pure integer(ip) function pieces_of(model, step, faces, i, least) result(n)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step, i
+      type(loaded_faces_t), intent(in) :: faces
+      real(wp), intent(in) :: least                 !< [L]
+      real(wp), allocatable :: x(:, :)
+
+      x = model%mesh%x(:, nodes_of(model, step, faces%load(i)))
+      n = int(min(norm2(x(:, 2) - x(:, 1))/least, real(MOST_PIECES, wp)), ip)
+      n = max(1_ip, n)
+   end function pieces_of
+
+   !> The arrows, so far apart that they can be told from each other.
+   subroutine put_arrows(model, step, faces, largest, u, legend, symbols)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      type(loaded_faces_t), intent(in) :: faces
+      real(wp), intent(in) :: largest, u(:, :)
+      character(len=*), intent(in) :: legend
+      type(symbols_t), intent(inout) :: symbols
+      type(spot_t), allocatable :: spots(:)
+      real(wp), allocatable :: places(:, :)
+      integer(ip) :: i, k, n, total
+
+      total = sum([(pieces_of(model, step, faces, i, SPACING*symbols%pixel) + 1, i=1, faces%n)])
+      allocate (spots(total), places(2, total))
+      total = 0
+      do i = 1, faces%n
+         n = pieces_of(model, step, faces, i, SPACING*symbols%pixel)
+         do k = 0, n
+            total = total + 1
+            spots(total) = spot_on(model, step, faces, i, 2*real(k, wp)/n - 1, u, largest, symbols%pixel)
+            places(:, total) = spots(total)%place
+         end do
+      end do
+      call begin_block(symbols, 'loads on faces', ':5:6', ARROWS//' title "'//legend//'"')
+      spots = pack(spots, thinned(places, SPACING*symbols%pixel))
+      do i = 1, size(spots, kind=ip)
+         if (norm2(spots(i)%arrow) >= LEAST*symbols%pixel) call put_arrow(symbols, spots(i)%u, spots(i)%from, spots(i)%arrow)
+      end do
+      call end_block(symbols)
+   end subroutine put_arrows
+
+end module atrito_face_symbols

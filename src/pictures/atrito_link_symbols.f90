@@ -1,0 +1,236 @@
+!> Symbols of what holds nodes to each other or to the ground: springs, equations, pre-tension sections, reference nodes;
+!> and the axis of bodies of revolution.
+module atrito_link_symbols
+   use atrito_bilateral_rows, only: ROW_EQUATION, ROW_SECTION
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: is_revolved
+   use atrito_model, only: model_t, spring_t
+   use atrito_plot_text, only: span
+   use atrito_strings, only: to_text
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, put_path, put_arrow, put_marker, thinned, &
+                             place_of_node, end_value, ARROW_LOOKS
+   implicit none (type, external)
+   private
+   public :: put_links
+
+   !> Lengths in pixels.
+   real(wp), parameter :: FREE_SPRING = 30.0_wp, HALF_COIL = 4.0_wp, HALF_GROUND = 7.0_wp, BETWEEN = 14.0_wp, &
+                          HALF_SQUARE = 6.0_wp, PULL = 34.0_wp, BEYOND = 24.0_wp
+   integer, parameter :: COILS = 8                  !< corners of a spring between its straight ends
+   integer(ip), parameter :: MOST_LINES = 200       !< from the first node of an equation to the others
+   !> The axis is drawn where the bodies are no farther from it than this many of their diagonals.
+   real(wp), parameter :: FAR_AXIS = 1.0_wp
+   character(len=*), parameter :: SPRINGS = 'with lines lt 1 lw 1.3 lc rgb "#00695C"', &
+                                  EQUATIONS = 'with lines lt 1 lw 1 dt 3 lc rgb "#5D4037"', &
+                                  SECTIONS = 'lc rgb "#AD1457"', AXIS = 'with lines lt 1 lw 1.4 dt "-. " lc rgb "#404040"'
+
+contains
+
+   !> Puts them, and widens the window to the axis.
+   subroutine put_links(model, step, u, symbols)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      type(symbols_t), intent(inout) :: symbols
+
+      call put_axis(model, symbols)
+      call put_springs(model, u, symbols)
+      call put_equations(model, u, symbols)
+      call put_sections(model, step, u, symbols)
+      call put_references(model, step, u, symbols)
+   end subroutine put_links
+
+   !> The axis, a little longer than the bodies.
+   subroutine put_axis(model, symbols)
+      type(model_t), intent(in) :: model
+      type(symbols_t), intent(inout) :: symbols
+      real(wp) :: low, high
+
+      if (.not. is_revolved(model%mesh)) return
+      associate (x => symbols%window(1), y => symbols%window(2))
+         if (x%low > FAR_AXIS*hypot(span(x), span(y))) return
+         low = y%low - BEYOND*symbols%pixel
+         high = y%high + BEYOND*symbols%pixel
+      end associate
+      call begin_block(symbols, 'the axis of revolution', '', AXIS//' title "axis of revolution"')
+      call put_stroke(symbols, [0.0_wp, 0.0_wp], reshape([0.0_wp, low, 0.0_wp, high], [2, 2]))
+      call end_block(symbols)
+   end subroutine put_axis
+
+   subroutine put_springs(model, u, symbols)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      integer(ip) :: i
+
+      if (.not. allocated(model%springs)) return
+      if (size(model%springs) == 0) return
+      call begin_block(symbols, 'springs', '', SPRINGS//' title "springs"')
+      do i = 1, size(model%springs, kind=ip)
+         call put_spring(model, model%springs(i), u, symbols)
+      end do
+      call end_block(symbols)
+   end subroutine put_springs
+
+   !> A zigzag between two nodes; from a node to the ground, or where both nodes coincide, along the direction of its dof.
+   subroutine put_spring(model, spring, u, symbols)
+      type(model_t), intent(in) :: model
+      type(spring_t), intent(in) :: spring
+      real(wp), intent(in) :: u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp) :: ends(2, 2), moves(2, 2), along(2), shares(COILS + 2), places(2, COILS + 2), us(2, COILS + 2)
+      integer :: k
+
+      along = 0.0_wp
+      along(max(1_ip, spring%dof(1))) = -FREE_SPRING*symbols%pixel
+      ends(:, 1) = model%mesh%x(:, spring%node(1))
+      moves(:, 1) = u(:, spring%node(1))
+      ends(:, 2) = ends(:, 1) + along
+      moves(:, 2) = moves(:, 1)
+      if (spring%node(2) > 0) then
+         moves(:, 2) = u(:, spring%node(2))
+         if (norm2(model%mesh%x(:, spring%node(2)) - ends(:, 1)) > symbols%pixel) ends(:, 2) = model%mesh%x(:, spring%node(2))
+      end if
+      along = ends(:, 2) - ends(:, 1)
+      along = along/norm2(along)
+      shares = [0.0_wp, [(0.25_wp + 0.5_wp*(k - 1)/(COILS - 1), k=1, COILS)], 1.0_wp]
+      do k = 1, size(shares)
+         places(:, k) = ends(:, 1) + shares(k)*(ends(:, 2) - ends(:, 1))
+         us(:, k) = moves(:, 1) + shares(k)*(moves(:, 2) - moves(:, 1))
+         if (k <= 2 .or. k >= size(shares) - 1) cycle
+         places(:, k) = places(:, k) + (1 - 2*mod(k, 2))*HALF_COIL*symbols%pixel*[-along(2), along(1)]
+      end do
+      call put_path(symbols, us, places)
+      if (spring%node(2) > 0) return
+      call put_stroke(symbols, moves(:, 1), reshape([ends(:, 2) + HALF_GROUND*symbols%pixel*[-along(2), along(1)], &
+                                                     ends(:, 2) - HALF_GROUND*symbols%pixel*[-along(2), along(1)]], [2, 2]))
+   end subroutine put_spring
+
+   !> Dotted lines from the first node of an equation to the others.
+   subroutine put_equations(model, u, symbols)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      integer(ip) :: i, k, n, every, drawn
+
+      associate (rows => model%bilateral)
+         n = count([(rows%kind(i) == ROW_EQUATION, i=1, rows%n)], kind=ip)
+         if (n == 0) return
+         every = 1 + n/MOST_LINES
+         drawn = 0
+         call begin_block(symbols, 'equations', '', EQUATIONS//' title "equations ('//to_text(n)//')"')
+         do i = 1, rows%n
+            if (rows%kind(i) /= ROW_EQUATION) cycle
+            drawn = drawn + 1
+            if (mod(drawn, every) /= 0) cycle
+            do k = rows%first(i) + 1, rows%first(i + 1) - 1
+               associate (nodes => [rows%node(rows%first(i)), rows%node(k)])
+                  if (all(nodes <= model%mesh%n_nodes)) call put_path(symbols, u(:, nodes), model%mesh%x(:, nodes))
+               end associate
+            end do
+         end do
+         call end_block(symbols)
+      end associate
+   end subroutine put_equations
+
+   !> Markers along a pre-tension section, and arrows in its middle that pull the sides together.
+   subroutine put_sections(model, step, u, symbols)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      real(wp), intent(in) :: u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      integer(ip), allocatable :: rows(:), nodes(:)
+      integer(ip) :: b, i
+
+      if (.not. allocated(model%rigid_bodies)) return
+      do b = 1, size(model%rigid_bodies, kind=ip)
+         if (.not. model%rigid_bodies(b)%is_section) cycle
+         associate (all_rows => model%bilateral)
+            ! of two rows a node the first is along the normal: it has a third entry
+            rows = pack([(i, i=1, all_rows%n)], [(all_rows%kind(i) == ROW_SECTION .and. all_rows%part(i) == b .and. &
+                                                  all_rows%first(i + 1) - all_rows%first(i) == 3, i=1, all_rows%n)])
+            nodes = all_rows%node(all_rows%first(rows))
+            call begin_block(symbols, 'a pre-tension section', ':(dot*$5)', 'with points pt 13 ps variable '//SECTIONS// &
+                             ' title "pre-tension section'//section_text(model, step, b)//'"')
+            nodes = pack(nodes, thinned(model%mesh%x(:, nodes), BETWEEN*symbols%pixel))
+            do i = 1, size(nodes, kind=ip)
+               call put_marker(symbols, u(:, nodes(i)), model%mesh%x(:, nodes(i)), 1.0_wp)
+            end do
+            call end_block(symbols)
+            call put_pull(model, all_rows%vector(:, all_rows%first(rows(1))), nodes, u, symbols)
+         end associate
+      end do
+   end subroutine put_sections
+
+   !> `, force 1000 [F]`
+   pure function section_text(model, step, body) result(text)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step, body
+      character(len=:), allocatable :: text
+      integer(ip) :: i
+
+      text = ''
+      associate (node => model%rigid_bodies(body)%node, now => model%steps(step))
+         do i = 1, now%rigid_loads%n
+            if (now%rigid_loads%node(i) == node) text = ', force '//to_text(end_value(model, step, now%rigid_loads, i), 4)//' [F]'
+         end do
+         do i = 1, now%rigid_prescribed%n
+            if (now%rigid_prescribed%node(i) /= node .or. now%rigid_prescribed%dof(i) /= 1) cycle
+            text = ', taken out '//to_text(end_value(model, step, now%rigid_prescribed, i), 4)//' [L]'
+         end do
+      end associate
+   end function section_text
+
+   !> Two arrows towards each other along the normal.
+   subroutine put_pull(model, normal, nodes, u, symbols)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: normal(2)             !< unit vector
+      integer(ip), intent(in) :: nodes(:)           !< of the section
+      real(wp), intent(in) :: u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp) :: middle(2), move(2), arrow(2)
+
+      middle = sum(model%mesh%x(:, nodes), dim=2)/size(nodes)
+      move = sum(u(:, nodes), dim=2)/size(nodes)
+      arrow = PULL*symbols%pixel*normal
+      call begin_block(symbols, 'its force', ':5:6', ARROW_LOOKS//' lw 1.8 '//SECTIONS)
+      call put_arrow(symbols, move, middle - 1.2_wp*arrow, arrow)
+      call put_arrow(symbols, move, middle + 1.2_wp*arrow, -arrow)
+      call end_block(symbols)
+   end subroutine put_pull
+
+   !> Reference nodes of rigid surfaces; a square round those whose rotation is held.
+   subroutine put_references(model, step, u, symbols)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      real(wp), intent(in) :: u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp) :: place(2), h
+      integer(ip) :: i
+
+      if (.not. allocated(model%rigid_bodies)) return
+      if (.not. any(.not. model%rigid_bodies%is_section)) return
+      call begin_block(symbols, 'reference nodes', ':(dot*$5)', 'with points pt 7 ps variable lc rgb "#202020"'// &
+                       ' title "reference nodes, in squares: no rotation"')
+      do i = 1, size(model%rigid_bodies, kind=ip)
+         associate (node => model%rigid_bodies(i)%node)
+            if (.not. model%rigid_bodies(i)%is_section) call put_marker(symbols, u(:, node), place_of_node(model, symbols, node), &
+                                                                        1.0_wp)
+         end associate
+      end do
+      call end_block(symbols)
+      h = HALF_SQUARE*symbols%pixel
+      associate (held => model%steps(step)%rigid_prescribed)
+         if (count(held%dof(:held%n) > 2) == 0) return
+         call begin_block(symbols, 'rotations that are prescribed', '', 'with lines lt 1 lw 1.3 lc rgb "#202020"')
+         do i = 1, held%n
+            if (held%dof(i) <= 2) cycle
+            place = place_of_node(model, symbols, held%node(i))
+            call put_stroke(symbols, u(:, held%node(i)), reshape([place + [-h, -h], place + [h, -h], place + [h, h], &
+                                                                  place + [-h, h], place + [-h, -h]], [2, 5]))
+         end do
+         call end_block(symbols)
+      end associate
+   end subroutine put_references
+
+end module atrito_link_symbols

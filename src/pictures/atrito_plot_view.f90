@@ -1,0 +1,59 @@
+!> What a user asks of the pictures of bodies, `--plot-scale` and `--plot-box`.
+module atrito_plot_view
+   use atrito_kinds, only: wp
+   use atrito_numbers, only: read_real, NUMBER_OK
+   use atrito_plot_text, only: range_t, padded
+   implicit none (type, external)
+   private
+   public :: plot_view_t, asked_scale, shown_window, read_box
+
+   type :: plot_view_t
+      real(wp), allocatable :: scale                !< of the displacements, not negative; not allocated: by their size
+      real(wp), allocatable :: box(:)               !< (4) x1, y1, x2, y2 of what is shown, x1 < x2, y1 < y2 [L]; not allocated: all
+   end type plot_view_t
+
+contains
+
+   !> The scale of the displacements that is asked for, else the one that was chosen.
+   pure real(wp) function asked_scale(view, chosen) result(scale)
+      type(plot_view_t), intent(in) :: view
+      real(wp), intent(in) :: chosen
+
+      scale = chosen
+      if (allocated(view%scale)) scale = view%scale
+   end function asked_scale
+
+   !> What a picture shows: the box that is asked for, else all with some room round it.
+   pure function shown_window(view, window) result(shown)
+      type(plot_view_t), intent(in) :: view
+      type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
+      type(range_t) :: shown(2)
+
+      shown = [padded(window(1)), padded(window(2))]
+      if (allocated(view%box)) shown = [range_t(view%box(1), view%box(3)), range_t(view%box(2), view%box(4))]
+   end function shown_window
+
+   !> Reads a box from the text x1,y1,x2,y2: two corners of it that lie across from each other.
+   pure subroutine read_box(text, box, ok)
+      character(len=*), intent(in) :: text
+      real(wp), allocatable, intent(out) :: box(:)  !< (4), in order; not allocated where it is none
+      logical, intent(out) :: ok                    !< four finite numbers, and an area
+      real(wp) :: corner(4)
+      integer :: i, first, comma, outcome
+
+      ok = .true.
+      first = 1
+      do i = 1, 4
+         comma = index(text(first:), ',')
+         ok = ok .and. (comma > 0 .eqv. i < 4)
+         if (.not. ok) return
+         if (comma == 0) comma = len(text) - first + 2
+         call read_real(trim(adjustl(text(first:first + comma - 2))), corner(i), outcome)
+         ok = outcome == NUMBER_OK
+         first = first + comma
+      end do
+      ok = ok .and. abs(corner(3) - corner(1)) > 0.0_wp .and. abs(corner(4) - corner(2)) > 0.0_wp
+      if (ok) box = [min(corner(1:2), corner(3:4)), max(corner(1:2), corner(3:4))]
+   end subroutine read_box
+
+end module atrito_plot_view

@@ -1,0 +1,304 @@
+!> Symbols of supports: a roller where one direction is held, a hatched triangle where both are, an arrow along what is prescribed.
+!>
+!> They stand outside of the bodies, thinned where nodes are close. On the axis of bodies of revolution there are none: the axis
+!> is drawn.
+module atrito_support_symbols
+   use atrito_bilateral_rows, only: ROW_SUPPORT
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: is_revolved
+   use atrito_model, only: model_t, nodal_values_t
+   use atrito_strings, only: to_text
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_entry, put_stroke, put_arrow, thinned, &
+                             find_outward, end_value, place_of_node, is_section_node, largest_length, arrow_at, ARROW_LOOKS
+   implicit none (type, external)
+   private
+   public :: put_supports
+
+   !> What holds a node: direction 1, direction 2, both.
+   integer(ip), parameter :: HELD_1 = 1, HELD_2 = 2, HELD_BOTH = 3
+   !> Lengths in pixels.
+   real(wp), parameter :: HEIGHT = 11.0_wp, HALF_WIDTH = 6.0_wp, HALF_GROUND = 8.0_wp, GAP = 3.5_wp, HATCH = 4.0_wp
+   real(wp), parameter :: SPACING = 22.0_wp, LONGEST_ARROW = 44.0_wp, HALF_SQUARE = 5.0_wp
+   real(wp), parameter :: ROUND_OFF = 1.0e-6_wp     !< of the lengths of faces: what is less has no direction
+   real(wp), parameter :: NO_SIDE = 0.1_wp          !< a unit normal with less along a direction has no side of it
+   real(wp), parameter :: NEAR_AXIS = 1.0e-10_wp    !< of the largest radius
+   character(len=*), parameter :: GREY = '#303030', LOOKS = 'with lines lt 1 lw 1.3 lc rgb "'//GREY//'"', &
+                                  MOVED_LOOKS = ' lw 1.8 lc rgb "#7B2CBF"'
+
+   !> Supports of one kind.
+   type :: supports_t
+      real(wp), allocatable :: place(:, :), u(:, :) !< (2, n) [L]
+      real(wp), allocatable :: ground(:, :)         !< (2, n) unit vectors from the body to the ground
+   end type supports_t
+
+contains
+
+   !> Puts the supports of a step, with the values of its end.
+   subroutine put_supports(model, step, u, symbols)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      type(symbols_t), intent(inout) :: symbols
+      logical, allocatable :: held(:, :)            ! (2, n_nodes)
+      real(wp), allocatable :: moved(:, :), outward(:, :)
+
+      allocate (held(2, model%mesh%n_nodes), source=.false.)
+      allocate (moved(2, model%mesh%n_nodes), source=0.0_wp)
+      call take_values(model, step, model%steps(step)%prescribed, held, moved)
+      call take_values(model, step, model%steps(step)%rigid_prescribed, held, moved)
+      if (is_revolved(model%mesh)) then
+         associate (x => model%mesh%x(1, :model%mesh%n_nodes))
+            held(1, :) = held(1, :) .and. x > NEAR_AXIS*maxval(x)
+         end associate
+      end if
+      outward = find_outward(model%mesh)
+      call put_fixed(model, held, outward, u, symbols)
+      call put_rollers(model, held, outward, u, symbols)
+      call put_moved(model, moved, outward, u, symbols)
+   end subroutine put_supports
+
+   !> What is prescribed at nodes; rotations of reference nodes are left out.
+   subroutine take_values(model, step, list, held, moved)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step
+      type(nodal_values_t), intent(in) :: list
+      logical, intent(inout) :: held(:, :)
+      real(wp), intent(inout) :: moved(:, :)
+      real(wp) :: value
+      integer(ip) :: i
+
+      do i = 1, list%n
+         if (list%dof(i) > 2) cycle
+         if (is_section_node(model, list%node(i))) cycle
+         value = end_value(model, step, list, i)
+         held(list%dof(i), list%node(i)) = .not. abs(value) > 0.0_wp
+         moved(list%dof(i), list%node(i)) = value
+      end do
+   end subroutine take_values
+
+   !> Nodes with both directions held, and squares round reference nodes whose rotation is held.
+   subroutine put_fixed(model, held, outward, u, symbols)
+      type(model_t), intent(in) :: model
+      logical, intent(in) :: held(:, :)
+      real(wp), intent(in) :: outward(:, :), u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      type(supports_t) :: fixed
+      integer(ip) :: i
+
+      call find_held(model, HELD_BOTH, held, outward, u, symbols, fixed)
+      if (size(fixed%place, 2) == 0) return
+      call begin_block(symbols, 'supports in both directions', '', 'with filledcurves closed lc rgb "'//GREY//'"')
+      do i = 1, size(fixed%place, 2, kind=ip)
+         call put_triangle(symbols, fixed, i)
+      end do
+      call end_block(symbols)
+      call put_entry(symbols, 'with points pt 9 ps 1.6*dot lc rgb "'//GREY//'"', 'held in both directions')
+      call begin_block(symbols, 'their ground', '', LOOKS)
+      do i = 1, size(fixed%place, 2, kind=ip)
+         call put_hatches(symbols, fixed, i)
+      end do
+      call end_block(symbols)
+   end subroutine put_fixed
+
+   !> Nodes with one direction held, inclined ones too.
+   subroutine put_rollers(model, held, outward, u, symbols)
+      type(model_t), intent(in) :: model
+      logical, intent(in) :: held(:, :)
+      real(wp), intent(in) :: outward(:, :), u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      type(supports_t) :: rollers(3)
+      integer(ip) :: k, i
+
+      call find_held(model, HELD_1, held, outward, u, symbols, rollers(1))
+      call find_held(model, HELD_2, held, outward, u, symbols, rollers(2))
+      call find_inclined(model, outward, u, symbols, rollers(3))
+      if (sum([(size(rollers(k)%place, 2), k=1, 3)]) == 0) return
+      call begin_block(symbols, 'supports in one direction', '', LOOKS)
+      do k = 1, 3
+         do i = 1, size(rollers(k)%place, 2, kind=ip)
+            call put_triangle(symbols, rollers(k), i)
+            call put_ground(symbols, rollers(k), i, HEIGHT + GAP)
+         end do
+      end do
+      call end_block(symbols)
+      call put_entry(symbols, 'with points pt 8 ps 1.6*dot lw 1.3 lc rgb "'//GREY//'"', 'held in one direction')
+   end subroutine put_rollers
+
+   !> The nodes that are held so, thinned.
+   subroutine find_held(model, kind, held, outward, u, symbols, supports)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: kind               !< HELD_*
+      logical, intent(in) :: held(:, :)
+      real(wp), intent(in) :: outward(:, :), u(:, :)
+      type(symbols_t), intent(in) :: symbols
+      type(supports_t), intent(out) :: supports
+      logical :: is_so(size(held, 2))
+      real(wp), allocatable :: own(:, :)
+      integer(ip), allocatable :: nodes(:), kept(:)
+      integer(ip) :: i
+
+      is_so = merge(1, 0, held(1, :)) + merge(2, 0, held(2, :)) == kind
+      nodes = pack([(i, i=1, size(held, 2, kind=ip))], is_so)
+      call place_supports(model, nodes, u, symbols, supports, kept)
+      if (size(kept) == 0) return
+      own = find_outward(model%mesh, is_so)         ! at a corner that of the side that is held
+      do i = 1, size(kept, kind=ip)
+         supports%ground(:, i) = ground_of(kind, own(:, kept(i)), outward(:, kept(i)))
+      end do
+   end subroutine find_held
+
+   !> Places of nodes, thinned; kept: those that are left.
+   subroutine place_supports(model, nodes, u, symbols, supports, kept)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: u(:, :)
+      type(symbols_t), intent(in) :: symbols
+      type(supports_t), intent(out) :: supports
+      integer(ip), allocatable, intent(out) :: kept(:)
+      real(wp) :: places(2, size(nodes))
+      integer(ip) :: i
+
+      do i = 1, size(nodes, kind=ip)
+         places(:, i) = place_of_node(model, symbols, nodes(i))
+      end do
+      kept = pack(nodes, thinned(places, SPACING*symbols%pixel))
+      allocate (supports%place(2, size(kept)), supports%u(2, size(kept)), supports%ground(2, size(kept)))
+      do i = 1, size(kept, kind=ip)
+         supports%place(:, i) = place_of_node(model, symbols, kept(i))
+         supports%u(:, i) = u(:, kept(i))
+      end do
+   end subroutine place_supports
+
+   !> The side of a node on which the ground is.
+   pure function ground_of(kind, own, general) result(ground)
+      integer(ip), intent(in) :: kind               !< HELD_*
+      real(wp), intent(in) :: own(3)                !< outward normal, as find_outward has it, of the side that is held so
+      real(wp), intent(in) :: general(3)            !< and of all sides
+      real(wp) :: ground(2), normal(3)
+      integer(ip) :: axis
+
+      normal = own
+      if (norm2(own(:2)) <= ROUND_OFF*own(3)) normal = general
+      ground = [0.0_wp, -1.0_wp]
+      if (kind == HELD_1) ground = [-1.0_wp, 0.0_wp]
+      if (norm2(normal(:2)) <= ROUND_OFF*normal(3)) return
+      normal(:2) = normal(:2)/norm2(normal(:2))
+      if (kind /= HELD_BOTH) then
+         axis = merge(1_ip, 2_ip, kind == HELD_1)
+         if (abs(normal(axis)) > NO_SIDE) ground(axis) = sign(1.0_wp, normal(axis))
+      else if (norm2(own(:2)) > ROUND_OFF*own(3)) then
+         ground = normal(:2)
+      else                                          ! a single node: along an axis
+         axis = merge(1_ip, 2_ip, abs(normal(1)) > (1 + NO_SIDE)*abs(normal(2)))
+         ground = 0.0_wp
+         ground(axis) = sign(1.0_wp, normal(axis))
+      end if
+   end function ground_of
+
+   !> Supports along directions that are no axis, thinned.
+   subroutine find_inclined(model, outward, u, symbols, supports)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: outward(:, :), u(:, :)
+      type(symbols_t), intent(in) :: symbols
+      type(supports_t), intent(out) :: supports
+      integer(ip), allocatable :: rows(:), nodes(:), kept(:)
+      integer(ip) :: i
+
+      associate (all_rows => model%bilateral)
+         rows = pack([(i, i=1, all_rows%n)], [(all_rows%kind(i) == ROW_SUPPORT, i=1, all_rows%n)])
+         nodes = [(all_rows%node(all_rows%first(rows(i))), i=1, size(rows, kind=ip))]
+         call place_supports(model, nodes, u, symbols, supports, kept)
+         do i = 1, size(kept, kind=ip)
+            associate (row => rows(findloc(nodes, kept(i), dim=1)))
+               associate (along => all_rows%vector(:, all_rows%first(row)))
+                  supports%ground(:, i) = along/norm2(along)
+                  if (dot_product(along, outward(:2, kept(i))) < 0.0_wp) supports%ground(:, i) = -supports%ground(:, i)
+               end associate
+            end associate
+         end do
+      end associate
+   end subroutine find_inclined
+
+   !> A triangle whose tip is at the node.
+   subroutine put_triangle(symbols, supports, i)
+      type(symbols_t), intent(inout) :: symbols
+      type(supports_t), intent(in) :: supports
+      integer(ip), intent(in) :: i
+      real(wp) :: corners(2, 4)
+
+      corners(:, 1) = from_node(symbols, supports, i, 0.0_wp, 0.0_wp)
+      corners(:, 2) = from_node(symbols, supports, i, HEIGHT, -HALF_WIDTH)
+      corners(:, 3) = from_node(symbols, supports, i, HEIGHT, HALF_WIDTH)
+      corners(:, 4) = corners(:, 1)
+      call put_stroke(symbols, supports%u(:, i), corners)
+   end subroutine put_triangle
+
+   !> The line of the ground.
+   subroutine put_ground(symbols, supports, i, depth)
+      type(symbols_t), intent(inout) :: symbols
+      type(supports_t), intent(in) :: supports
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: depth                 !< below the node [pixels]
+      real(wp) :: ends(2, 2)
+
+      ends(:, 1) = from_node(symbols, supports, i, depth, -HALF_GROUND)
+      ends(:, 2) = from_node(symbols, supports, i, depth, HALF_GROUND)
+      call put_stroke(symbols, supports%u(:, i), ends)
+   end subroutine put_ground
+
+   !> The ground, hatched.
+   subroutine put_hatches(symbols, supports, i)
+      type(symbols_t), intent(inout) :: symbols
+      type(supports_t), intent(in) :: supports
+      integer(ip), intent(in) :: i
+      real(wp) :: ends(2, 2), across
+      integer :: k
+
+      call put_ground(symbols, supports, i, HEIGHT)
+      do k = -1, 2
+         across = k*HATCH
+         ends(:, 1) = from_node(symbols, supports, i, HEIGHT, across)
+         ends(:, 2) = from_node(symbols, supports, i, HEIGHT + HATCH, across - HATCH)
+         call put_stroke(symbols, supports%u(:, i), ends)
+      end do
+   end subroutine put_hatches
+
+   !> A place so many pixels towards the ground and across.
+   pure function from_node(symbols, supports, i, down, across) result(place)
+      type(symbols_t), intent(in) :: symbols
+      type(supports_t), intent(in) :: supports
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: down, across
+      real(wp) :: place(2)
+
+      associate (d => supports%ground(:, i))
+         place = supports%place(:, i) + symbols%pixel*(down*d + across*[-d(2), d(1)])
+      end associate
+   end function from_node
+
+   !> Arrows along prescribed displacements that are not 0.
+   subroutine put_moved(model, moved, outward, u, symbols)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: moved(:, :)           !< (2, n_nodes) [L]
+      real(wp), intent(in) :: outward(:, :), u(:, :)
+      type(symbols_t), intent(inout) :: symbols
+      type(supports_t) :: supports
+      real(wp) :: largest, from(2), arrow(2)
+      integer(ip), allocatable :: nodes(:), kept(:)
+      integer(ip) :: i
+
+      largest = largest_length(moved)
+      if (.not. largest > 0.0_wp) return
+      nodes = pack([(i, i=1, size(moved, 2, kind=ip))], abs(moved(1, :)) + abs(moved(2, :)) > 0.0_wp)
+      call place_supports(model, nodes, u, symbols, supports, kept)
+      call begin_block(symbols, 'prescribed displacements', ':5:6', ARROW_LOOKS//MOVED_LOOKS// &
+                       ' title "prescribed displacement, up to '//to_text(largest, 4)//' [L]"')
+      do i = 1, size(kept, kind=ip)
+         call arrow_at(supports%place(:, i), moved(:, kept(i))/largest, outward(:2, kept(i)), LONGEST_ARROW*symbols%pixel, &
+                       from, arrow)
+         call put_arrow(symbols, supports%u(:, i), from, arrow)
+      end do
+      call end_block(symbols)
+   end subroutine put_moved
+
+end module atrito_support_symbols

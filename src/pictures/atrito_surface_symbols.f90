@@ -1,0 +1,238 @@
+!> Surfaces with their normals: slaves and masters of contact pairs, sides of ties, and the others.
+module atrito_surface_symbols
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_end, middle_node
+   use atrito_mesh_lines, only: rigid_places
+   use atrito_model, only: model_t, surface_t, SURFACE_SEGMENTS
+   use atrito_plot_text, only: range_t, span
+   use atrito_strings, only: to_text
+   use atrito_symbols, only: symbols_t, begin_block, end_block, put_stroke, thinned
+   implicit none (type, external)
+   private
+   public :: put_surfaces
+
+   !> What a surface is; one that is several is the first of them.
+   integer(ip), parameter :: MASTER = 1, SLAVE = 2, TIED = 3, OTHER = 4
+   character(len=*), parameter :: NAMES(4) = [character(len=14) :: 'masters', 'slaves', 'ties', 'other surfaces']
+   character(len=*), parameter :: COLOURS(4) = ['#48BFE3', '#D00070', '#7CB518', '#A08000']
+   real(wp), parameter :: WIDTHS(4) = [4.5_wp, 2.0_wp, 2.5_wp, 1.5_wp]
+   real(wp), parameter :: TICK = 8.0_wp, BETWEEN(4) = [16.0_wp, 16.0_wp, 16.0_wp, 40.0_wp]   !< [pixels]
+   !> Of more surfaces the lines are thin and have no normals, and those of no pair and no tie are not drawn.
+   integer, parameter :: MANY_SURFACES = 80
+   real(wp), parameter :: THIN = 0.4_wp                      !< share of a width then
+   real(wp), parameter :: RESTS(2) = 0.0_wp         !< surfaces are not displaced
+   real(wp), parameter :: EVEN = 1.0e-9_wp          !< of the window: a line that rises less runs along it
+   real(wp), parameter :: MOST_TICKS = 200.0_wp              !< of a piece
+
+   !> Faces and pieces of rigid surfaces, from end to end.
+   type :: strip_t
+      integer(ip) :: n = 0
+      real(wp), allocatable :: x(:, :, :)           !< (2, ends and middle, n) [L]
+      real(wp), allocatable :: side(:)              !< (n) 1: the outside is on the left, -1: on the right
+   end type strip_t
+
+contains
+
+   !> Puts all surfaces, undisplaced, in the window of the bodies.
+   subroutine put_surfaces(model, symbols)
+      type(model_t), intent(in) :: model
+      type(symbols_t), intent(inout) :: symbols
+      integer(ip) :: kind_of(size(model%surfaces)), kind
+      type(strip_t) :: strip
+      logical :: is_crowded
+
+      call find_kinds(model, kind_of)
+      is_crowded = size(model%surfaces) > MANY_SURFACES
+      symbols%widens = .false.                      ! a rigid floor may be as long as it likes
+      do kind = MASTER, OTHER
+         if (kind == OTHER .and. is_crowded) cycle
+         call collect(model, kind_of == kind, strip)
+         if (strip%n > 0) call put_strip(kind, is_crowded, strip, symbols)
+      end do
+      symbols%widens = .true.
+   end subroutine put_surfaces
+
+   pure subroutine find_kinds(model, kind_of)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(out) :: kind_of(:)        !< (surfaces)
+
+      kind_of = OTHER
+      if (allocated(model%ties)) then
+         kind_of(model%ties%slave) = TIED
+         kind_of(model%ties%master) = TIED
+      end if
+      kind_of(model%pairs%slave) = SLAVE
+      kind_of(model%pairs%master) = MASTER
+   end subroutine find_kinds
+
+   !> The faces and segments of some surfaces.
+   subroutine collect(model, wanted, strip)
+      type(model_t), intent(in) :: model
+      logical, intent(in) :: wanted(:)              !< (surfaces)
+      type(strip_t), intent(out) :: strip
+      integer(ip) :: i, k, most
+
+      most = sum([(pieces_of(model, i), i=1, size(wanted, kind=ip))], mask=wanted)
+      allocate (strip%x(2, 3, most), strip%side(most))
+      do i = 1, size(wanted, kind=ip)
+         if (.not. wanted(i)) cycle
+         if (model%surfaces(i)%kind == SURFACE_SEGMENTS) then
+            call take_rigid(model%surfaces(i), strip)
+         else
+            do k = 1, model%surfaces(i)%faces%n
+               call take_face(model, i, k, strip)
+            end do
+         end if
+      end do
+   end subroutine collect
+
+   pure integer(ip) function pieces_of(model, surface) result(n)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface
+
+      associate (it => model%surfaces(surface))
+         n = it%faces%n
+         if (it%kind /= SURFACE_SEGMENTS) return
+         n = 0
+         if (allocated(it%points)) n = size(rigid_places(it), 2, kind=ip) - 1
+      end associate
+   end function pieces_of
+
+   pure subroutine take_face(model, surface, k, strip)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: surface, k
+      type(strip_t), intent(inout) :: strip
+      integer(ip) :: middle
+
+      strip%n = strip%n + 1
+      strip%side(strip%n) = -1.0_wp
+      associate (mesh => model%mesh, x => strip%x(:, :, strip%n), e => model%surfaces(surface)%faces%element(k), &
+                 face => model%surfaces(surface)%faces%face(k))
+         x(:, 1) = mesh%x(:, mesh%nodes(face, e))
+         x(:, 3) = mesh%x(:, mesh%nodes(face_end(mesh, e, face), e))
+         x(:, 2) = 0.5_wp*(x(:, 1) + x(:, 3))
+         middle = middle_node(mesh, e, face)
+         if (middle > 0) x(:, 2) = mesh%x(:, middle)
+      end associate
+   end subroutine take_face
+
+   pure subroutine take_rigid(surface, strip)
+      type(surface_t), intent(in) :: surface
+      type(strip_t), intent(inout) :: strip
+      real(wp), allocatable :: places(:, :)
+      integer(ip) :: k
+
+      if (.not. allocated(surface%points)) return
+      places = rigid_places(surface)
+      do k = 1, size(places, 2, kind=ip) - 1
+         strip%n = strip%n + 1
+         strip%side(strip%n) = 1.0_wp
+         strip%x(:, 1, strip%n) = places(:, k)
+         strip%x(:, 2, strip%n) = 0.5_wp*(places(:, k) + places(:, k + 1))
+         strip%x(:, 3, strip%n) = places(:, k + 1)
+      end do
+   end subroutine take_rigid
+
+   !> A block with the lines, and one with the normals. Rigid surfaces of pairs are drawn as such, and of other surfaces of elements
+   !> there are the normals alone.
+   subroutine put_strip(kind, is_crowded, strip, symbols)
+      integer(ip), intent(in) :: kind
+      logical, intent(in) :: is_crowded             !< there are many surfaces
+      type(strip_t), intent(in) :: strip
+      type(symbols_t), intent(inout) :: symbols
+      real(wp), allocatable :: ticks(:, :)
+      character(len=:), allocatable :: drawn, title
+      logical :: is_line(strip%n)
+      integer(ip) :: i
+
+      drawn = 'with lines lt 1 lc rgb "'//COLOURS(kind)//'" lw '
+      title = ' title "'//trim(NAMES(kind))//trim(merge('              ', ', with normals', is_crowded))//'"'
+      is_line = (strip%side(:strip%n) < 0.0_wp) .eqv. kind /= OTHER
+      if (any(is_line)) then
+         call begin_block(symbols, trim(NAMES(kind)), '', drawn//to_text(WIDTHS(kind)*merge(THIN, 1.0_wp, is_crowded), 3)//title)
+         do i = 1, strip%n
+            if (is_line(i)) call put_stroke(symbols, RESTS, strip%x(:, :, i))
+         end do
+         call end_block(symbols)
+         title = ''
+      end if
+      if (is_crowded) return
+      call list_ticks(strip, BETWEEN(kind)*symbols%pixel, symbols%window, ticks)
+      if (size(ticks, 2) == 0) return
+      call begin_block(symbols, 'normals', '', drawn//'1.2'//title)
+      do i = 1, size(ticks, 2, kind=ip)
+         call put_stroke(symbols, RESTS, reshape([ticks(:2, i), ticks(:2, i) + TICK*symbols%pixel*ticks(3:, i)], [2, 2]))
+      end do
+      call end_block(symbols)
+   end subroutine put_strip
+
+   !> Normals along the pieces, where the bodies are, and so far apart that they can be told from each other.
+   subroutine list_ticks(strip, spacing, window, ticks)
+      type(strip_t), intent(in) :: strip
+      real(wp), intent(in) :: spacing               !< [L]
+      type(range_t), intent(in) :: window(2)        !< where the bodies are [L]
+      real(wp), allocatable, intent(out) :: ticks(:, :)   !< (4, n) place and unit normal
+      real(wp) :: share(2), t
+      integer(ip) :: i, k, n, total
+      integer :: pass
+
+      do pass = 1, 2
+         total = 0
+         do i = 1, strip%n
+            share = share_in(strip%x(:, 1, i), strip%x(:, 3, i), window)
+            if (share(2) < share(1)) cycle
+            n = ticks_of(strip, i, share, spacing)
+            do k = 1, n
+               total = total + 1
+               t = share(1) + (share(2) - share(1))*(k - 0.5_wp)/n
+               if (pass == 2) ticks(:, total) = tick_at(strip, i, t)
+            end do
+         end do
+         if (pass == 1) allocate (ticks(4, total))
+      end do
+      ticks = ticks(:, pack([(i, i=1, total)], thinned(ticks(:2, :), spacing)))
+   end subroutine list_ticks
+
+   pure integer(ip) function ticks_of(strip, i, share, spacing) result(n)
+      type(strip_t), intent(in) :: strip
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: share(2), spacing
+
+      associate (length => (share(2) - share(1))*norm2(strip%x(:, 3, i) - strip%x(:, 1, i)))
+         n = max(1_ip, int(min(MOST_TICKS, length/spacing), ip))
+      end associate
+   end function ticks_of
+
+   !> The place at a share of a piece and its normal.
+   pure function tick_at(strip, i, t) result(tick)
+      type(strip_t), intent(in) :: strip
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: t                     !< 0..1
+      real(wp) :: tick(4), d(2)
+
+      associate (x => strip%x(:, :, i))
+         tick(:2) = (1 - t)*(1 - 2*t)*x(:, 1) + 4*t*(1 - t)*x(:, 2) + t*(2*t - 1)*x(:, 3)
+         d = (4*t - 3)*x(:, 1) + (4 - 8*t)*x(:, 2) + (4*t - 1)*x(:, 3)
+         tick(3:) = strip%side(i)*[-d(2), d(1)]/max(norm2(d), tiny(1.0_wp))
+      end associate
+   end function tick_at
+
+   !> From which share of a straight line on to which it lies in a window; the second is less than the first where nowhere.
+   pure function share_in(a, b, window) result(share)
+      real(wp), intent(in) :: a(2), b(2)            !< its ends [L]
+      type(range_t), intent(in) :: window(2)        !< [L]
+      real(wp) :: share(2), cuts(2)
+      integer :: k
+
+      share = [0.0_wp, 1.0_wp]
+      do k = 1, 2
+         if (abs(b(k) - a(k)) > EVEN*span(window(k))) then
+            cuts = ([window(k)%low, window(k)%high] - a(k))/(b(k) - a(k))
+            share = [max(share(1), minval(cuts)), min(share(2), maxval(cuts))]
+         else if (a(k) < window(k)%low - EVEN*span(window(k)) .or. a(k) > window(k)%high + EVEN*span(window(k))) then
+            share = [1.0_wp, 0.0_wp]
+         end if
+      end do
+   end function share_in
+
+end module atrito_surface_symbols

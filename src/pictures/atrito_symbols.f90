@@ -1,0 +1,331 @@
+!> Symbols over the bodies of a picture: the file of their places, and the curves by which a script draws them.
+!>
+!> Places go with their displacements, as those of the bodies do, so that a script that draws bodies displaced has the symbols where
+!> the bodies are. Lengths are told in pixels of a picture that is 1000 wide.
+module atrito_symbols
+   use atrito_files, only: file_set_t, text_file_t, open_text, put_line, close_text
+   use atrito_id_map, only: id_map_t, add_id, find_id
+   use atrito_kinds, only: ip, wp
+   use atrito_load_lists, only: amplitude_of
+   use atrito_load_resultants, only: last_factor
+   use atrito_mesh, only: mesh_t, face_end, middle_node, side_count
+   use atrito_mesh_lines, only: drawing_t, put_place
+   use atrito_model, only: model_t, nodal_values_t
+   use atrito_number_text, only: trimmed_real
+   use atrito_plot_files, only: SYMBOLS_OF
+   use atrito_plot_text, only: range_t, cover, span
+   use atrito_sorting, only: sorted_places, order_key
+   use atrito_status, only: status_t
+   use atrito_strings, only: string_t, append_string, to_text
+   implicit none (type, external)
+   private
+   public :: symbols_t, begin_symbols, end_symbols, begin_block, end_block, put_entry, put_stroke, put_path, put_arrow, put_marker
+   public :: pixel_of, thinned, find_outward, end_value, place_of_node, is_section_node, largest_length, arrow_at
+   public :: ARROW_LOOKS, SLANT
+
+   integer, parameter :: DIGITS = 7
+   !> Of the plane of a picture, in pixels: put_window makes it so.
+   real(wp), parameter :: PLANE_WIDTH = 860.0_wp, MOST_HEIGHT = 946.0_wp, WITH_PADDING = 1.12_wp
+   !> How a script draws arrows; colour and width follow.
+   character(len=*), parameter :: ARROW_LOOKS = 'with vectors filled head size screen 0.011,16,60 fixed lt 1'
+   real(wp), parameter :: NEARLY = 0.999_wp         !< of a spacing is far enough: nodes of a regular mesh
+   real(wp), parameter :: SHORTEST_SHARE = 0.4_wp   !< of the longest arrow, for lesser ones
+   real(wp), parameter :: SLANT = 0.05_wp           !< what goes less than so much inwards does not push
+   real(wp), parameter :: ASKEW = 0.618_wp          !< across a direction that hardly a side has
+   integer(ip), parameter :: MOST_CELLS = 32767     !< of a grid along an axis
+
+   !> What is written so far.
+   type :: symbols_t
+      type(text_file_t) :: file
+      character(len=:), allocatable :: data         !< its name, as a script has it
+      real(wp) :: pixel = 1.0_wp                    !< length of one [L]
+      real(wp) :: scale = 1.0_wp                    !< of the displacements
+      type(range_t) :: window(2)                    !< what bodies and symbols cover as they are drawn [L]
+      logical :: widens = .true.                    !< the window, by what is put
+      integer(ip) :: n_blocks = 0
+      character(len=:), allocatable :: what, drawn  !< of a block that was begun and has nothing in it yet
+      type(string_t), allocatable :: curves(:)      !< of the script: one a block, and entries of the legend
+   end type symbols_t
+
+contains
+
+   !> Opens the file.
+   subroutine begin_symbols(set, picture, drawing, symbols)
+      type(file_set_t), intent(inout) :: set        !< of the plots' folder
+      character(len=*), intent(in) :: picture       !< whose symbols they are, without ending
+      type(drawing_t), intent(in) :: drawing        !< of the bodies
+      type(symbols_t), intent(out) :: symbols
+
+      symbols%pixel = pixel_of(drawing%window)
+      symbols%window = drawing%window
+      symbols%scale = drawing%scale
+      allocate (symbols%curves(0))
+      symbols%data = '"'//picture//SYMBOLS_OF//'.dat"'
+      call open_text(set, picture//SYMBOLS_OF//'.dat', symbols%file)
+      call put_line(symbols%file, '# symbols of supports, loads and surfaces; columns: x [L]  y [L]  u1 [L]  u2 [L], '// &
+                    'and of an arrow its components [L], of a marker its size')
+   end subroutine begin_symbols
+
+   !> status: STATUS_FILE when the file could not be written.
+   subroutine end_symbols(symbols, status)
+      type(symbols_t), intent(inout) :: symbols
+      type(status_t), intent(out) :: status
+
+      call close_text(symbols%file, status)
+   end subroutine end_symbols
+
+   !> Length of a pixel [L] in a picture of a window.
+   pure real(wp) function pixel_of(window) result(pixel)
+      type(range_t), intent(in) :: window(2)        !< [L]
+
+      pixel = WITH_PADDING*max(span(window(1))/PLANE_WIDTH, span(window(2))/MOST_HEIGHT)
+      if (.not. pixel > 0.0_wp) pixel = 1.0_wp
+   end function pixel_of
+
+   !> Begins a block of symbols that are drawn alike. columns: what `using` has behind the place, with its colon, or nothing.
+   subroutine begin_block(symbols, what, columns, drawn)
+      type(symbols_t), intent(inout) :: symbols
+      character(len=*), intent(in) :: what          !< they are
+      character(len=*), intent(in) :: columns
+      character(len=*), intent(in) :: drawn         !< `with ...` and the title
+
+      symbols%what = what
+      symbols%drawn = ' using ($1 + scale*$3):($2 + scale*$4)'//columns//' '//drawn
+   end subroutine begin_block
+
+   !> A block stands in the file from the first thing in it on: gnuplot does not count one that is empty, and would take the next one
+   !> for it.
+   subroutine open_block(symbols)
+      type(symbols_t), intent(inout) :: symbols
+
+      if (.not. allocated(symbols%what)) return
+      call put_line(symbols%file, '# block '//to_text(symbols%n_blocks)//': '//symbols%what)
+      call append_string(symbols%curves, '   '//symbols%data//' index '//to_text(symbols%n_blocks)//symbols%drawn)
+      symbols%n_blocks = symbols%n_blocks + 1
+      deallocate (symbols%what)
+   end subroutine open_block
+
+   !> An entry of the legend for the last block: a symbol of gnuplot's that is like those drawn.
+   subroutine put_entry(symbols, drawn, title)
+      type(symbols_t), intent(inout) :: symbols
+      character(len=*), intent(in) :: drawn         !< `with points ...`
+      character(len=*), intent(in) :: title
+
+      call append_string(symbols%curves, '   NaN '//drawn//' title "'//title//'"')
+   end subroutine put_entry
+
+   subroutine end_block(symbols)
+      type(symbols_t), intent(inout) :: symbols
+
+      if (allocated(symbols%what)) then
+         deallocate (symbols%what)
+      else
+         call put_line(symbols%file, '')
+      end if
+   end subroutine end_block
+
+   !> A line through some places that move together.
+   subroutine put_stroke(symbols, u, places)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp), intent(in) :: u(2)                  !< [L]
+      real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
+
+      call put_path(symbols, spread(u, 2, size(places, 2)), places)
+   end subroutine put_stroke
+
+   !> A line through some places.
+   subroutine put_path(symbols, u, places)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp), intent(in) :: u(:, :), places(:, :) !< (2, n) [L]
+      integer :: i
+
+      call open_block(symbols)
+      do i = 1, size(places, 2)
+         call put_place(symbols%file, [places(:, i), u(:, i)])
+      end do
+      call widen(symbols, places + symbols%scale*u)
+      call put_line(symbols%file, '')
+   end subroutine put_path
+
+   subroutine put_arrow(symbols, u, from, arrow)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp), intent(in) :: u(2), from(2), arrow(2)   !< [L]
+
+      call open_block(symbols)
+      call put_place(symbols%file, [from, u], trimmed_real(arrow(1), DIGITS)//' '//trimmed_real(arrow(2), DIGITS))
+      call widen(symbols, reshape([from, from + arrow], [2, 2]) + symbols%scale*spread(u, 2, 2))
+      call put_line(symbols%file, '')
+   end subroutine put_arrow
+
+   subroutine put_marker(symbols, u, place, size_of_marker)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp), intent(in) :: u(2), place(2)        !< [L]
+      real(wp), intent(in) :: size_of_marker        !< [-]
+
+      call open_block(symbols)
+      call put_place(symbols%file, [place, u], trimmed_real(size_of_marker, DIGITS))
+      call widen(symbols, reshape(place + symbols%scale*u, [2, 1]))
+      call put_line(symbols%file, '')
+   end subroutine put_marker
+
+   pure subroutine widen(symbols, places)
+      type(symbols_t), intent(inout) :: symbols
+      real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
+      integer :: i
+
+      if (.not. symbols%widens) return
+      do i = 1, 2
+         call cover(symbols%window(i), places(i, :))
+      end do
+   end subroutine widen
+
+   !> Which of some places are kept so that none is nearer to another than the spacing. They are gone through in an order that
+   !> begins a straight side at one of its ends.
+   pure function thinned(places, spacing) result(keep)
+      real(wp), intent(in) :: places(:, :)          !< (2, n) [L]
+      real(wp), intent(in) :: spacing               !< [L], > 0
+      logical :: keep(size(places, 2))
+      type(id_map_t) :: cells                       ! of a grid in which each holds one place at the most
+      integer(ip) :: order(size(places, 2))
+      real(wp) :: low(2), width
+      integer(ip) :: i, k, at(2)
+      logical :: known
+
+      keep = .false.
+      if (size(places, 2) == 0) return
+      width = spacing/sqrt(2.0_wp)
+      low = minval(places, dim=2)
+      order = sorted_places(order_key(places(1, :) + ASKEW*places(2, :)))
+      do k = 1, size(order, kind=ip)
+         i = order(k)
+         at = int(min((places(:, i) - low)/width, real(MOST_CELLS, wp)), ip)
+         keep(i) = is_free(cells, places, i, at, spacing)
+         if (keep(i)) call add_id(cells, cell_number(at), i, known)
+      end do
+   end function thinned
+
+   !> Whether no place that is kept is near.
+   pure logical function is_free(cells, places, i, at, spacing)
+      type(id_map_t), intent(in) :: cells
+      real(wp), intent(in) :: places(:, :), spacing
+      integer(ip), intent(in) :: i                  !< the place
+      integer(ip), intent(in) :: at(2)              !< its cell
+      integer(ip) :: j, k, other
+
+      is_free = find_id(cells, cell_number(at)) == 0
+      if (.not. is_free) return
+      do k = -2, 2
+         do j = -2, 2
+            other = find_id(cells, cell_number(at + [j, k]))
+            if (other > 0) is_free = is_free .and. norm2(places(:, i) - places(:, other)) >= NEARLY*spacing
+         end do
+      end do
+   end function is_free
+
+   pure integer(ip) function cell_number(at) result(number)
+      integer(ip), intent(in) :: at(2)              !< from -2 on
+
+      number = (at(1) + 3) + (MOST_CELLS + 6)*(at(2) + 2)
+   end function cell_number
+
+   !> The sum of the outward normals of the faces at each node, by their lengths, and the sum of the lengths [L]. Those inside
+   !> cancel, so at a node inside the first is round-off. Faces count both of whose ends are in a class.
+   pure function find_outward(mesh, is_in) result(outward)
+      type(mesh_t), intent(in) :: mesh
+      logical, intent(in), optional :: is_in(:)     !< (n_nodes) the class; default: all nodes
+      real(wp), allocatable :: outward(:, :)        !< (3, n_nodes)
+      real(wp) :: d(2)
+      integer(ip) :: e, face, ends(2)
+
+      allocate (outward(3, mesh%n_nodes), source=0.0_wp)
+      do e = 1, mesh%n_elements
+         do face = 1, side_count(mesh, e)
+            ends = [mesh%nodes(face, e), mesh%nodes(face_end(mesh, e, face), e)]
+            if (present(is_in)) then
+               if (.not. all(is_in(ends))) cycle
+            end if
+            d = mesh%x(:, ends(2)) - mesh%x(:, ends(1))
+            call add_to(ends(1))
+            call add_to(ends(2))
+            call add_to(middle_node(mesh, e, face))
+         end do
+      end do
+
+   contains
+
+      pure subroutine add_to(node)
+         integer(ip), intent(in) :: node            !< none where it is 0
+
+         if (node > 0) outward(:, node) = outward(:, node) + [d(2), -d(1), norm2(d)]
+      end subroutine add_to
+
+   end function find_outward
+
+   !> Where symbols of a node stand: at it. Those of a reference node far from all that is drawn stand at the middle of its surface.
+   pure function place_of_node(model, symbols, node) result(place)
+      type(model_t), intent(in) :: model
+      type(symbols_t), intent(in) :: symbols
+      integer(ip), intent(in) :: node
+      real(wp) :: place(2), room
+      integer(ip) :: body
+
+      place = model%mesh%x(:, node)
+      body = 0
+      if (allocated(model%rigid_bodies)) body = findloc(model%rigid_bodies%node, node, dim=1, kind=ip)
+      if (body == 0) return
+      room = 0.5_wp*(span(symbols%window(1)) + span(symbols%window(2)))
+      if (all(place >= symbols%window%low - room) .and. all(place <= symbols%window%high + room)) return
+      associate (points => model%surfaces(model%rigid_bodies(body)%surface)%points)
+         place = 0.5_wp*(minval(points, dim=2) + maxval(points, dim=2))
+      end associate
+   end function place_of_node
+
+   !> Whether a node stands for a pre-tension section: where it is says nothing.
+   pure logical function is_section_node(model, node) result(is_so)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: node
+
+      is_so = .false.
+      if (allocated(model%rigid_bodies)) is_so = any(model%rigid_bodies%node == node .and. model%rigid_bodies%is_section)
+   end function is_section_node
+
+   !> An arrow at a place: its tip is there where it pushes on the body, else it begins there.
+   pure subroutine arrow_at(place, share, outward, longest, from, arrow)
+      real(wp), intent(in) :: place(2)              !< [L]
+      real(wp), intent(in) :: share(2)              !< the vector, over the largest one
+      real(wp), intent(in) :: outward(2)            !< normal of the body there, of any length; 0: inside
+      real(wp), intent(in) :: longest               !< arrow [L]
+      real(wp), intent(out) :: from(2), arrow(2)    !< [L]
+      real(wp) :: length
+
+      length = max(norm2(share), tiny(1.0_wp))
+      arrow = share*(longest*max(SHORTEST_SHARE, length)/length)
+      from = place
+      if (dot_product(share, outward) < -SLANT*length*norm2(outward)) from = place - arrow
+   end subroutine arrow_at
+
+   !> The largest length of some vectors; 0 where there are none, or none is a number.
+   pure real(wp) function largest_length(vectors) result(largest)
+      real(wp), intent(in) :: vectors(:, :)         !< (2, n)
+      integer(ip) :: i
+
+      largest = 0.0_wp
+      do i = 1, size(vectors, 2, kind=ip)
+         largest = max(largest, hypot(vectors(1, i), vectors(2, i)))
+      end do
+   end function largest_length
+
+   !> A prescribed displacement or a force at the end of a step; where its amplitude has come to 0, what that multiplies.
+   pure real(wp) function end_value(model, step, list, i) result(value)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: step, i            !< place in the list
+      type(nodal_values_t), intent(in) :: list
+      real(wp) :: factor
+
+      factor = 1.0_wp
+      if (amplitude_of(list, i) > 0) factor = last_factor(model, step, amplitude_of(list, i))
+      value = list%value(i)
+      if (abs(factor) > 0.0_wp) value = value*factor
+   end function end_value
+
+end module atrito_symbols

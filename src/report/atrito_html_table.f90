@@ -1,0 +1,189 @@
+!> Tables of a report: as they stand in their files, or turned where they are wider than a page.
+module atrito_html_table
+   use atrito_html, only: html_text, add_element, add_note
+   use atrito_kinds, only: ip
+   use atrito_page, only: page_t, add_line
+   use atrito_read_table, only: ITEM_WORD
+   use atrito_strings, only: string_t, to_text
+   use atrito_table_top, only: table_top_t, shown_item, is_rounded
+   implicit none (type, external)
+   private
+   public :: add_table, begin_rows, end_rows, add_cells, MOST_ROWS, MANY_COLUMNS
+
+   integer(ip), parameter :: MOST_ROWS = 20         !< of a table that is longer
+   integer, parameter :: MOST_REMARKS = 6           !< more of them are a text of its own, which stands elsewhere
+   integer(ip), parameter :: SIDE_BY_SIDE = 8       !< rows of a table that is turned
+   integer(ip), parameter :: MOST_COLUMNS = 14      !< that a page holds
+   integer(ip), parameter :: MANY_COLUMNS = 11      !< that paper holds in small letters
+
+contains
+
+   !> A table with its title, and a note where rows are left out.
+   subroutine add_table(page, name, top)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: name          !< of the table, without ending
+      type(table_top_t), intent(in) :: top
+      integer(ip) :: shown, first
+      integer :: i
+
+      call add_element(page, 'h3', name)
+      if (len(top%title) > 0) call add_note(page, top%title)
+      do i = 1, merge(size(top%remarks), 0, size(top%remarks) <= MOST_REMARKS)
+         call add_note(page, top%remarks(i)%s)
+      end do
+      if (top%table%n_rows == 0) then
+         call add_element(page, 'p', 'The table has no rows.')
+         return
+      end if
+      shown = min(top%table%n_rows, MOST_ROWS)
+      if (is_turned(top)) then
+         do first = 1, shown, SIDE_BY_SIDE
+            call add_turned(page, name, top, first, min(shown, first + SIDE_BY_SIDE - 1))
+         end do
+      else
+         call add_upright(page, name, top, shown)
+      end if
+      call add_row_note(page, top, shown)
+   end subroutine add_table
+
+   !> A row of the file becomes a column.
+   pure logical function is_turned(top)
+      type(table_top_t), intent(in) :: top
+
+      is_turned = top%table%n_columns > MOST_COLUMNS
+   end function is_turned
+
+   subroutine add_row_note(page, top, shown)
+      type(page_t), intent(inout) :: page
+      type(table_top_t), intent(in) :: top
+      integer(ip), intent(in) :: shown
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (shown < top%n_rows) text = 'The first '//to_text(shown)//' of '//to_text(top%n_rows)//' rows; all are in ' &
+                                     //top%table%name//'.'
+      if (is_rounded(top) .and. shown == top%n_rows) text = 'Numbers are rounded here; all digits are in '//top%table%name//'.'
+      if (len(text) > 0) call add_note(page, text)
+   end subroutine add_row_note
+
+   subroutine add_upright(page, name, top, shown)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: name
+      type(table_top_t), intent(in) :: top
+      integer(ip), intent(in) :: shown
+      type(string_t) :: cells(top%table%n_columns)
+      logical :: words(top%table%n_columns)
+      integer(ip) :: row, i
+
+      words = top%table%kind(:, 1) == ITEM_WORD
+      call begin_rows(page, name, top%table%n_columns > MANY_COLUMNS)
+      call add_line(page, '<thead>')
+      call add_cells(page, 'th', top%table%columns, words)
+      if (size(top%dimensions) == top%table%n_columns) call add_units(page, top%dimensions, words)
+      call add_line(page, '</thead><tbody>')
+      do row = 1, shown
+         do i = 1, size(cells, kind=ip)
+            cells(i)%s = shown_item(top, i, row)
+         end do
+         call add_cells(page, 'td', cells, words)
+      end do
+      call end_rows(page)
+   end subroutine add_upright
+
+   subroutine add_units(page, dimensions, words)
+      type(page_t), intent(inout) :: page
+      type(string_t), intent(in) :: dimensions(:)
+      logical, intent(in) :: words(:)
+      type(string_t) :: units(size(dimensions))
+      integer :: i
+
+      do i = 1, size(units)
+         units(i)%s = unit_text(dimensions(i)%s)
+      end do
+      call add_cells(page, 'th', units, words, ' class="unit"')
+   end subroutine add_units
+
+   !> `[F/L^2]`, nothing for numbers without a dimension.
+   pure function unit_text(dimension) result(text)
+      character(len=*), intent(in) :: dimension
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (dimension /= '-' .and. dimension /= 'mixed') text = '['//dimension//']'
+   end function unit_text
+
+   !> A line a column of the file: its name, its dimension, its values.
+   subroutine add_turned(page, name, top, first, last)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: name
+      type(table_top_t), intent(in) :: top
+      integer(ip), intent(in) :: first, last        !< rows of the file
+      character(len=:), allocatable :: line
+      integer(ip) :: row, i
+
+      call begin_rows(page, name, .false.)
+      call add_line(page, '<tbody>')
+      do i = 1, top%table%n_columns
+         line = '<tr><th scope="row">'//html_text(top%table%columns(i)%s)//'</th><td class="unit">'
+         if (size(top%dimensions) == top%table%n_columns) line = line//html_text(unit_text(top%dimensions(i)%s))
+         line = line//'</td>'
+         do row = first, last
+            line = line//'<td>'//html_text(shown_item(top, i, row))//'</td>'
+         end do
+         call add_line(page, line//'</tr>')
+      end do
+      call end_rows(page)
+   end subroutine add_turned
+
+   !> Begins a table in a box of its own that scrolls where the screen is narrow.
+   pure subroutine begin_rows(page, name, is_wide)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: name          !< for those who do not see it
+      logical, intent(in) :: is_wide                !< small letters on paper
+
+      call add_line(page, '<div class="scroll" tabindex="0" role="region" aria-label="'//html_text('table '//name)//'">')
+      call add_line(page, trim(merge('<table class="wide">', '<table>             ', is_wide)))
+   end subroutine begin_rows
+
+   pure subroutine end_rows(page)
+      type(page_t), intent(inout) :: page
+
+      call add_line(page, '</tbody></table></div>')
+   end subroutine end_rows
+
+   !> A row of cells; words stand on the left.
+   pure subroutine add_cells(page, tag, cells, words, attributes)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: tag           !< td or th
+      type(string_t), intent(in) :: cells(:)
+      logical, intent(in) :: words(:)
+      character(len=*), intent(in), optional :: attributes   !< of the row, with a blank before them
+      character(len=:), allocatable :: line, text
+      integer :: i
+
+      line = '<tr>'
+      if (present(attributes)) line = '<tr'//attributes//'>'
+      do i = 1, size(cells)
+         line = line//'<'//tag
+         if (words(i)) line = line//' class="word"'
+         text = html_text(cells(i)%s)
+         if (tag == 'th') text = breakable(text)
+         line = line//'>'//text//'</'//tag//'>'
+      end do
+      call add_line(page, line//'</tr>')
+   end subroutine add_cells
+
+   !> A name may be broken behind its underscores.
+   pure function breakable(name) result(html)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: html
+      integer :: i
+
+      html = ''
+      do i = 1, len(name)
+         html = html//name(i:i)
+         if (name(i:i) == '_') html = html//'<wbr>'
+      end do
+   end function breakable
+
+end module atrito_html_table

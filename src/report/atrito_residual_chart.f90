@@ -1,0 +1,140 @@
+!> A drawing of the residuals of iterations.tab on a logarithmic axis, a polyline an increment: lines of SVG within the page.
+module atrito_residual_chart
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use atrito_html, only: html_text
+   use atrito_kinds, only: ip, wp
+   use atrito_page, only: page_t, add_line
+   use atrito_read_table, only: table_file_t, find_column
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: add_residual_chart
+
+   real(wp), parameter :: LEFT = 70.0_wp, RIGHT = 700.0_wp, TOP = 16.0_wp, BOTTOM = 220.0_wp   !< of the frame, of 720 by 270
+   real(wp), parameter :: LEAST = 1.0e-16_wp        !< drawn instead of less: round-off
+   integer, parameter :: MOST_POINTS = 600          !< that can be told apart
+   integer, parameter :: MOST_DOTS = 80
+   integer, parameter :: MOST_MARKS = 8             !< of the axis
+
+   !> What is drawn: places of the rows and their residuals as powers of ten.
+   type :: chart_t
+      integer(ip), allocatable :: row(:), group(:)  !< rows of the table; increments
+      real(wp), allocatable :: power(:)
+      integer(ip) :: n_rows = 0
+      integer :: low = 0, high = 1                  !< powers of the frame
+   end type chart_t
+
+contains
+
+   !> Adds the drawing; nothing where there are no two residuals.
+   subroutine add_residual_chart(page, iterations)
+      type(page_t), intent(inout) :: page
+      type(table_file_t), intent(in) :: iterations
+      type(chart_t) :: chart
+
+      call collect(iterations, chart)
+      if (size(chart%row) < 2) return
+      call add_line(page, '<div class="scroll" tabindex="0" role="region" aria-label="residual over linear solves">')
+      call add_line(page, '<svg class="chart" viewBox="0 0 720 270" role="img" aria-label="'//html_text(words_of(chart))//'">')
+      call add_axes(page, chart)
+      call add_curves(page, chart)
+      call add_line(page, '<text x="385" y="262" text-anchor="middle">linear solve</text>')
+      call add_line(page, '<text x="16" y="118" text-anchor="middle" transform="rotate(-90 16 118)">residual</text>')
+      call add_line(page, '</svg></div>')
+   end subroutine add_residual_chart
+
+   !> The residuals that are numbers. Of many rows the largest of each few.
+   subroutine collect(table, chart)
+      type(table_file_t), intent(in) :: table
+      type(chart_t), intent(out) :: chart
+      integer(ip) :: residual, step, increment, stride, first, row, i
+
+      allocate (chart%row(0), chart%group(0), chart%power(0))
+      residual = find_column(table, 'residual')
+      step = find_column(table, 'step')
+      increment = find_column(table, 'increment')
+      if (min(residual, step, increment) == 0 .or. table%n_rows == 0) return
+      chart%n_rows = table%n_rows
+      stride = (table%n_rows - 1)/MOST_POINTS + 1
+      do first = 1, table%n_rows, stride
+         row = 0
+         do i = first, min(table%n_rows, first + stride - 1)
+            if (.not. ieee_is_finite(table%value(residual, i))) cycle
+            if (row == 0) row = i
+            if (table%value(residual, i) > table%value(residual, row)) row = i
+         end do
+         if (row == 0) cycle
+         chart%row = [chart%row, row]
+         chart%group = [chart%group, 1000000*nint(table%value(step, row), ip) + nint(table%value(increment, row), ip)]
+         chart%power = [chart%power, log10(max(LEAST, table%value(residual, row)))]
+      end do
+      if (size(chart%row) == 0) return
+      chart%low = floor(minval(chart%power))
+      chart%high = max(chart%low + 1, ceiling(maxval(chart%power)))
+   end subroutine collect
+
+   !> The drawing for those who do not see it.
+   function words_of(chart) result(text)
+      type(chart_t), intent(in) :: chart
+      character(len=:), allocatable :: text
+      integer :: n
+
+      n = size(chart%power)
+      text = 'residual over '//to_text(chart%n_rows)//' linear solves, from '//to_text(10.0_wp**chart%power(1), 2)//' to '// &
+             to_text(10.0_wp**chart%power(n), 2)
+   end function words_of
+
+   !> A line and a label every few powers of ten, and the ends of the axis below.
+   subroutine add_axes(page, chart)
+      type(page_t), intent(inout) :: page
+      type(chart_t), intent(in) :: chart
+      integer :: power, stride
+      character(len=:), allocatable :: y
+
+      stride = (chart%high - chart%low)/MOST_MARKS + 1
+      do power = chart%low, chart%high, stride
+         y = place(height(chart, real(power, wp)))
+         call add_line(page, '<path class="grid" d="M'//place(LEFT)//' '//y//'H'//place(RIGHT)//'"/>')
+         call add_line(page, '<text x="62" y="'//y//'" dy="4" text-anchor="end">1e'//to_text(int(power, ip))//'</text>')
+      end do
+      call add_line(page, '<text x="'//place(LEFT)//'" y="240" text-anchor="middle">1</text>')
+      call add_line(page, '<text x="'//place(RIGHT)//'" y="240" text-anchor="middle">'//to_text(chart%n_rows)//'</text>')
+   end subroutine add_axes
+
+   !> A line an increment, and dots where they are few.
+   subroutine add_curves(page, chart)
+      type(page_t), intent(inout) :: page
+      type(chart_t), intent(in) :: chart
+      character(len=:), allocatable :: path, x, y
+      integer :: i
+      logical :: begins
+
+      path = ''
+      do i = 1, size(chart%row)
+         begins = i == 1
+         if (.not. begins) begins = chart%group(i) /= chart%group(i - 1)
+         x = place(LEFT + (RIGHT - LEFT)*real(chart%row(i) - 1, wp)/real(max(1_ip, chart%n_rows - 1), wp))
+         y = place(height(chart, chart%power(i)))
+         path = path//merge('M', 'L', begins)//x//' '//y
+         if (size(chart%row) <= MOST_DOTS) call add_line(page, '<circle class="dot" r="3" cx="'//x//'" cy="'//y//'"/>')
+      end do
+      call add_line(page, '<path class="curve" d="'//path//'"/>')
+   end subroutine add_curves
+
+   !> Down from the top.
+   pure real(wp) function height(chart, power)
+      type(chart_t), intent(in) :: chart
+      real(wp), intent(in) :: power
+
+      height = BOTTOM - (BOTTOM - TOP)*(power - real(chart%low, wp))/real(chart%high - chart%low, wp)
+   end function height
+
+   !> A place in tenths.
+   pure function place(x) result(text)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: text
+
+      text = to_text(0.1_wp*anint(10.0_wp*x), 5)
+   end function place
+
+end module atrito_residual_chart

@@ -1,0 +1,208 @@
+!> Writes report.html: all that a folder of output tells, on one page that needs nothing else.
+!>
+!> Comes after tables and pictures, which are complete whatever happens here: every failure is a warning, W-REPORT. What has rows
+!> is read from the folder, so that a table or picture that is new appears without a change here.
+module atrito_write_report
+   use atrito_files, only: file_set_t, text_file_t, begin_files, open_text, put_line, close_text, end_files
+   use atrito_html, only: add_element, add_facts, append_page, html_text, shortened
+   use atrito_kinds, only: ip
+   use atrito_messages, only: add_warning
+   use atrito_page, only: page_t, begin_page, add_line
+   use atrito_report, only: report_t, page_section_t, begin_section, add_section
+   use atrito_report_file, only: REPORT_NAME
+   use atrito_report_pictures, only: compose_pictures
+   use atrito_report_sections, only: contents_t, read_contents, add_numbers, add_contact, add_steps, add_tables, add_convergence, &
+                                     add_times, add_messages, add_origin, add_versions, add_files, add_listing
+   use atrito_report_style, only: add_style
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: to_text
+   use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
+   implicit none (type, external)
+   private
+   public :: write_report, compose_report, MOST_BYTES
+
+   integer, parameter :: MOST_BYTES = 3000000       !< of the page
+   integer, parameter :: MOST_HEADING = 20          !< lines
+   integer, parameter :: LONGEST_LINE = 1000
+
+contains
+
+   !> Writes the report into its folder. is_written is false where it could not be, which is a warning.
+   subroutine write_report(report, date, is_written)
+      type(report_t), intent(in) :: report
+      character(len=*), intent(in) :: date          !< and time
+      logical, intent(out) :: is_written
+      type(file_set_t) :: set
+      type(text_file_t) :: file
+      type(status_t) :: status
+      type(page_t) :: page
+      integer :: i
+
+      call compose_report(report, date, page)
+      call begin_files(set, report%folder, status)
+      if (is_ok(status)) then
+         call open_text(set, REPORT_NAME, file)
+         do i = 1, page%n
+            call put_line(file, page%lines(i)%s)
+         end do
+         call close_text(file, status)
+         call end_files(set, status)
+      end if
+      is_written = is_ok(status)
+      if (.not. is_written) call add_warning('W-REPORT', 'no report is written: '//status%text)
+   end subroutine write_report
+
+   !> Composes the page, without writing it.
+   subroutine compose_report(report, date, page)
+      type(report_t), intent(in) :: report
+      character(len=*), intent(in) :: date
+      type(page_t), intent(out) :: page
+      type(page_section_t), allocatable :: before(:), behind(:)
+      type(page_section_t) :: pictures
+      type(contents_t) :: contents
+      type(page_t) :: top
+
+      call read_contents(report, contents)
+      call add_numbers(report, contents, before)
+      call add_contact(report, contents, behind)
+      call add_steps(contents, behind)
+      call add_tables(contents, behind)
+      call add_convergence(contents, behind)
+      call add_times(contents, behind)
+      call add_messages(report, behind)
+      call add_origin(report, contents, behind)
+      call add_versions(report, behind)
+      call add_files(report, behind)
+      call add_listing(report, behind)
+      call compose_top(report, date, top)
+      call append_sections(before, report%leading)
+      call begin_section(pictures, 'Pictures')
+      call compose_pictures(report%folder, report%pictures, MOST_BYTES - size_of_page(top) - size_of_sections(before) &
+                            - size_of_sections(report%sections) - size_of_sections(behind), pictures%page)
+      if (size(report%pictures) == 0) call add_element(pictures%page, 'p', 'There are no pictures; the messages tell why.')
+      call add_section(before, pictures)
+      call append_sections(before, report%sections)
+      call begin_page(page, 80)
+      call append_page(page, top)
+      call add_menu(page, [before, behind])
+      call add_sections(page, [before, behind])
+      call add_line(page, '<footer><p>'//PROGRAM_NAME//' '//PROGRAM_VERSION//', '//html_text(date)//'</p></footer>')
+      call add_line(page, '</main></body></html>')
+   end subroutine compose_report
+
+   pure subroutine append_sections(sections, others)
+      type(page_section_t), allocatable, intent(inout) :: sections(:)
+      type(page_section_t), intent(in), optional :: others(:)
+      integer :: i
+
+      if (.not. present(others)) return
+      do i = 1, size(others)
+         call add_section(sections, others(i))
+      end do
+   end subroutine append_sections
+
+   !> What comes before the sections: title and verdict.
+   subroutine compose_top(report, date, page)
+      type(report_t), intent(in) :: report
+      character(len=*), intent(in) :: date
+      type(page_t), intent(out) :: page
+      character(len=:), allocatable :: title
+      integer :: i, first
+
+      call begin_page(page, 80)
+      title = file_name(report%deck)
+      first = 1
+      if (size(report%heading) > 0) then
+         if (len_trim(report%heading(1)%s) > 0) then
+            title = trim(report%heading(1)%s)
+            first = 2
+         end if
+      end if
+      title = shortened(title, LONGEST_LINE)
+      call add_head(page, title)
+      call add_element(page, 'p', PROGRAM_NAME//' '//PROGRAM_VERSION//', '//report%what//' of '//file_name(report%deck)// &
+                       ', '//date, ' class="kind"')
+      call add_element(page, 'h1', title)
+      do i = first, min(size(report%heading), MOST_HEADING)
+         call add_element(page, 'p', shortened(report%heading(i)%s, LONGEST_LINE))
+      end do
+      call add_line(page, '<div class="verdict '//trim(merge('good', 'bad ', report%is_good))//'">')
+      call add_line(page, '<p><strong>'//html_text(report%verdict)//'</strong></p>')
+      do i = 1, size(report%details)
+         call add_element(page, 'p', report%details(i)%s)
+      end do
+      call add_line(page, '</div>')
+   end subroutine compose_top
+
+   !> The head: nothing is fetched from anywhere, and no script is run.
+   subroutine add_head(page, title)
+      type(page_t), intent(inout) :: page
+      character(len=*), intent(in) :: title
+
+      call add_line(page, '<!DOCTYPE html>')
+      call add_line(page, '<html lang="en"><head><meta charset="utf-8">')
+      call add_line(page, '<meta name="viewport" content="width=device-width, initial-scale=1">')
+      call add_line(page, '<meta name="generator" content="'//PROGRAM_NAME//' '//PROGRAM_VERSION//'">')
+      call add_line(page, '<meta http-equiv="Content-Security-Policy" content="default-src ''none''; img-src data:; '// &
+                    'style-src ''unsafe-inline''">')
+      call add_element(page, 'title', title)
+      call add_style(page)
+      call add_line(page, '</head><body><main>')
+   end subroutine add_head
+
+   pure function file_name(path) result(name)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: name
+
+      name = path(index(path, '/', back=.true.) + 1:)
+   end function file_name
+
+   !> Links to the sections.
+   subroutine add_menu(page, sections)
+      type(page_t), intent(inout) :: page
+      type(page_section_t), intent(in) :: sections(:)
+      integer :: i
+
+      call add_line(page, '<nav aria-label="sections">')
+      do i = 1, size(sections)
+         call add_line(page, '<a href="#s'//to_text(int(i, ip))//'">'//html_text(sections(i)%title)//'</a>')
+      end do
+      call add_line(page, '</nav>')
+   end subroutine add_menu
+
+   subroutine add_sections(page, sections)
+      type(page_t), intent(inout) :: page
+      type(page_section_t), intent(in) :: sections(:)
+      integer :: i
+
+      do i = 1, size(sections)
+         call add_line(page, '<section id="s'//to_text(int(i, ip))//'">')
+         call add_element(page, 'h2', sections(i)%title)
+         call append_page(page, sections(i)%page)
+         call add_line(page, '</section>')
+      end do
+   end subroutine add_sections
+
+   !> Bytes, with the ends of the lines and what stands round a section.
+   pure integer function size_of_sections(sections) result(n)
+      type(page_section_t), intent(in), optional :: sections(:)
+      integer :: i
+
+      n = 0
+      if (.not. present(sections)) return
+      do i = 1, size(sections)
+         n = n + size_of_page(sections(i)%page) + 3*len(sections(i)%title) + 200
+      end do
+   end function size_of_sections
+
+   pure integer function size_of_page(page) result(n)
+      type(page_t), intent(in) :: page
+      integer :: i
+
+      n = 0
+      do i = 1, page%n
+         n = n + len(page%lines(i)%s) + 1
+      end do
+   end function size_of_page
+
+end module atrito_write_report

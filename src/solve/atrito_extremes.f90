@@ -1,0 +1,136 @@
+!> The largest and least displacements, stresses and tractions of an increment, and where they are.
+!>
+!> Of nodes whose values do not differ but for round-off the first is told: what is symmetric has one place, whatever the solver.
+module atrito_extremes
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: results_t, contact_result_t, extreme_t
+   implicit none (type, external)
+   private
+   public :: find_extremes
+
+   !> The quantities, in the order of extremes.tab; a least one is the largest of its negative.
+   character(len=16), parameter :: NAMES(10) = [character(len=16) :: 'u', 'u1_max', 'u1_min', 'u2_max', 'u2_min', 'mises', &
+                                                                            's1_max', 's3_min', 'contact_pressure', 'contact_shear']
+   logical, parameter :: IS_LEAST(size(NAMES)) = [.false., .false., .true., .false., .true., .false., .false., .true., .false., &
+                                                  .false.]
+   integer, parameter :: U = 1, MISES = 6, S1 = 7, S3 = 8, PRESSURE = 9, SHEAR = 10
+
+   !> A value takes the place of another one when it is larger by this part of it, and of the largest of its kind.
+   real(wp), parameter :: NEAR = 1.0e-9_wp, ROUND_OFF = 1.0e-12_wp
+
+   !> The largest so far.
+   type :: largest_t
+      real(wp) :: value(size(NAMES)) = 0.0_wp
+      integer(ip) :: node(size(NAMES)) = 0             !< place; 0: none yet
+      real(wp) :: x(2, size(NAMES)) = 0.0_wp           !< [L]
+   end type largest_t
+
+contains
+
+   !> Fills results%extremes from the displacements, the stresses at the nodes and the contact; nodes in no element are left out.
+   pure subroutine find_extremes(mesh, body_of_node, points, results)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: body_of_node(:)       !< (>= n_nodes) 0: in no element
+      type(contact_points_t), intent(in) :: points(:)  !< of each pair
+      type(results_t), intent(inout) :: results
+      type(largest_t) :: largest
+      integer(ip) :: node, i
+
+      do node = 1, mesh%n_nodes
+         if (body_of_node(node) == 0) cycle
+         call take_displacement(results%u(:, node), node, mesh%x(:, node), largest)
+         call take_stress(results%nodal_stress(:, node), node, mesh%x(:, node), largest)
+      end do
+      do i = 1, size(points, kind=ip)
+         call take_contact(results%contact(i), points(i)%node, largest)
+      end do
+      call list_extremes(mesh, largest, results%extremes)
+   end subroutine find_extremes
+
+   !> Those that there are, as results have them.
+   pure subroutine list_extremes(mesh, largest, list)
+      type(mesh_t), intent(in) :: mesh
+      type(largest_t), intent(in) :: largest
+      type(extreme_t), allocatable, intent(inout) :: list(:)
+      integer :: i, n
+
+      if (allocated(list)) deallocate (list)
+      allocate (list(count(largest%node > 0)))
+      n = 0
+      do i = 1, size(NAMES)
+         if (largest%node(i) == 0) cycle
+         n = n + 1
+         list(n) = extreme_t(largest%value(i), mesh%node_id(largest%node(i)), largest%x(:, i), .true., NAMES(i))
+         if (IS_LEAST(i)) list(n)%value = -list(n)%value
+      end do
+   end subroutine list_extremes
+
+   pure subroutine take_displacement(v, node, x, largest)
+      real(wp), intent(in) :: v(2)                     !< [L]
+      integer(ip), intent(in) :: node
+      real(wp), intent(in) :: x(2)                     !< its place [L]
+      type(largest_t), intent(inout) :: largest
+      real(wp) :: slack
+
+      if (largest%node(U) == 0 .or. abs(v(1)) + abs(v(2)) > largest%value(U)) then
+         call take(U, hypot(v(1), v(2)), 0.0_wp, node, x, largest)
+      end if
+      slack = ROUND_OFF*largest%value(U)
+      call take(U + 1, v(1), slack, node, x, largest)
+      call take(U + 2, -v(1), slack, node, x, largest)
+      call take(U + 3, v(2), slack, node, x, largest)
+      call take(U + 4, -v(2), slack, node, x, largest)
+   end subroutine take_displacement
+
+   !> The principal stresses are asked for where their bounds may be more.
+   pure subroutine take_stress(s, node, x, largest)
+      real(wp), intent(in) :: s(5)                     !< s11 s22 s33 s12 mises [F/L^2]
+      integer(ip), intent(in) :: node
+      real(wp), intent(in) :: x(2)
+      type(largest_t), intent(inout) :: largest
+      real(wp) :: mean, half, bound, radius, slack
+
+      call take(MISES, s(5), 0.0_wp, node, x, largest)
+      mean = 0.5_wp*s(1) + 0.5_wp*s(2)
+      half = 0.5_wp*s(1) - 0.5_wp*s(2)
+      bound = abs(half) + abs(s(4))
+      if (largest%node(S1) > 0 .and. max(mean + bound, s(3)) <= largest%value(S1) &
+          .and. max(bound - mean, -s(3)) <= largest%value(S3)) return
+      radius = hypot(half, s(4))
+      slack = ROUND_OFF*largest%value(MISES)
+      call take(S1, max(mean + radius, s(3)), slack, node, x, largest)
+      call take(S3, max(radius - mean, -s(3)), slack, node, x, largest)
+   end subroutine take_stress
+
+   !> The points of a pair.
+   pure subroutine take_contact(contact, nodes, largest)
+      type(contact_result_t), intent(in) :: contact
+      integer(ip), intent(in) :: nodes(:)              !< of the slave at the points
+      type(largest_t), intent(inout) :: largest
+      integer(ip) :: j
+
+      do j = 1, contact%n
+         call take(PRESSURE, contact%pressure(j), 0.0_wp, nodes(j), contact%x(:, j), largest)
+         call take(SHEAR, abs(contact%shear(j)), ROUND_OFF*largest%value(PRESSURE), nodes(j), contact%x(:, j), largest)
+      end do
+   end subroutine take_contact
+
+   !> Keeps the larger of a value and the largest one so far.
+   pure subroutine take(quantity, value, slack, node, x, largest)
+      integer, intent(in) :: quantity                  !< place in NAMES
+      real(wp), intent(in) :: value, slack
+      integer(ip), intent(in) :: node
+      real(wp), intent(in) :: x(2)
+      type(largest_t), intent(inout) :: largest
+
+      associate (most => largest%value(quantity))
+         if (largest%node(quantity) > 0 .and. value <= most + max(NEAR*abs(most), slack)) return
+         most = value
+         largest%node(quantity) = node
+         largest%x(:, quantity) = x
+      end associate
+   end subroutine take
+
+end module atrito_extremes

@@ -1,0 +1,16 @@
+SetFactory("Built-in");
+Point(1)={0,0,0,1};Point(2)={2,0,0,1};Point(3)={2,1,0,1};Point(4)={0,1,0,1};
+Line(1)={1,2};Line(2)={2,3};Line(3)={3,4};Line(4)={4,1};
+Curve Loop(1)={1,2,3,4};Plane Surface(1)={1};
+Point(11)={0.5,1,0,0.6};Point(12)={1.5,1,0,0.6};Point(13)={1.5,2,0,0.6};Point(14)={0.5,2,0,0.6};
+Line(11)={11,12};Line(12)={12,13};Line(13)={13,14};Line(14)={14,11};
+Curve Loop(2)={11,12,13,14};Plane Surface(2)={2};
+Transfinite Curve{1,3}=4; Transfinite Curve{2,4}=3; Transfinite Surface{1}; Recombine Surface{1};
+Physical Point("corner",1)={1};
+Physical Curve("lower base",2)={1};
+Physical Curve("lower-top",3)={-3};
+Physical Curve("upper-base",4)={11};
+Physical Curve("upper-top",5)={13};
+Physical Curve(6)={4,14};
+Physical Surface("lower",7)={1};
+Physical Surface("upper",8)={2};

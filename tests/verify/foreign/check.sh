@@ -1,0 +1,51 @@
+. "$(dirname "$0")/../lib.sh"
+decks=$here/../../peers/decks
+
+# runs NAME [DECK]: no error; no kind of note is told twice.
+runs() {
+   run 0 "${2:-$decks/$1.inp}" "$1" --digits 12
+   ! grep -q 'error \[' "$1.err" || complain "$1: an error"
+   grep -q 'note \[N-IGNORED\]' "$1.err" || complain "$1: no note"
+   twice=$(sed -n 's/^.*note \[//p' "$1.err" | sed 's/ (and [0-9]* more lines*)//' | sort | uniq -d)
+   [ -z "$twice" ] || complain "$1: told twice: $twice"
+}
+# lacks WHAT FILE PATTERN: no line of a file has it.
+lacks() {
+   ! grep -qE "$3" "$2" || complain "$1"
+}
+# of NAME STEP QUANTITY: a value of summary.tab.
+of() {
+   awk -v s="$2" -v q="$3" '!/^#/ && $1 == s && $3 == q { print $4 }' "$1/summary.tab"
+}
+
+runs prepomax-punch
+near 'punch: pressed' "$(of prepomax-punch 1 normal_resultant)" 100 1e-8
+near 'punch: still pressed' "$(of prepomax-punch 2 normal_resultant)" 100 1e-8
+near 'punch: pushed' "$(of prepomax-punch 2 shear_resultant)" -20 1e-8
+says 'punch: NLGEOM' prepomax-punch.err 'warning [W-NLGEOM]'
+says 'punch: it does not matter' prepomax-punch.err 'note [N-SMALL]'
+says 'punch: the second step, too' prepomax-punch.err 'atrito takes it from --solver (and 1 more line)'
+lacks 'punch: not large' prepomax-punch.err '\[W-LARGE\]'
+
+sed 's/^210000, 0.28/100, 0.28/' "$decks/prepomax-punch.inp" >soft.inp
+runs soft soft.inp
+says 'soft: it matters' soft.err 'warning [W-LARGE]'
+lacks 'soft: not small' soft.err '\[N-SMALL\]'
+sed 's/, Nlgeom//' "$decks/prepomax-punch.inp" >linear.inp
+runs linear linear.inp
+lacks 'linear: nobody asked' linear.err '\[(N-SMALL|W-NLGEOM)\]'
+same_tables 'linear: the same solution' linear/contact.tab prepomax-punch/contact.tab 0
+
+runs prepomax-shrink-fit
+p=$(value '59.0625/(1 + 59.0625e-9/2.4e-3)')
+area=$(value '8*atan2(1, 1)*2*0.5')
+near 'fit: mean pressure' "$(value "$(of prepomax-shrink-fit 1 normal_resultant)/$area")" "$p" 0.002
+
+runs mecway-bar
+all_near 'bar: uniform' mecway-bar/contact.tab pressure 5 1e-9
+all_near 'bar: no shear' mecway-bar/contact.tab shear 0 1e-9
+[ ! -e mecway-bar/nodes.tab ] || complain 'bar: FREQUENCY=0 prints nothing'
+
+runs prepomax-style
+near 'style: pressed' "$(of prepomax-style 1 normal_resultant)" 10 1e-8
+finish
