@@ -40,8 +40,8 @@ contains
       if (i == 0) return
       if (.not. phases(i)%running) return
       call read_clocks(wall, cpu)
-      phases(i)%wall = phases(i)%wall + wall - wall_at_start(i)
-      phases(i)%cpu = phases(i)%cpu + cpu - cpu_at_start(i)
+      phases(i)%wall = phases(i)%wall + (wall - wall_at_start(i))
+      phases(i)%cpu = phases(i)%cpu + (cpu - cpu_at_start(i))     ! a sum never falls, by rounding neither
       phases(i)%running = .false.
    end subroutine stop_phase
 

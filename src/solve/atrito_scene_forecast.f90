@@ -23,7 +23,7 @@ module atrito_scene_forecast
    integer(lp), parameter :: FIELD_LIBRARY = 4500000_lp
    !> Measured shares: holes between the factors of fronts; what the bodies leave of themselves in the process, when they have been
    !> given back; and what the C library rounds up.
-   real(wp), parameter :: HOLES = 0.1_wp, LEFT_BEHIND = 0.13_wp, ROUNDING_UP = 0.04_wp
+   real(wp), parameter :: HOLES = 0.12_wp, LEFT_BEHIND = 0.13_wp, ROUNDING_UP = 0.065_wp
 
 contains
 
