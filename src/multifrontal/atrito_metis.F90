@@ -3,16 +3,18 @@
 !> The library is loaded when it is asked for, not with the program: CMake says which file that is (ATRITO_METIS_LIBRARY, its name
 !> with the version in it) and its version (ATRITO_METIS_VERSION), and sees to it that its integers have 32 bits.
 module atrito_metis
-   use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int32_t, c_null_ptr, c_ptr
-   use atrito_kinds, only: ip
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_float, c_funptr, c_int32_t, c_null_ptr, c_ptr
+   use atrito_kinds, only: ip, wp
    use atrito_system, only: find_routine, terminate
    implicit none (type, external)
    private
-   public :: halve_graph, has_metis, metis_version, metis_trouble
+   public :: halve_graph, share_graph, cut_mesh, has_metis, metis_version, metis_trouble
 
    integer(c_int32_t), parameter :: METIS_OK = 1, METIS_ERROR = -4, N_OPTIONS = 40
    !> Places in the list of options, counted from one.
    integer(c_int32_t), parameter :: SEED = 9, UFACTOR = 17
+   !> Elements are neighbours in the dual graph that have a side in common.
+   integer(c_int32_t), parameter :: NODES_OF_A_SIDE = 2
 
    abstract interface
       integer(c_int32_t) function partition(n, n_constraints, first, neighbour, vertex_weight, vertex_size, edge_weight, n_parts, &
@@ -23,6 +25,15 @@ module atrito_metis
          integer(c_int32_t), intent(in) :: options(*)
          integer(c_int32_t), intent(out) :: cut, part(*)
       end function partition
+      integer(c_int32_t) function partition_mesh(n, n_nodes, first, node, weight, element_size, n_common, n_parts, target, &
+                                                 options, cut, part, part_of_node) bind(C)
+         import :: c_float, c_int32_t, c_ptr
+         integer(c_int32_t), intent(in) :: n, n_nodes, first(*), node(*), weight(*), n_common, n_parts
+         type(c_ptr), value :: element_size
+         real(c_float), intent(in) :: target(*)
+         integer(c_int32_t), intent(in) :: options(*)
+         integer(c_int32_t), intent(out) :: cut, part(*), part_of_node(*)
+      end function partition_mesh
       integer(c_int32_t) function set_options(options) bind(C)
          import :: c_int32_t
          integer(c_int32_t), intent(out) :: options(*)
@@ -42,23 +53,79 @@ contains
       integer(ip), intent(out) :: part(:)        !< (n)
       logical, intent(out) :: done               !< there is METIS, and it had enough memory
       procedure(partition), pointer :: cut_up
-      procedure(set_options), pointer :: begin_options
-      integer(c_int32_t) :: options(N_OPTIONS), cut, code
+      integer(c_int32_t) :: options(N_OPTIONS), cut
 
+      call begin('METIS_PartGraphRecursive', options, done)
+      if (.not. done) return
+      call c_f_procpointer(routine('METIS_PartGraphRecursive'), cut_up)
+      options(UFACTOR) = imbalance
+      call judge(cut_up(size(first, kind=ip) - 1, 1_ip, first - 1_ip, neighbour - 1_ip, vertex_weight, c_null_ptr, edge_weight, &
+                        2_ip**n_levels, c_null_ptr, c_null_ptr, options, cut, part), done)
+   end subroutine halve_graph
+
+   !> Shares out the vertices of a graph, the heavier the edges the rather together. The same for every call with the same graph.
+   subroutine share_graph(first, neighbour, vertex_weight, edge_weight, n_parts, part, done)
+      integer(ip), intent(in) :: first(:)        !< (n + 1) neighbours of vertex i: neighbour(first(i):first(i + 1) - 1)
+      integer(ip), intent(in) :: neighbour(:), edge_weight(:)
+      integer(ip), intent(in) :: vertex_weight(:) !< (n)
+      integer(ip), intent(in) :: n_parts
+      integer(ip), intent(out) :: part(:)        !< (n) 1..n_parts
+      logical, intent(out) :: done               !< there is METIS, and it had enough memory
+      procedure(partition), pointer :: cut_up
+      integer(c_int32_t) :: options(N_OPTIONS), cut
+
+      call begin('METIS_PartGraphKway', options, done)
+      if (.not. done) return
+      call c_f_procpointer(routine('METIS_PartGraphKway'), cut_up)
+      call judge(cut_up(size(first, kind=ip) - 1, 1_ip, first - 1_ip, neighbour - 1_ip, vertex_weight, c_null_ptr, edge_weight, &
+                        n_parts, c_null_ptr, c_null_ptr, options, cut, part), done)
+      part = part + 1_ip
+   end subroutine share_graph
+
+   !> Cuts a mesh between its elements. The same for every call with the same mesh.
+   subroutine cut_mesh(first, node, n_nodes, weight, target, part, done)
+      integer(ip), intent(in) :: first(:)        !< (n + 1) nodes of element i: node(first(i):first(i + 1) - 1)
+      integer(ip), intent(in) :: node(:)         !< 1..n_nodes
+      integer(ip), intent(in) :: n_nodes
+      integer(ip), intent(in) :: weight(:)       !< (n)
+      real(wp), intent(in) :: target(:)          !< (parts) shares of the weight; their sum is 1
+      integer(ip), intent(out) :: part(:)        !< (n) 1..size(target)
+      logical, intent(out) :: done               !< there is METIS, and it had enough memory
+      procedure(partition_mesh), pointer :: cut_up
+      integer(c_int32_t) :: options(N_OPTIONS), cut, part_of_node(n_nodes)
+
+      call begin('METIS_PartMeshDual', options, done)
+      if (.not. done) return
+      call c_f_procpointer(routine('METIS_PartMeshDual'), cut_up)
+      call judge(cut_up(size(first, kind=ip) - 1, n_nodes, first - 1_ip, node - 1_ip, weight, c_null_ptr, NODES_OF_A_SIDE, &
+                        size(target, kind=ip), real(target, c_float), options, cut, part, part_of_node), done)
+      part = part + 1_ip
+   end subroutine cut_mesh
+
+   !> The options that all have in common, and whether a routine can be loaded.
+   subroutine begin(symbol, options, done)
+      character(len=*), intent(in) :: symbol
+      integer(c_int32_t), intent(out) :: options(:)
+      logical, intent(out) :: done
+      procedure(set_options), pointer :: begin_options
+
+      options = 0
       done = has_metis()
+      if (done) done = c_associated(routine(symbol))
       if (.not. done) return
       call c_f_procpointer(routine('METIS_SetDefaultOptions'), begin_options)
-      call c_f_procpointer(routine('METIS_PartGraphRecursive'), cut_up)
       done = begin_options(options) == METIS_OK
-      if (.not. done) return
       options(SEED) = 1
-      options(UFACTOR) = imbalance
-      code = cut_up(size(first, kind=ip) - 1, 1_ip, first - 1_ip, neighbour - 1_ip, vertex_weight, c_null_ptr, edge_weight, &
-                    2_ip**n_levels, c_null_ptr, c_null_ptr, options, cut, part)
+   end subroutine begin
+
+   subroutine judge(code, done)
+      integer(c_int32_t), intent(in) :: code     !< what a routine of METIS returned
+      logical, intent(out) :: done
+
       ! while it works METIS takes SIGTERM for an error of its own: it was meant for the program
       if (code == METIS_ERROR) call terminate()
       done = code == METIS_OK
-   end subroutine halve_graph
+   end subroutine judge
 
    type(c_funptr) function routine(symbol)
       character(len=*), intent(in) :: symbol
