@@ -105,7 +105,7 @@ contains
       load = 0.0_wp
       call add_greedily(work, load, greedy)
       rank = greedy
-      if (graph%n <= n_ranks) return
+      if (n_ranks == 1 .or. graph%n <= n_ranks) return
       call share_graph(graph%first, graph%neighbour, max(1_ip, int(SUM_OF_WEIGHTS*work/sum(work), ip)), graph%weight, n_ranks, &
                        rank, done)
       if (done) done = unevenness(work, rank, n_ranks) <= max(EVEN, unevenness(work, greedy, n_ranks))

@@ -14,10 +14,12 @@ module atrito_part
    use atrito_bodies, only: body_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
+   use atrito_parcel, only: parcel_t, put, take
+   use atrito_plane_state, only: elastic_t
    use atrito_shares, only: shares_t, share_t, top_t
    implicit none (type, external)
    private
-   public :: part_t, make_part, release_part, load_of_part
+   public :: part_t, make_part, release_part, put_part, take_part, load_of_part
 
    !> Assigned, it has the same mesh: release_part is for the last that has it.
    type :: part_t
@@ -246,5 +248,146 @@ contains
       own(:n_interior) = load(part%equation(:n_interior))
       own(n_interior + 1:) = 0.0_wp
    end function load_of_part
+
+   !> Adds a part to a parcel.
+   subroutine put_part(part, parcel)
+      type(part_t), intent(in) :: part
+      type(parcel_t), intent(inout) :: parcel
+
+      call put(parcel, [part%number, part%body, part%rank, part%n_top])
+      call put(parcel, part%is_whole)
+      call put(parcel, part%element)
+      call put(parcel, part%node)
+      call put(parcel, part%equation)
+      call put(parcel, part%top)
+      call put_mesh(part%fem%mesh, parcel)
+      call put_sections(part%fem, parcel)
+      call put(parcel, part%fem%bodies%equation)
+      call put_body(part%fem%bodies%list(1), parcel)
+   end subroutine put_part
+
+   subroutine put_mesh(mesh, parcel)
+      type(mesh_t), intent(in) :: mesh
+      type(parcel_t), intent(inout) :: parcel
+
+      call put(parcel, mesh%node_id)
+      call put(parcel, mesh%x)
+      call put(parcel, mesh%element_id)
+      call put(parcel, mesh%shape)
+      call put(parcel, mesh%state)
+      call put(parcel, mesh%nodes)
+      call put(parcel, allocated(mesh%thickness))
+      if (allocated(mesh%thickness)) call put(parcel, mesh%thickness)
+   end subroutine put_mesh
+
+   !> Sections go as they lie in memory, so that none of their components is forgotten.
+   subroutine put_sections(fem, parcel)
+      type(fem_t), intent(in) :: fem
+      type(parcel_t), intent(inout) :: parcel
+
+      call put(parcel, size(fem%sections, kind=ip))
+      call put(parcel, transfer(fem%sections, [0_ip]))
+      call put(parcel, fem%section_of)
+      call put(parcel, fem%grain)
+      call put(parcel, allocated(fem%heating))
+      if (allocated(fem%heating)) call put(parcel, fem%heating)
+   end subroutine put_sections
+
+   subroutine put_body(body, parcel)
+      type(body_t), intent(in) :: body
+      type(parcel_t), intent(inout) :: parcel
+
+      call put(parcel, body%name)
+      call put(parcel, body%elements)
+      call put(parcel, body%nodes)
+      call put(parcel, [body%n, body%n_retained])
+      call put(parcel, [body%by_profile, body%is_rigid, body%is_touched])
+      call put(parcel, [body%centre, body%size, body%slenderness])
+      call put(parcel, body%modes)
+   end subroutine put_body
+
+   !> The next part of a parcel.
+   subroutine take_part(parcel, part)
+      type(parcel_t), intent(inout) :: parcel
+      type(part_t), intent(out) :: part
+      integer(ip), allocatable :: numbers(:)
+
+      call take(parcel, numbers)
+      part%number = numbers(1)
+      part%body = numbers(2)
+      part%rank = numbers(3)
+      part%n_top = numbers(4)
+      call take(parcel, part%is_whole)
+      call take(parcel, part%element)
+      call take(parcel, part%node)
+      call take(parcel, part%equation)
+      call take(parcel, part%top)
+      allocate (part%fem%mesh)
+      call unpack_mesh(parcel, part%fem%mesh)
+      call unpack_sections(parcel, part%fem)
+      part%fem%bodies%n = 1
+      allocate (part%fem%bodies%list(1))
+      allocate (part%fem%bodies%of_node(size(part%node)), part%fem%bodies%of_element(size(part%element)), source=1_ip)
+      call take(parcel, part%fem%bodies%equation)
+      call unpack_body(parcel, part%fem%bodies%list(1))
+   end subroutine take_part
+
+   subroutine unpack_mesh(parcel, mesh)
+      type(parcel_t), intent(inout) :: parcel
+      type(mesh_t), intent(inout) :: mesh
+      logical :: is_there
+
+      call take(parcel, mesh%node_id)
+      call take(parcel, mesh%x)
+      call take(parcel, mesh%element_id)
+      call take(parcel, mesh%shape)
+      call take(parcel, mesh%state)
+      call take(parcel, mesh%nodes)
+      call take(parcel, is_there)
+      if (is_there) call take(parcel, mesh%thickness)
+      mesh%n_nodes = size(mesh%node_id, kind=ip)
+      mesh%n_elements = size(mesh%element_id, kind=ip)
+   end subroutine unpack_mesh
+
+   subroutine unpack_sections(parcel, fem)
+      type(parcel_t), intent(inout) :: parcel
+      type(fem_t), intent(inout) :: fem
+      type(elastic_t) :: mold(1)
+      integer(ip), allocatable :: numbers(:)
+      integer(ip) :: n
+      logical :: is_there
+
+      call take(parcel, n)
+      call take(parcel, numbers)
+      fem%sections = transfer(numbers, mold, n)
+      call take(parcel, fem%section_of)
+      call take(parcel, fem%grain)
+      call take(parcel, is_there)
+      if (is_there) call take(parcel, fem%heating)
+   end subroutine unpack_sections
+
+   subroutine unpack_body(parcel, body)
+      type(parcel_t), intent(inout) :: parcel
+      type(body_t), intent(inout) :: body
+      integer(ip), allocatable :: numbers(:)
+      logical, allocatable :: answers(:)
+      real(wp), allocatable :: measures(:)
+
+      call take(parcel, body%name)
+      call take(parcel, body%elements)
+      call take(parcel, body%nodes)
+      call take(parcel, numbers)
+      body%n = numbers(1)
+      body%n_retained = numbers(2)
+      call take(parcel, answers)
+      body%by_profile = answers(1)
+      body%is_rigid = answers(2)
+      body%is_touched = answers(3)
+      call take(parcel, measures)
+      body%centre = measures(:2)
+      body%size = measures(3)
+      body%slenderness = measures(4)
+      call take(parcel, body%modes)
+   end subroutine unpack_body
 
 end module atrito_part
