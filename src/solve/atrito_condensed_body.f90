@@ -22,7 +22,7 @@ module atrito_condensed_body
    implicit none (type, external)
    private
    public :: condensed_body_t, condense_body, check_held, choose_solver, set_load, contact_response, add_flexibilities, &
-             expand_body, motion_text, body_text, how_it_moves
+             expand_body, motion_text, body_text, how_it_moves, sparse_cost
 
    type :: condensed_body_t
       class(linear_solver_t), allocatable :: solver
@@ -85,9 +85,16 @@ contains
 
       cost(SOLVER_SKYLINE) = skyline_flops(profile) + SKYLINE_OVERHEAD*real(profile%n, wp)
       cost(SOLVER_BANDED) = banded_flops(profile)/BAND_SPEED + BAND_OVERHEAD*real(profile%n, wp)
-      cost(SOLVER_SPARSE) = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
+      cost(SOLVER_SPARSE) = sparse_cost(profile)
       cost(SOLVER_MUMPS) = cost(SOLVER_SPARSE)
    end function predict_costs
+
+   !> That of the sparse solver.
+   pure real(wp) function sparse_cost(profile) result(cost)
+      type(profile_t), intent(in) :: profile
+
+      cost = sparse_flops(profile)/SPARSE_SPEED + SPARSE_OVERHEAD*real(profile%n, wp) + SPARSE_START
+   end function sparse_cost
 
    pure integer(lp) function predict_memory(profile, kind) result(bytes)
       type(profile_t), intent(in) :: profile

@@ -1,0 +1,411 @@
+!> The shares of the ranks in one scene: whole bodies by their predicted work, and bodies with more of it than a fair share in
+!> pieces.
+!>
+!> A body of work w where f is fair is cut into pieces of f and what is left of it. Pieces of a fair share have a rank of their own,
+!> all others are shared out over the contact graph. As long as one rank has far more than the mean, its heaviest piece is halved.
+!> The same scene and number of ranks give the same shares.
+module atrito_shares
+   use atrito_assembly, only: fem_t, body_profile
+   use atrito_bodies, only: body_t
+   use atrito_condensed_body, only: sparse_cost
+   use atrito_contact_graph, only: contact_graph_t, begin_contact_graph, add_edge, add_rows, close_contact_graph, share_vertices, &
+                                   add_greedily, unevenness
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_incidence, only: list_holders
+   use atrito_kinds, only: ip, wp
+   use atrito_multifrontal, only: cut_elements
+   use atrito_profile, only: profile_t
+   implicit none (type, external)
+   private
+   public :: shares_t, share_t, top_t, make_shares, predict_work, is_worth_sharing, LEAST_WORK
+
+   !> A part of the scene: a body, or a piece of one.
+   type :: share_t
+      integer(ip) :: body = 0
+      integer(ip) :: rank = 0                    !< 0..n_ranks - 1
+      logical :: is_whole = .true.               !< the body is
+      real(wp) :: work = 0.0_wp                  !< predicted, operations of the skyline
+      integer(ip), allocatable :: elements(:)    !< in the order of the body
+      integer(ip), allocatable :: nodes(:)       !< of a piece, in the order of the body; a whole body has its own
+   end type share_t
+
+   !> The unknowns of a body that its parts leave: those of nodes that several parts have, and the retained ones of the body.
+   type :: top_t
+      integer(ip) :: n = 0
+      integer(ip) :: n_kept = 0                  !< the last ones: the retained equations of the body
+      integer(ip), allocatable :: equation(:)    !< (n) of the body, ascending
+   end type top_t
+
+   !> All parts, those of a body one after the other.
+   type :: shares_t
+      integer(ip) :: n = 0
+      integer(ip) :: n_ranks = 1
+      type(share_t), allocatable :: list(:)      !< (n)
+      integer(ip), allocatable :: first(:)       !< (bodies + 1) parts of body b: first(b) to first(b + 1) - 1; rigid ones: none
+      type(top_t), allocatable :: tops(:)        !< (bodies)
+   end type shares_t
+
+   !> Scenes of less work, some 2e5 displacements in one body or 0.3 s of one process, are not shared out.
+   real(wp), parameter :: LEAST_WORK = 2.0e9_wp
+   !> A piece with this share of what is fair has a rank of its own; less than this, of what is fair, is no piece of its own.
+   real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
+   !> The largest work of a rank over the mean for which nothing is cut any more, and pieces of the fair share that are not.
+   real(wp), parameter :: EVEN_ENOUGH = 1.2_wp, LEAST_CUT = 0.05_wp
+   !> For each rank, so that it ends.
+   integer(ip), parameter :: MOST_HALVINGS = 2_ip
+
+contains
+
+   !> The predicted work of all bodies, in operations of the skyline: nothing that depends on the machine.
+   function predict_work(fem) result(work)
+      type(fem_t), intent(in) :: fem
+      real(wp) :: work(fem%bodies%n)
+      type(profile_t) :: profile
+      integer(ip) :: b
+
+      work = 0.0_wp
+      do b = 1, fem%bodies%n
+         if (fem%bodies%list(b)%is_rigid) cycle
+         call body_profile(fem, b, profile)
+         work(b) = sparse_cost(profile)
+      end do
+   end function predict_work
+
+   logical function is_worth_sharing(fem, n_ranks)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: n_ranks
+
+      is_worth_sharing = n_ranks > 1
+      if (is_worth_sharing) is_worth_sharing = sum(predict_work(fem)) >= LEAST_WORK
+   end function is_worth_sharing
+
+   !> Shares out the elements of all bodies.
+   subroutine make_shares(fem, rows, n_ranks, shares)
+      type(fem_t), intent(in) :: fem             !< its equations are numbered
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: n_ranks         !< >= 1
+      type(shares_t), intent(out) :: shares
+      real(wp) :: work(fem%bodies%n), fair
+      type(share_t), allocatable :: none(:)
+      integer(ip) :: b, i, heaviest
+
+      shares%n_ranks = n_ranks
+      work = predict_work(fem)
+      fair = sum(work)/real(n_ranks, wp)
+      allocate (none(0))
+      call move_alloc(none, shares%list)
+      do b = 1, fem%bodies%n
+         if (.not. fem%bodies%list(b)%is_rigid) call add_body(fem, b, work(b), pieces_of(work(b), fair), shares%list)
+      end do
+      call give_to_ranks(fem, rows, fair, n_ranks, shares%list)
+      do i = 1, MOST_HALVINGS*n_ranks
+         call find_too_heavy(shares%list, fair, n_ranks, heaviest)
+         if (heaviest == 0) exit
+         call halve(fem, heaviest, shares%list)
+         call give_to_ranks(fem, rows, fair, n_ranks, shares%list)
+      end do
+      call arrange(fem, shares)
+   end subroutine make_shares
+
+   !> The shares of a body's pieces in it; one piece: it stays whole.
+   pure function pieces_of(work, fair) result(target)
+      real(wp), intent(in) :: work, fair
+      real(wp), allocatable :: target(:)
+      integer(ip) :: i, n
+      real(wp) :: rest
+
+      n = max(1_ip, int(work/fair, ip))
+      rest = work/fair - real(n, wp)
+      if (rest < LEAST_REST) then
+         target = [(1.0_wp/real(n, wp), i=1, n)]
+      else
+         target = [[(fair/work, i=1, n)], rest*fair/work]
+      end if
+   end function pieces_of
+
+   subroutine add_body(fem, b, work, target, list)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b
+      real(wp), intent(in) :: work
+      real(wp), intent(in) :: target(:)          !< (pieces)
+      type(share_t), allocatable, intent(inout) :: list(:)
+      type(share_t) :: whole
+
+      whole%body = b
+      whole%work = work
+      whole%elements = fem%bodies%list(b)%elements
+      call append(fem, whole, target, list)
+   end subroutine add_body
+
+   !> Adds the pieces of a part to a list of parts.
+   subroutine append(fem, part, target, list)
+      type(fem_t), intent(in) :: fem
+      type(share_t), intent(in) :: part
+      real(wp), intent(in) :: target(:)          !< (pieces)
+      type(share_t), allocatable, intent(inout) :: list(:)
+      type(share_t), allocatable :: longer(:)
+      integer(ip), allocatable :: piece_of(:, :), first(:), member(:)
+      integer(ip) :: i, n, before
+
+      allocate (piece_of(1, size(part%elements)))
+      call cut_elements(part%elements, fem%mesh%nodes, fem%mesh%shape, fem%mesh%x, target, piece_of(1, :))
+      call list_holders(size(target, kind=ip), piece_of, first, member)
+      before = size(list, kind=ip)
+      n = 0
+      allocate (longer(before + size(target)))
+      do i = 1, before
+         call move_share(list(i), longer(i))
+      end do
+      do i = 1, size(target, kind=ip)
+         if (first(i) == first(i + 1)) cycle     ! of few elements
+         n = n + 1
+         associate (piece => longer(before + n), own => part%elements(member(first(i):first(i + 1) - 1)))
+            piece%body = part%body
+            piece%elements = own
+            piece%work = part%work*real(size(own), wp)/real(size(part%elements), wp)
+            piece%is_whole = part%is_whole .and. size(own) == size(part%elements)
+         end associate
+      end do
+      if (before + n < size(longer)) then
+         list = longer(:before + n)
+      else
+         call move_alloc(longer, list)
+      end if
+   end subroutine append
+
+   subroutine move_share(from, to)
+      type(share_t), intent(inout) :: from, to
+
+      to%body = from%body
+      to%rank = from%rank
+      to%is_whole = from%is_whole
+      to%work = from%work
+      call move_alloc(from%elements, to%elements)
+   end subroutine move_share
+
+   !> The rank of each part: pieces of a fair share have one to themselves, the others are shared out over the contact graph.
+   subroutine give_to_ranks(fem, rows, fair, n_ranks, list)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: fair
+      integer(ip), intent(in) :: n_ranks
+      type(share_t), intent(inout) :: list(:)
+      type(contact_graph_t) :: graph
+      integer(ip) :: rank(size(list)), greedy(size(list)), n_full, p
+      integer(ip), allocatable :: rest(:), rank_of_rest(:)
+      real(wp) :: load(n_ranks)
+
+      n_full = 0
+      rank = 0
+      do p = 1, size(list, kind=ip)
+         if (list(p)%work < NEARLY_FAIR*fair .or. n_full == n_ranks - 1) cycle
+         n_full = n_full + 1
+         rank(p) = n_full
+      end do
+      rest = pack([(p, p=1, size(list, kind=ip))], rank == 0)
+      allocate (rank_of_rest(size(rest)))
+      if (size(rest) > 0) then
+         call make_graph(fem, rows, list, rest, graph)
+         call share_vertices(graph, list(rest)%work, n_ranks - n_full, rank_of_rest)
+      end if
+      rank(rest) = n_full + rank_of_rest
+      load = 0.0_wp
+      call add_greedily(list%work, load, greedy)
+      if (unevenness(list%work, rank, n_ranks) > max(EVEN_ENOUGH, unevenness(list%work, greedy, n_ranks))) rank = greedy
+      list%rank = rank - 1
+   end subroutine give_to_ranks
+
+   !> Parts are neighbours by contact points, by bilateral rows and by the nodes of cuts.
+   subroutine make_graph(fem, rows, list, vertices, graph)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(share_t), intent(in) :: list(:)
+      integer(ip), intent(in) :: vertices(:)     !< places in the list
+      type(contact_graph_t), intent(out) :: graph
+      integer(ip), allocatable :: vertex_of(:), seen(:)
+      integer(ip) :: v, i, k, node
+
+      allocate (vertex_of(fem%mesh%n_nodes), seen(fem%mesh%n_nodes), source=0_ip)
+      call begin_contact_graph(size(vertices, kind=ip), graph)
+      do v = 1, size(vertices, kind=ip)
+         associate (part => list(vertices(v)))
+            if (part%is_whole) then
+               vertex_of(fem%bodies%list(part%body)%nodes) = v
+               cycle
+            end if
+            do i = 1, size(part%elements, kind=ip)
+               do k = 1, fem%mesh%shape(part%elements(i))
+                  node = fem%mesh%nodes(k, part%elements(i))
+                  if (vertex_of(node) == 0) vertex_of(node) = v
+                  if (seen(node) /= v) call add_edge(vertex_of(node), v, graph)
+                  seen(node) = v
+               end do
+            end do
+         end associate
+      end do
+      call add_rows(rows, vertex_of, graph)
+      call close_contact_graph(graph)
+   end subroutine make_graph
+
+   !> The heaviest part of the rank that has too much; 0: none has, or it is not worth a cut.
+   pure subroutine find_too_heavy(list, fair, n_ranks, heaviest)
+      type(share_t), intent(in) :: list(:)
+      real(wp), intent(in) :: fair
+      integer(ip), intent(in) :: n_ranks
+      integer(ip), intent(out) :: heaviest
+      real(wp) :: load(0:n_ranks - 1)
+      integer(ip) :: p
+
+      heaviest = 0
+      load = 0.0_wp
+      do p = 1, size(list, kind=ip)
+         load(list(p)%rank) = load(list(p)%rank) + list(p)%work
+      end do
+      if (maxval(load) <= EVEN_ENOUGH*fair) return
+      heaviest = maxloc(list%work, dim=1, kind=ip, mask=list%rank == maxloc(load, dim=1) - 1)
+      if (list(heaviest)%work < LEAST_CUT*fair .or. size(list(heaviest)%elements) < 2) heaviest = 0
+   end subroutine find_too_heavy
+
+   subroutine halve(fem, heaviest, list)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: heaviest
+      type(share_t), allocatable, intent(inout) :: list(:)
+      type(share_t), allocatable :: others(:)
+      type(share_t) :: part
+      integer(ip) :: p
+
+      allocate (others(size(list) - 1))
+      do p = 1, size(list, kind=ip)
+         if (p < heaviest) call move_share(list(p), others(p))
+         if (p > heaviest) call move_share(list(p), others(p - 1))
+      end do
+      call move_share(list(heaviest), part)
+      call move_alloc(others, list)
+      call append(fem, part, [0.5_wp, 0.5_wp], list)
+   end subroutine halve
+
+   !> Puts the parts of each body one after the other, and finds what they have in common.
+   subroutine arrange(fem, shares)
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(inout) :: shares
+      type(share_t), allocatable :: sorted(:)
+      integer(ip), allocatable :: place(:), next(:)
+      integer(ip) :: p, b
+
+      shares%n = size(shares%list, kind=ip)
+      allocate (sorted(shares%n), shares%tops(fem%bodies%n), place(fem%mesh%n_nodes))
+      allocate (shares%first(fem%bodies%n + 1), source=0_ip)
+      do p = 1, shares%n
+         shares%first(shares%list(p)%body + 1) = shares%first(shares%list(p)%body + 1) + 1
+      end do
+      shares%first(1) = 1
+      do b = 1, fem%bodies%n
+         shares%first(b + 1) = shares%first(b) + shares%first(b + 1)
+      end do
+      next = shares%first
+      do p = 1, shares%n
+         b = shares%list(p)%body
+         call move_share(shares%list(p), sorted(next(b)))
+         next(b) = next(b) + 1
+      end do
+      call move_alloc(sorted, shares%list)
+      do b = 1, fem%bodies%n
+         associate (parts => shares%list(shares%first(b):shares%first(b + 1) - 1))
+            call find_border(fem, b, place, parts, shares%tops(b))
+         end associate
+      end do
+   end subroutine arrange
+
+   !> The nodes of each part of a body, and the unknowns that they leave.
+   subroutine find_border(fem, b, place, parts, top)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: b
+      integer(ip), intent(inout) :: place(:)     !< (nodes of the mesh) used for the nodes of the body
+      type(share_t), intent(inout) :: parts(:)
+      type(top_t), intent(out) :: top
+      logical, allocatable :: is_border(:)
+
+      associate (body => fem%bodies%list(b))
+         allocate (is_border(size(body%nodes)), source=.false.)
+         if (size(parts) > 1) call list_nodes(fem, body, place, parts, is_border)
+         call list_unknowns(fem, body, is_border, top)
+      end associate
+   end subroutine find_border
+
+   subroutine list_nodes(fem, body, place, parts, is_border)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      integer(ip), intent(inout) :: place(:)     !< (nodes of the mesh)
+      type(share_t), intent(inout) :: parts(:)
+      logical, intent(inout) :: is_border(:)     !< (nodes of the body) more than one part has it
+      integer(ip), allocatable :: found(:, :)    !< (2, ...) place of a node, part that has it, each once
+      integer(ip), allocatable :: last(:), first(:), holder(:)
+      integer(ip) :: n(size(parts)), i, h, k, p
+
+      place(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
+      allocate (last(size(body%nodes)), source=0_ip)
+      allocate (found(2, sum(fem%mesh%shape(body%elements))))
+      k = 0
+      do p = 1, size(parts, kind=ip)
+         h = k
+         call find_nodes(fem, parts(p)%elements, place, p, last, found, k)
+         n(p) = k - h
+      end do
+      call list_holders(size(body%nodes, kind=ip), found(:1, :k), first, holder)
+      is_border = first(2:) - first(:size(is_border)) > 1
+      do p = 1, size(parts, kind=ip)
+         allocate (parts(p)%nodes(n(p)))
+      end do
+      n = 0
+      do i = 1, size(body%nodes, kind=ip)
+         do h = first(i), first(i + 1) - 1
+            p = found(2, holder(h))
+            n(p) = n(p) + 1
+            parts(p)%nodes(n(p)) = body%nodes(i)
+         end do
+      end do
+   end subroutine list_nodes
+
+   !> The nodes of the elements of a part, each once.
+   pure subroutine find_nodes(fem, elements, place, p, last, found, n)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: elements(:), place(:), p
+      integer(ip), intent(inout) :: last(:)      !< part that was found last at each node
+      integer(ip), intent(inout) :: found(:, :), n
+      integer(ip) :: i, k, node
+
+      do i = 1, size(elements, kind=ip)
+         do k = 1, fem%mesh%shape(elements(i))
+            node = place(fem%mesh%nodes(k, elements(i)))
+            if (last(node) == p) cycle
+            last(node) = p
+            n = n + 1
+            found(:, n) = [node, p]
+         end do
+      end do
+   end subroutine find_nodes
+
+   pure subroutine list_unknowns(fem, body, is_border, top)
+      type(fem_t), intent(in) :: fem
+      type(body_t), intent(in) :: body
+      logical, intent(in) :: is_border(:)        !< (nodes of the body)
+      type(top_t), intent(out) :: top
+      integer(ip) :: i, dof, k
+
+      top%n_kept = body%n_retained
+      allocate (top%equation(2*count(is_border) + top%n_kept))
+      do i = 1, size(is_border, kind=ip)
+         if (.not. is_border(i)) cycle
+         do dof = 1, 2
+            k = fem%bodies%equation(dof, body%nodes(i))
+            if (k < 1 .or. k > body%n - body%n_retained) cycle
+            top%n = top%n + 1
+            top%equation(top%n) = k
+         end do
+      end do
+      top%equation(top%n + 1:top%n + top%n_kept) = [(k, k=body%n - body%n_retained + 1, body%n)]
+      top%n = top%n + top%n_kept
+      top%equation = top%equation(:top%n)
+   end subroutine list_unknowns
+
+end module atrito_shares
