@@ -11,6 +11,9 @@ module atrito_body_cache
    use atrito_mesh, only: mesh_t
    use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
+   use atrito_shared_body, only: first_rank_t, shared_body_t
+   use atrito_shares, only: shares_t
+   use atrito_sharing, only: condense_shared_body, forget_shared, give_up, share_bodies
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_results, only: body_result_t
    use atrito_status, only: status_t, is_ok
@@ -25,6 +28,8 @@ module atrito_body_cache
       logical :: keeps = .false.                       !< for a next run; costs a copy of the mesh
       integer(ip) :: factorisations = 0                !< of the last call of provide_bodies; behind a history of all
       type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
+      type(shares_t), allocatable :: shares            !< how bodies go over the ranks; not allocated: they stay
+      type(first_rank_t), pointer, private :: first => null() !< what this rank has of them
       logical, private :: holds = .false.              !< the rest is there: what they were made of
       type(mesh_t), private :: mesh
       type(bodies_t), private :: numbering             !< of the bodies
@@ -55,6 +60,7 @@ contains
       type(status_t), intent(out) :: status
       type(bilateral_rows_t), intent(in), optional :: bilateral !< without it there are none
       type(condensed_body_t), allocatable :: bodies(:)
+      type(shared_body_t), allocatable :: shared(:)
       logical :: same_bodies, same_load
       integer(ip) :: b
 
@@ -64,10 +70,14 @@ contains
                                      .and. has_same_numbering(store, held, points, fem, bilateral)
       store%holds = .false.
       allocate (bodies(fem%bodies%n))
+      if (allocated(store%shares)) call begin_sharing(store, fem, same_bodies, shared)
       do b = 1, fem%bodies%n
          if (fem%bodies%list(b)%is_rigid) then             ! nothing to factor
             call check_held(fem, b, status)
-            if (.not. is_ok(status)) return
+            if (.not. is_ok(status)) then
+               if (allocated(shared)) call give_up(shared, b)
+               return
+            end if
             cycle
          end if
          same_load = .false.
@@ -77,8 +87,16 @@ contains
          else
             same_load = .false.
             call report_progress(store%reporter, 'factor '//fem%bodies%list(b)%name)
-            call condense_body(fem, b, asked, bodies(b), results(b), status)
-            if (.not. is_ok(status)) return
+            if (allocated(shared)) then
+               allocate (bodies(b)%solver, source=shared(b))
+               call condense_shared_body(fem, b, bodies(b), results(b), status)
+            else
+               call condense_body(fem, b, asked, bodies(b), results(b), status)
+            end if
+            if (.not. is_ok(status)) then
+               if (allocated(shared)) call give_up(shared, b)
+               return
+            end if
             store%factorisations = store%factorisations + 1
          end if
          if (.not. same_load) then
@@ -89,11 +107,29 @@ contains
          call report_progress(store%reporter, 'body '//results(b)%name//'  dofs '//to_text(fem%bodies%list(b)%n) &
                               //'  contact dofs '//to_text(fem%bodies%list(b)%n_retained)//'  '//results(b)%solver)
       end do
+      if (allocated(store%bodies)) call forget_shared(store%bodies)    ! those that do not serve again
       call move_alloc(bodies, store%bodies)
       if (.not. store%keeps) return
       call remember(store, fem, held, points, load, asked, results, same_bodies)
       if (present(bilateral)) store%bilateral = bilateral
    end subroutine provide_bodies
+
+   !> Has the ranks factor the bodies that do not serve again.
+   subroutine begin_sharing(store, fem, same_bodies, shared)
+      type(body_cache_t), intent(inout) :: store
+      type(fem_t), intent(in) :: fem
+      logical, intent(in) :: same_bodies
+      type(shared_body_t), allocatable, intent(out) :: shared(:)
+      logical :: wanted(fem%bodies%n)
+      integer(ip) :: b
+
+      do b = 1, fem%bodies%n
+         wanted(b) = .not. (fem%bodies%list(b)%is_rigid .or. serves_again(store, fem, b, same_bodies))
+      end do
+      allocate (shared(fem%bodies%n))
+      if (.not. associated(store%first)) allocate (store%first)
+      call share_bodies(fem, store%shares, wanted, store%first, shared)
+   end subroutine begin_sharing
 
    !> The bodies as the last call of provide_bodies left them, with another load.
    subroutine reload_bodies(store, fem, load)
@@ -138,7 +174,7 @@ contains
    subroutine release_bodies(store)
       type(body_cache_t), intent(inout) :: store
 
-      if (allocated(store%bodies) .and. .not. store%keeps) deallocate (store%bodies)
+      if (.not. store%keeps) call drop_bodies(store)
    end subroutine release_bodies
 
    !> Gives them back in any case.
@@ -146,8 +182,16 @@ contains
       type(body_cache_t), intent(inout) :: store
 
       store%holds = .false.
-      if (allocated(store%bodies)) deallocate (store%bodies)
+      call drop_bodies(store)
    end subroutine forget_bodies
+
+   subroutine drop_bodies(store)
+      type(body_cache_t), intent(inout) :: store
+
+      if (.not. allocated(store%bodies)) return
+      call forget_shared(store%bodies)
+      deallocate (store%bodies)
+   end subroutine drop_bodies
 
    !> The bodies have other loads than those that they were asked for with.
    pure subroutine forget_loads(store)

@@ -21,7 +21,7 @@ module atrito_condensed_body
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: condensed_body_t, condense_body, check_held, choose_solver, set_load, contact_response, add_flexibilities, &
+   public :: condensed_body_t, condense_body, check_held, factor_body, choose_solver, set_load, contact_response, add_flexibilities, &
              expand_body, motion_text, body_text, how_it_moves, sparse_cost
 
    type :: condensed_body_t
@@ -174,6 +174,7 @@ contains
                       //'; no support and no contact pair holds it')
    end subroutine check_held
 
+   !> Factors and condenses a body whose solver has its matrix. status: as condense_body.
    subroutine factor_body(fem, i_body, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body

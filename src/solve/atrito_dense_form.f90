@@ -10,13 +10,16 @@ module atrito_dense_form
    use atrito_dense_refinement, only: refine_dense_solution
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t, METHOD_ANDERSON
+   use atrito_mpi, only: rank_count
    use atrito_outer_loop, only: solve_contact_line, continue_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, free_load
+   use atrito_shares, only: is_worth_sharing, make_shares
    use atrito_solve_history, only: restart_history
    use atrito_shared_points, only: has_dependent_points, solve_shared_points
+   use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
@@ -119,6 +122,7 @@ contains
       else
          if (allocated(problem)) deallocate (problem)
          call forget_reduced(data%bases)
+         call share_out(data, store)
          call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
                              status, data%model%bilateral)
          results%factorisations = store%factorisations
@@ -131,6 +135,20 @@ contains
       end if
       if (is_ok(status)) results%scene%near_elements = any(store%bodies%is_near)
    end subroutine provide_loaded_bodies
+
+   !> Over the ranks, where there are others and it is worth it.
+   subroutine share_out(data, store)
+      type(scene_data_t), intent(in) :: data
+      type(body_cache_t), intent(inout) :: store
+
+      if (allocated(store%shares)) deallocate (store%shares)
+      if (.not. any(data%solver_kind == [0, SOLVER_SPARSE])) return
+      if (.not. is_worth_sharing(data%fem, rank_count())) return
+      call start_phase('order')
+      allocate (store%shares)
+      call make_shares(data%fem, data%rows, rank_count(), store%shares)
+      call stop_phase('order')
+   end subroutine share_out
 
    !> Solves the contact line: from the increment before, where that leads to a solution, else from the usual start.
    subroutine solve_line(data, controls, problem, solution, status)

@@ -1,0 +1,154 @@
+!> Bodies are shared out over the ranks: their parts go to them and are factored there, all at the same time.
+module atrito_sharing
+   use atrito_assembly, only: fem_t
+   use atrito_condensed_body, only: condensed_body_t, check_held, factor_body
+   use atrito_kinds, only: ip
+   use atrito_part, only: part_t, make_part, release_part
+   use atrito_part_service, only: ask_for_factors, give_part, receive_outcome
+   use atrito_part_store, only: outcome_t, factor_part, find_part, hold_part
+   use atrito_results, only: body_result_t
+   use atrito_shared_body, only: shared_body_t, first_rank_t, forget_pieces
+   use atrito_shares, only: shares_t
+   use atrito_solver_choice, only: solver_name, SOLVER_SPARSE
+   use atrito_status, only: status_t, is_ok
+   use atrito_strings, only: to_text
+   use atrito_timers, only: start_phase, stop_phase
+   implicit none (type, external)
+   private
+   public :: share_bodies, condense_shared_body, forget_shared, give_up
+
+contains
+
+   !> Gives the parts of some bodies to their ranks and has all ranks factor them; those of the first rank are factored on return.
+   subroutine share_bodies(fem, shares, wanted, first, shared)
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(in) :: shares
+      logical, intent(in) :: wanted(:)               !< (bodies)
+      type(first_rank_t), intent(inout), target :: first
+      type(shared_body_t), intent(out) :: shared(:)  !< (bodies) those that are wanted
+      integer(ip) :: b, p
+
+      call start_phase('order')
+      do b = 1, fem%bodies%n
+         if (wanted(b)) call give_body(fem, shares, b, first, shared(b))
+      end do
+      call stop_phase('order')
+      do b = 1, fem%bodies%n                         ! behind all parts: who factors takes none
+         if (.not. wanted(b)) cycle
+         do p = 1, size(shared(b)%piece, kind=ip)
+            if (shared(b)%piece(p)%rank > 0) call ask_for_factors(shared(b)%piece(p)%ticket, shared(b)%piece(p)%rank)
+         end do
+      end do
+      call start_phase('factor')
+      do b = 1, fem%bodies%n
+         if (.not. wanted(b)) cycle
+         do p = 1, size(shared(b)%piece, kind=ip)
+            if (shared(b)%piece(p)%rank > 0) cycle
+            call factor_part(first%parts%list(find_part(first%parts, shared(b)%piece(p)%ticket)), shared(b)%outcome(p))
+         end do
+      end do
+      call stop_phase('factor')
+   end subroutine share_bodies
+
+   !> The parts of a body go to their ranks.
+   subroutine give_body(fem, shares, b, first, shared)
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(in) :: shares
+      integer(ip), intent(in) :: b
+      type(first_rank_t), intent(inout), target :: first
+      type(shared_body_t), intent(inout) :: shared
+      type(part_t) :: part
+      integer(ip) :: i, n
+
+      n = shares%first(b + 1) - shares%first(b)
+      allocate (shared%piece(n), shared%outcome(n))
+      shared%own => first
+      shared%n = fem%bodies%list(b)%n
+      shared%n_retained = fem%bodies%list(b)%n_retained
+      shared%top = shares%tops(b)
+      do i = 1, n
+         call make_part(fem, shares, shares%first(b) + i - 1, part)
+         first%last_ticket = first%last_ticket + 1
+         associate (piece => shared%piece(i))
+            piece%ticket = first%last_ticket
+            piece%rank = part%rank
+            piece%equation = part%equation
+            piece%top = part%top
+            piece%n_interior = size(part%equation, kind=ip) - size(part%top, kind=ip)
+            if (part%rank == 0) then
+               call hold_part(first%parts, piece%ticket, shared%piece(1)%ticket, part)
+            else
+               call give_part(piece%ticket, shared%piece(1)%ticket, part)
+               call release_part(part)
+            end if
+         end associate
+      end do
+   end subroutine give_body
+
+   !> Waits for the factors of a body's parts and condenses it. status: as condense_body.
+   subroutine condense_shared_body(fem, i_body, body, result, status)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      type(condensed_body_t), intent(inout) :: body  !< its solver is a shared_body_t
+      type(body_result_t), intent(inout) :: result
+      type(status_t), intent(out) :: status
+      type(status_t) :: is_held
+
+      result%solver_kind = SOLVER_SPARSE
+      result%solver = solver_name(SOLVER_SPARSE)
+      call start_phase('factor')
+      call factor_body(fem, i_body, body, result, status)
+      call stop_phase('factor')
+      call check_held(fem, i_body, is_held)
+      if (.not. is_ok(is_held)) status = is_held
+      select type (solver => body%solver)
+      type is (shared_body_t)
+         body%is_near = solver%is_near
+         if (allocated(solver%order)) result%order = solver%order
+         result%reason = 'on '//rank_text(solver)
+      end select
+   end subroutine condense_shared_body
+
+   !> 'rank 3', '4 ranks'
+   function rank_text(solver) result(text)
+      type(shared_body_t), intent(in) :: solver
+      character(len=:), allocatable :: text
+
+      if (size(solver%piece) == 1) then
+         text = 'rank '//to_text(solver%piece(1)%rank)
+      else
+         text = to_text(size(solver%piece, kind=ip))//' ranks'
+      end if
+   end function rank_text
+
+   !> Lets go of bodies that are not all factored: the answers of the ranks are waited for.
+   subroutine give_up(shared, condensed)
+      type(shared_body_t), intent(inout) :: shared(:)
+      integer(ip), intent(in) :: condensed           !< the last of which there are no answers to come
+      type(outcome_t) :: outcome
+      integer(ip) :: b, p
+
+      do b = 1, size(shared, kind=ip)
+         if (.not. allocated(shared(b)%piece)) cycle
+         do p = 1, size(shared(b)%piece, kind=ip)
+            if (b > condensed .and. shared(b)%piece(p)%rank > 0) call receive_outcome(shared(b)%piece(p)%rank, outcome)
+         end do
+         call forget_pieces(shared(b))
+      end do
+   end subroutine give_up
+
+   !> The ranks give back what they have of bodies that are not needed any more.
+   subroutine forget_shared(bodies)
+      type(condensed_body_t), intent(inout) :: bodies(:)
+      integer(ip) :: b
+
+      do b = 1, size(bodies, kind=ip)
+         if (.not. allocated(bodies(b)%solver)) cycle
+         select type (solver => bodies(b)%solver)
+         type is (shared_body_t)
+            call forget_pieces(solver)
+         end select
+      end do
+   end subroutine forget_shared
+
+end module atrito_sharing
