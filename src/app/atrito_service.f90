@@ -6,7 +6,8 @@ module atrito_service
    use atrito_part_service, only: serve_parts
    use atrito_part_store, only: part_store_t
    use atrito_part_tops, only: serve_tops, top_store_t
-   use atrito_rank_services, only: SERVICE_END, SERVICE_PARTS, SERVICE_TOPS
+   use atrito_rank_services, only: SERVICE_END, SERVICE_FIELDS, SERVICE_PARTS, SERVICE_TOPS
+   use atrito_shared_fields, only: serve_fields
    implicit none (type, external)
    private
    public :: serve
@@ -30,6 +31,8 @@ contains
             call serve_parts(parts, request)
          case (SERVICE_TOPS)
             call serve_tops(parts, tops, request)
+         case (SERVICE_FIELDS)
+            call serve_fields(request)
          case default
             error stop 'atrito_service: an unknown service is wanted'
          end select

@@ -5,11 +5,12 @@ module atrito_rank_services
    use atrito_parcel, only: parcel_t, put
    implicit none (type, external)
    private
-   public :: dismiss_ranks, SERVICE_END, SERVICE_PARTS, SERVICE_TOPS
+   public :: dismiss_ranks, SERVICE_END, SERVICE_PARTS, SERVICE_TOPS, SERVICE_FIELDS
 
    integer(ip), parameter :: SERVICE_END = 0_ip    !< nothing more
    integer(ip), parameter :: SERVICE_PARTS = 1_ip  !< of the parts of a scene (atrito_part_service)
    integer(ip), parameter :: SERVICE_TOPS = 2_ip   !< of what their bodies have in common (atrito_part_tops)
+   integer(ip), parameter :: SERVICE_FIELDS = 3_ip !< stresses and their error (atrito_shared_fields)
 
 contains
 

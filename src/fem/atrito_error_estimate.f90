@@ -12,7 +12,7 @@ module atrito_error_estimate
    use atrito_threads, only: is_shared, chunk_count, find_chunk
    implicit none (type, external)
    private
-   public :: energies_t, measure_error, relative_error
+   public :: energies_t, measure_error, integrate_error, relative_error, share_errors
 
    !> Integrals over all elements [F L].
    type :: energies_t
@@ -38,6 +38,19 @@ contains
       !< squares of very large or small ones stay in the range of numbers
       real(wp), intent(out), optional :: element_error(:) !< (n_elements) share of the relative error, whose square is the sum of
       !< their squares [%]
+
+      call integrate_error(fem, u, field, energies, unit, element_error)
+      if (present(element_error)) element_error = share_errors(energies, element_error)
+   end subroutine measure_error
+
+   !> The integrals alone.
+   subroutine integrate_error(fem, u, field, energies, unit, square)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) [L]
+      type(stress_field_t), intent(in) :: field
+      type(energies_t), intent(out) :: energies
+      real(wp), intent(in), optional :: unit        !< as that of measure_error
+      real(wp), intent(out), optional :: square(:)  !< (n_elements) ||e||^2 [F L]
       type(point_rule_t) :: rules(MOST_NODES)
       type(energies_t) :: parts(chunk_count(fem%mesh%n_elements))
       real(wp) :: per_unit
@@ -48,15 +61,14 @@ contains
       call make_point_rules(ERROR_POINTS_OF, rules)
       !$omp parallel do schedule(dynamic) if (is_shared(fem%mesh%n_elements))
       do chunk = 1, size(parts, kind=ip)
-         call measure_chunk(fem, u, field, per_unit, rules, chunk, parts(chunk), element_error)
+         call measure_chunk(fem, u, field, per_unit, rules, chunk, parts(chunk), square)
       end do
       !$omp end parallel do
       energies%solution = sum(parts%solution)
       energies%error = sum(parts%error)
       energies%round_off = sum(parts%round_off)
       energies%strain = maxval([parts%strain, 0.0_wp])/per_unit
-      if (present(element_error)) element_error = share_errors(energies, element_error)
-   end subroutine measure_error
+   end subroutine integrate_error
 
    !> From ||e||^2 of the elements to their shares of the relative error [%].
    pure function share_errors(energies, squares) result(shares)

@@ -21,7 +21,8 @@ module atrito_condensed_body
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: condensed_body_t, condense_body, check_held, factor_body, choose_solver, set_load, contact_response, add_flexibilities, &
+   public :: condensed_body_t, condense_body, check_held, factor_body, choose_solver, set_load, contact_response, &
+             add_flexibilities, &
              expand_body, motion_text, body_text, how_it_moves, sparse_cost
 
    type :: condensed_body_t

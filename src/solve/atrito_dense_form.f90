@@ -138,15 +138,21 @@ contains
 
    !> Over the ranks, where there are others and it is worth it.
    subroutine share_out(data, store)
-      type(scene_data_t), intent(in) :: data
+      type(scene_data_t), intent(inout) :: data
       type(body_cache_t), intent(inout) :: store
+      integer(ip) :: p
 
       if (allocated(store%shares)) deallocate (store%shares)
+      if (allocated(data%rank_of)) deallocate (data%rank_of)
       if (.not. any(data%solver_kind == [0, SOLVER_SPARSE])) return
       if (.not. is_worth_sharing(data%fem, rank_count())) return
       call start_phase('order')
       allocate (store%shares)
       call make_shares(data%fem, data%rows, rank_count(), store%shares)
+      allocate (data%rank_of(data%fem%mesh%n_elements), source=0_ip)
+      do p = 1, store%shares%n
+         data%rank_of(store%shares%list(p)%elements) = store%shares%list(p)%rank
+      end do
       call stop_phase('order')
    end subroutine share_out
 

@@ -26,6 +26,7 @@ module atrito_increment
    use atrito_scene_data, only: scene_data_t
    use atrito_section_forces, only: sum_cuts
    use atrito_sparse_form, only: solve_sparse_form
+   use atrito_shared_fields, only: estimate_on_ranks
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
@@ -290,7 +291,11 @@ contains
       call recover_stress(data%step%requests, data%fem, results)
       call stop_phase('recover')
       call start_phase('estimate')
-      call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
+      if (allocated(data%rank_of)) then
+         call estimate_on_ranks(data%fem, data%rank_of, results, strain_bound, data%wants_element_errors)
+      else
+         call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
+      end if
       call find_large(data%model, data%fem, strain_bound, results)
       call find_extremes(data%model%mesh, data%fem%bodies%of_node, data%points, results)
       call stop_phase('estimate')

@@ -20,6 +20,7 @@ module atrito_part
    implicit none (type, external)
    private
    public :: part_t, make_part, release_part, put_part, take_part, load_of_part
+   public :: put_mesh, put_sections, unpack_mesh, unpack_sections
 
    !> Assigned, it has the same mesh: release_part is for the last that has it.
    type :: part_t

@@ -49,6 +49,7 @@ module atrito_scene_data
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
+      integer(ip), allocatable :: rank_of(:)                !< (n_elements) not allocated: the first rank has all
       ! Of a history:
       logical :: keeps = .false.                            !< what one increment leaves serves the next
       logical :: may_cut = .false.                          !< without a solution a shorter increment is tried

@@ -14,7 +14,8 @@ module atrito_shared_body
    use atrito_linear_solver, only: linear_solver_t, factor_report_t
    use atrito_part_service, only: ask_to_expand, ask_to_forget, ask_to_reduce, fetch_schur, receive_columns, receive_outcome
    use atrito_part_store, only: part_store_t, outcome_t, find_part, forget_part, get_part_schur
-   use atrito_part_tops, only: top_store_t, ask_for_top, find_top, forget_top, make_top, TOP_EXPAND, TOP_FORGET, TOP_MAKE, TOP_REDUCE
+   use atrito_part_tops, only: top_store_t, ask_for_top, find_top, forget_top, make_top, TOP_EXPAND, TOP_FORGET, TOP_MAKE, &
+                               TOP_REDUCE
    use atrito_profile, only: profile_t
    use atrito_shared_system, only: expand_shared, reduce_shared, schur_of_shared
    use atrito_shares, only: top_t

@@ -1,0 +1,254 @@
+!> Recovered stresses and the estimated error over the ranks, each with its own elements.
+!>
+!> A rank gets its elements first, then those in RINGS round them: patches of stresses at the nodes of its own elements look no
+!> farther (a node of the outline takes its stress from the patches of corners next to it, a triangle in a corner from those of its
+!> neighbour, and what a patch is told by the elements round it). So nothing is exchanged at borders, and each value is that of one
+!> process but for the order of sums.
+module atrito_shared_fields
+   use atrito_assembly, only: fem_t
+   use atrito_error_estimate, only: energies_t, integrate_error, relative_error, share_errors
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: mesh_t
+   use atrito_mpi, only: rank_count, receive_parcel, send_parcel
+   use atrito_parcel, only: parcel_t, put, take
+   use atrito_part, only: put_mesh, put_sections, unpack_mesh, unpack_sections
+   use atrito_plane_state, only: STRESS_NAMES
+   use atrito_range, only: unit_of
+   use atrito_rank_services, only: SERVICE_FIELDS
+   use atrito_results, only: results_t
+   use atrito_stress_recovery, only: stress_field_t, nodal_stresses, recover_stress_field
+   use atrito_thermal_loads, only: largest_thermal_strain
+   implicit none (type, external)
+   private
+   public :: estimate_on_ranks, serve_fields
+
+   integer(ip), parameter :: RINGS = 4
+
+   !> The elements of a rank, and what is round them.
+   type :: region_t
+      integer(ip) :: n_own = 0                       !< elements of the rank: the first ones
+      integer(ip) :: n_nodes = 0                     !< of them: the first ones
+      integer(ip), allocatable :: element(:)         !< place in the mesh of the scene
+      integer(ip), allocatable :: node(:)
+      type(fem_t) :: fem                             !< its mesh is the region's own
+   end type region_t
+
+   !> What is found in a region.
+   type :: found_t
+      real(wp), allocatable :: stress(:, :)          !< (5, nodes of the rank's elements) [F/L^2]
+      type(energies_t) :: energies
+      real(wp), allocatable :: square(:)             !< (elements of the rank) ||e||^2 [F L]; none where nobody asks
+   end type found_t
+
+contains
+
+   !> The same as estimate_error.
+   subroutine estimate_on_ranks(fem, rank_of, results, strain_bound, by_element)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: rank_of(:)          !< (n_elements)
+      type(results_t), intent(inout) :: results
+      real(wp), intent(out) :: strain_bound          !< no strain is larger than this
+      logical, intent(in) :: by_element
+      type(region_t), allocatable :: regions(:)      ! from 0
+      type(found_t) :: found
+      type(energies_t) :: energies
+      real(wp) :: unit
+      integer(ip) :: rank
+
+      allocate (results%nodal_stress(size(STRESS_NAMES), fem%mesh%n_nodes), source=0.0_wp)
+      if (by_element .and. .not. allocated(results%element_error)) allocate (results%element_error(fem%mesh%n_elements))
+      allocate (regions(0:rank_count() - 1))
+      unit = unit_of(results%u)
+      do rank = rank_count() - 1, 0, -1
+         call find_region(fem%mesh, rank_of, rank, regions(rank))
+         call make_region(fem, regions(rank))
+         if (rank == 0) cycle
+         call give_region(regions(rank), results%u(:, regions(rank)%node), unit, by_element, rank)
+         deallocate (regions(rank)%fem%mesh)
+      end do
+      call measure_region(regions(0), results%u(:, regions(0)%node), unit, by_element, found)
+      deallocate (regions(0)%fem%mesh)
+      call take_found(regions(0), found, results, energies)
+      do rank = 1, rank_count() - 1
+         call receive_found(rank, found)
+         call take_found(regions(rank), found, results, energies)
+      end do
+      if (by_element) results%element_error = share_errors(energies, results%element_error)
+      results%error_estimate = relative_error(energies)
+      strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! as estimate_error
+   end subroutine estimate_on_ranks
+
+   !> Joins in; what is left of the parcel comes behind SERVICE_FIELDS.
+   subroutine serve_fields(request)
+      type(parcel_t), intent(inout) :: request
+      type(region_t) :: region
+      type(found_t) :: found
+      type(parcel_t) :: answer
+      real(wp), allocatable :: u(:, :)
+      real(wp) :: unit
+      logical :: by_element
+
+      call take(request, region%n_own)
+      call take(request, region%n_nodes)
+      call take(request, unit)
+      call take(request, by_element)
+      call take(request, u)
+      allocate (region%fem%mesh)
+      call unpack_mesh(request, region%fem%mesh)
+      call unpack_sections(request, region%fem)
+      call measure_region(region, u, unit, by_element, found)
+      deallocate (region%fem%mesh)
+      call put(answer, found%stress)
+      associate (e => found%energies)
+         call put(answer, [e%solution, e%error, e%round_off, e%strain])
+      end associate
+      call put(answer, found%square)
+      call send_parcel(answer, 0_ip)
+   end subroutine serve_fields
+
+   subroutine give_region(region, u, unit, by_element, rank)
+      type(region_t), intent(in) :: region
+      real(wp), intent(in), contiguous :: u(:, :)    !< (2, nodes of the region) [L]
+      real(wp), intent(in) :: unit
+      logical, intent(in) :: by_element
+      integer(ip), intent(in) :: rank
+      type(parcel_t) :: request
+
+      call put(request, SERVICE_FIELDS)
+      call put(request, region%n_own)
+      call put(request, region%n_nodes)
+      call put(request, unit)
+      call put(request, by_element)
+      call put(request, u)
+      call put_mesh(region%fem%mesh, request)
+      call put_sections(region%fem, request)
+      call send_parcel(request, rank)
+   end subroutine give_region
+
+   subroutine receive_found(rank, found)
+      integer(ip), intent(in) :: rank
+      type(found_t), intent(out) :: found
+      type(parcel_t) :: answer
+      real(wp), allocatable :: sums(:)
+
+      call receive_parcel(answer, rank)
+      call take(answer, found%stress)
+      call take(answer, sums)
+      found%energies = energies_t(sums(1), sums(2), sums(3), sums(4))
+      call take(answer, found%square)
+   end subroutine receive_found
+
+   !> Adds what was found in a region; at a border the last rank has its way.
+   pure subroutine take_found(region, found, results, energies)
+      type(region_t), intent(in) :: region
+      type(found_t), intent(in) :: found
+      type(results_t), intent(inout) :: results
+      type(energies_t), intent(inout) :: energies
+
+      results%nodal_stress(:, region%node(:region%n_nodes)) = found%stress
+      energies%solution = energies%solution + found%energies%solution
+      energies%error = energies%error + found%energies%error
+      energies%round_off = energies%round_off + found%energies%round_off
+      energies%strain = max(energies%strain, found%energies%strain)
+      if (allocated(results%element_error)) results%element_error(region%element(:region%n_own)) = found%square
+   end subroutine take_found
+
+   !> Stresses at the nodes of the rank's elements, and their error.
+   subroutine measure_region(region, u, unit, by_element, found)
+      type(region_t), intent(inout) :: region
+      real(wp), intent(in) :: u(:, :)                !< (2, nodes of the region) [L]
+      real(wp), intent(in) :: unit
+      logical, intent(in) :: by_element
+      type(found_t), intent(out) :: found
+      type(stress_field_t) :: field
+      real(wp), allocatable :: stress(:, :)
+
+      call recover_stress_field(region%fem, u, field)
+      call nodal_stresses(region%fem, field, stress)
+      found%stress = stress(:, :region%n_nodes)
+      region%fem%mesh%n_elements = region%n_own      ! those round them have served
+      allocate (found%square(merge(region%n_own, 0_ip, by_element)))
+      if (by_element) then
+         call integrate_error(region%fem, u, field, found%energies, unit, found%square)
+      else
+         call integrate_error(region%fem, u, field, found%energies, unit)
+      end if
+   end subroutine measure_region
+
+   !> The elements of a rank, then those in the rings round them; and their nodes in this order.
+   pure subroutine find_region(mesh, rank_of, rank, region)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: rank_of(:), rank
+      type(region_t), intent(out) :: region
+      logical :: is_in(mesh%n_elements), is_known(mesh%n_nodes), touches(mesh%n_nodes)
+      integer(ip) :: ring, e, n, n_nodes
+
+      region%n_own = count(rank_of == rank, kind=ip)
+      allocate (region%element(mesh%n_elements), region%node(mesh%n_nodes))
+      n = 0
+      n_nodes = 0
+      is_in = rank_of == rank
+      is_known = .false.
+      do ring = 0, RINGS
+         touches = is_known
+         do e = 1, mesh%n_elements
+            if (ring == 0 .and. .not. is_in(e)) cycle
+            if (ring > 0) then
+               if (is_in(e)) cycle
+               if (.not. any(touches(mesh%nodes(:mesh%shape(e), e)))) cycle
+            end if
+            is_in(e) = .true.
+            n = n + 1
+            region%element(n) = e
+            call add_nodes_of(mesh%nodes(:mesh%shape(e), e), is_known, region%node, n_nodes)
+         end do
+         if (ring == 0) region%n_nodes = n_nodes
+      end do
+      region%element = region%element(:n)
+      region%node = region%node(:n_nodes)
+   end subroutine find_region
+
+   pure subroutine add_nodes_of(nodes, is_known, list, n)
+      integer(ip), intent(in) :: nodes(:)
+      logical, intent(inout) :: is_known(:)
+      integer(ip), intent(inout) :: list(:), n
+      integer(ip) :: k
+
+      do k = 1, size(nodes, kind=ip)
+         if (is_known(nodes(k))) cycle
+         is_known(nodes(k)) = .true.
+         n = n + 1
+         list(n) = nodes(k)
+      end do
+   end subroutine add_nodes_of
+
+   !> Mesh and sections of a region.
+   subroutine make_region(fem, region)
+      type(fem_t), intent(in) :: fem
+      type(region_t), intent(inout) :: region
+      integer(ip), allocatable :: local(:)
+      integer(ip) :: i
+
+      allocate (local(fem%mesh%n_nodes), region%fem%mesh)
+      local(region%node) = [(i, i=1, size(region%node, kind=ip))]
+      associate (own => region%fem%mesh, mesh => fem%mesh)
+         own%n_nodes = size(region%node, kind=ip)
+         own%n_elements = size(region%element, kind=ip)
+         own%node_id = mesh%node_id(region%node)
+         own%x = mesh%x(:, region%node)
+         own%element_id = mesh%element_id(region%element)
+         own%shape = mesh%shape(region%element)
+         own%state = mesh%state(region%element)
+         own%nodes = mesh%nodes(:, region%element)
+         if (allocated(mesh%thickness)) own%thickness = mesh%thickness(region%node)
+         do i = 1, own%n_elements
+            own%nodes(:own%shape(i), i) = local(own%nodes(:own%shape(i), i))
+         end do
+      end associate
+      region%fem%sections = fem%sections
+      region%fem%section_of = fem%section_of(region%element)
+      region%fem%grain = fem%grain
+      if (allocated(fem%heating)) region%fem%heating = fem%heating(region%node)
+   end subroutine make_region
+
+end module atrito_shared_fields
