@@ -6,7 +6,7 @@ module atrito_mpi
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp, wp
    use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes, parcel_length
-   use mpi_f08, only: MPI_Abort, MPI_Allreduce, MPI_ANY_SOURCE, MPI_BYTE, MPI_Comm_rank, MPI_Comm_size, MPI_COMM_SELF, &
+   use mpi_f08, only: MPI_Abort, MPI_Allreduce, MPI_ANY_SOURCE, MPI_Bcast, MPI_BYTE, MPI_Comm_rank, MPI_Comm_size, MPI_COMM_SELF, &
                       MPI_COMM_WORLD, MPI_DOUBLE_PRECISION, MPI_Finalize, MPI_Get_library_version, MPI_Init_thread, MPI_INTEGER, &
                       MPI_INTEGER8, MPI_Iprobe, MPI_MAX, MPI_MAX_LIBRARY_VERSION_STRING, MPI_Recv, MPI_Reduce, MPI_Send, &
                       MPI_Status, MPI_STATUS_IGNORE, MPI_SUM, MPI_THREAD_FUNNELED
@@ -14,7 +14,7 @@ module atrito_mpi
    private
    public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ANY_RANK
    public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
-   public :: all_ranks_communicator, own_communicator, mpi_name
+   public :: spread_from_first, all_ranks_communicator, own_communicator, has_mpi, mpi_name
 
    !> The sender of any message that waits.
    integer(ip), parameter :: ANY_RANK = -1_ip
@@ -123,6 +123,17 @@ contains
       largest = int(found(1), ip)
    end function largest_of_ranks
 
+   !> Gives all ranks the numbers that rank 0 has. All ranks call it.
+   subroutine spread_from_first(x)
+      real(wp), intent(inout), contiguous :: x(:)    !< of one length on all ranks
+      integer(lp) :: first, last
+
+      do first = 1, size(x, kind=lp), SLICE/8
+         last = min(size(x, kind=lp), first + SLICE/8 - 1)
+         call MPI_Bcast(x(first:last), int(last - first + 1), MPI_DOUBLE_PRECISION, 0, MPI_COMM_WORLD)
+      end do
+   end subroutine spread_from_first
+
    !> The communicator of all ranks, for a library that takes it as a number.
    integer function all_ranks_communicator() result(communicator)
       communicator = MPI_COMM_WORLD%MPI_VAL
@@ -132,6 +143,11 @@ contains
    integer function own_communicator() result(communicator)
       communicator = MPI_COMM_SELF%MPI_VAL
    end function own_communicator
+
+   !> Whether the ranks are those of MPI: a library that comes in two kinds is wanted in that for MPI then.
+   pure logical function has_mpi()
+      has_mpi = .true.
+   end function has_mpi
 
    !> For --version: 'Open MPI v4.1.4'.
    function mpi_name() result(name)

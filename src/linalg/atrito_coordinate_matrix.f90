@@ -6,7 +6,7 @@ module atrito_coordinate_matrix
    use atrito_kinds, only: ip, lp, wp
    implicit none (type, external)
    private
-   public :: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
+   public :: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix, root_scale
 
    type :: coordinate_matrix_t
       integer(ip) :: n = 0                       !< order

@@ -3,8 +3,13 @@
 !> It is loaded when it is asked for, not with the program: starting would cost a millisecond more for it and for what it needs, and
 !> most scenes do without. CMake says which file that is (ATRITO_MUMPS_LIBRARY, its name with the version in it) and which version
 !> the header has whose dmumps_struc is compiled in (ATRITO_MUMPS_VERSION).
+!>
+!> There are two such files of one version: the sequential one, with an MPI of its own that does nothing, for the plain program, and
+!> that for ranks (ATRITO_MUMPS_RANKS_LIBRARY). A process may never have both, whose MPI would be that of the first: the program with
+!> ranks takes the second one for the bodies of a single rank as well.
 module atrito_mumps_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
+   use atrito_mpi, only: has_mpi, own_communicator
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    use atrito_system, only: find_routine
@@ -44,22 +49,33 @@ contains
    pure function mumps_trouble() result(text)
       character(len=:), allocatable :: text
 
-      text = 'the library '//ATRITO_MUMPS_LIBRARY//' cannot be loaded'
+      text = 'the library '//library_file()//' cannot be loaded'
    end function mumps_trouble
 
-   !> An instance for a symmetric positive definite matrix whose diagonal is about 1.
+   !> What is loaded.
+   pure function library_file() result(file)
+      character(len=:), allocatable :: file
+
+      file = ATRITO_MUMPS_LIBRARY
+      if (has_mpi()) file = ATRITO_MUMPS_RANKS_LIBRARY
+   end function library_file
+
+   !> An instance for a symmetric positive definite matrix whose diagonal is about 1, of this rank alone or of all ranks, which call
+   !> it together then.
    !>
    !> status: STATUS_INTERNAL: there is no library, or it is of a version whose dmumps_struc may be another one. Such an instance is
    !> left alone.
-   subroutine begin_mumps(instance, status)
+   subroutine begin_mumps(instance, status, communicator)
       type(dmumps_struc), intent(inout) :: instance
       type(status_t), intent(out) :: status
+      integer, intent(in), optional :: communicator   !< of the ranks that work on it; this rank alone without it
 
       if (.not. has_mumps()) then
          call set_status(status, STATUS_INTERNAL, mumps_trouble())
          return
       end if
-      instance%comm = 0
+      instance%comm = own_communicator()
+      if (present(communicator)) instance%comm = communicator
       instance%par = 1
       instance%sym = 1                           ! positive definite: pivots in the order of the analysis
       instance%version_number = ''
@@ -81,7 +97,7 @@ contains
 
       text = 'another version'
       if (verify(trim(found), '0123456789.') == 0 .and. len_trim(found) > 0) text = 'version '//trim(found)
-      text = 'the library '//ATRITO_MUMPS_LIBRARY//' is '//text//' of MUMPS, and this program was built for '// &
+      text = 'the library '//library_file()//' is '//text//' of MUMPS, and this program was built for '// &
              ATRITO_MUMPS_VERSION//': build it anew'
    end function version_text
 
@@ -105,7 +121,7 @@ contains
       type(c_funptr) :: routine
 
       mumps => null()
-      routine = find_routine(ATRITO_MUMPS_LIBRARY, 'dmumps_')
+      routine = find_routine(library_file(), 'dmumps_')
       if (c_associated(routine)) call c_f_procpointer(routine, mumps)
    end subroutine load_mumps
 
