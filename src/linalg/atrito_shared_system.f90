@@ -58,7 +58,7 @@ module atrito_shared_system
    integer, parameter :: NO_ROOM(*) = [-8, -9, -14, -15, -17, -20]
    integer, parameter :: NO_MEMORY = -13
    !> More room than predicted, in per cent, at first and when that was too little.
-   integer, parameter :: ROOM(*) = [30, 100, 400]
+   integer, parameter :: ROOM(*) = [30, 100, 400, 3000]
    !> Digits lost from which the place is worth two solves; what is added to a matrix that could not be factored, of its diagonal, to
    !> find the motion that it leaves free. As in atrito_mumps.
    real(wp), parameter :: MANY_DIGITS = 9.0_wp, SHIFT = 1.0e-13_wp
@@ -117,7 +117,7 @@ contains
             allocate (mumps%listvar_schur(n_kept))
             mumps%listvar_schur = [(i, i=system%n - n_kept + 1, system%n)]
             mumps%size_schur = n_kept
-            mumps%icntl(19) = 2                   ! lower triangle by columns
+            mumps%icntl(19) = 1                   ! lower triangle by columns
             mumps%nprow = 1                       ! all of it on rank 0
             mumps%npcol = 1
             mumps%mblock = 100
@@ -443,8 +443,8 @@ contains
       associate (n => system%n_kept)
          do j = 1, n
             first = int(j - 1, lp)*int(n, lp)
-            schur(j:, j) = system%schur(first + j:first + n)
-            schur(j, j + 1:) = schur(j + 1:, j)
+            schur(:j, j) = system%schur(first + 1:first + j)
+            schur(j, :j - 1) = schur(:j - 1, j)
          end do
       end associate
       deallocate (system%schur)

@@ -75,7 +75,7 @@ contains
          if (fem%bodies%list(b)%is_rigid) then             ! nothing to factor
             call check_held(fem, b, status)
             if (.not. is_ok(status)) then
-               if (allocated(shared)) call give_up(shared, b)
+               if (allocated(shared)) call give_up(shared)
                return
             end if
             cycle
@@ -94,7 +94,7 @@ contains
                call condense_body(fem, b, asked, bodies(b), results(b), status)
             end if
             if (.not. is_ok(status)) then
-               if (allocated(shared)) call give_up(shared, b)
+               if (allocated(shared)) call give_up(shared)
                return
             end if
             store%factorisations = store%factorisations + 1

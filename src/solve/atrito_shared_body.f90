@@ -12,7 +12,7 @@
 module atrito_shared_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: linear_solver_t, factor_report_t
-   use atrito_part_service, only: ask_to_expand, ask_to_forget, ask_to_reduce, fetch_schur, receive_columns, receive_outcome
+   use atrito_part_service, only: ask_to_expand, ask_to_forget, ask_to_reduce, fetch_schur, receive_columns
    use atrito_part_store, only: part_store_t, outcome_t, find_part, forget_part, get_part_schur
    use atrito_part_tops, only: top_store_t, ask_for_top, find_top, forget_top, make_top, TOP_EXPAND, TOP_FORGET, TOP_MAKE, &
                                TOP_REDUCE
@@ -43,7 +43,7 @@ module atrito_shared_body
    type, extends(linear_solver_t) :: shared_body_t
       type(first_rank_t), pointer :: own => null()
       type(piece_t), allocatable :: piece(:)
-      type(outcome_t), allocatable :: outcome(:) !< (pieces) of those of the first rank
+      type(outcome_t), allocatable :: outcome(:) !< (pieces)
       type(top_t) :: top
       logical :: is_near = .false.
       character(len=:), allocatable :: order     !< how the order of elimination was found
@@ -78,7 +78,7 @@ contains
       error stop 'atrito_shared_body: elements go to the ranks as parts'
    end subroutine add_nothing
 
-   !> Waits for the factors of all parts; then the ranks eliminate the border. status: of the first part that has none.
+   !> What became of the factors of all parts; then the ranks eliminate the border. status: of the first part that has none.
    subroutine collect_outcomes(self, status)
       class(shared_body_t), intent(inout) :: self
       type(status_t), intent(out) :: status
@@ -86,7 +86,6 @@ contains
 
       self%report = factor_report_t()
       do p = 1, size(self%piece, kind=ip)
-         if (self%piece(p)%rank > 0) call receive_outcome(self%piece(p)%rank, self%outcome(p))
          call add_report(self%piece(p), self%outcome(p), self%report)
          if (is_ok(status) .and. .not. is_ok(self%outcome(p)%status)) then
             call set_status(status, self%outcome(p)%status%code, self%outcome(p)%status%text)

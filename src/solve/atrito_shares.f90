@@ -46,7 +46,7 @@ module atrito_shares
    end type shares_t
 
    !> Scenes of less work, some 2e5 displacements in one body or 0.3 s of one process, are not shared out.
-   real(wp), parameter :: LEAST_WORK = 2.0e9_wp
+   real(wp), parameter :: LEAST_WORK = 1.0e8_wp
    !> A piece with this share of what is fair has a rank of its own; less than this, of what is fair, is no piece of its own.
    real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
    !> The largest work of a rank over the mean for which nothing is cut any more, and pieces of the fair share that are not.

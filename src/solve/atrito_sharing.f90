@@ -5,7 +5,7 @@ module atrito_sharing
    use atrito_kinds, only: ip
    use atrito_part, only: part_t, make_part, release_part
    use atrito_part_service, only: ask_for_factors, give_part, receive_outcome
-   use atrito_part_store, only: outcome_t, factor_part, find_part, hold_part
+   use atrito_part_store, only: factor_part, find_part, hold_part
    use atrito_results, only: body_result_t
    use atrito_shared_body, only: shared_body_t, first_rank_t, forget_pieces
    use atrito_shares, only: shares_t
@@ -19,7 +19,8 @@ module atrito_sharing
 
 contains
 
-   !> Gives the parts of some bodies to their ranks and has all ranks factor them; those of the first rank are factored on return.
+   !> Gives the parts of some bodies to their ranks and has all ranks factor them, at the same time. On return it is known what
+   !> became of them all: a rank answers what it is asked in order, so nothing else may be asked before.
    subroutine share_bodies(fem, shares, wanted, first, shared)
       type(fem_t), intent(in) :: fem
       type(shares_t), intent(in) :: shares
@@ -45,6 +46,12 @@ contains
          do p = 1, size(shared(b)%piece, kind=ip)
             if (shared(b)%piece(p)%rank > 0) cycle
             call factor_part(first%parts%list(find_part(first%parts, shared(b)%piece(p)%ticket)), shared(b)%outcome(p))
+         end do
+      end do
+      do b = 1, fem%bodies%n
+         if (.not. wanted(b)) cycle
+         do p = 1, size(shared(b)%piece, kind=ip)
+            if (shared(b)%piece(p)%rank > 0) call receive_outcome(shared(b)%piece(p)%rank, shared(b)%outcome(p))
          end do
       end do
       call stop_phase('factor')
@@ -85,22 +92,21 @@ contains
       end do
    end subroutine give_body
 
-   !> Waits for the factors of a body's parts and condenses it. status: as condense_body.
+   !> Condenses a body by the factors of its parts. status: as condense_body.
    subroutine condense_shared_body(fem, i_body, body, result, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       type(condensed_body_t), intent(inout) :: body  !< its solver is a shared_body_t
       type(body_result_t), intent(inout) :: result
       type(status_t), intent(out) :: status
-      type(status_t) :: is_held
 
+      call check_held(fem, i_body, status)
+      if (.not. is_ok(status)) return
       result%solver_kind = SOLVER_SPARSE
       result%solver = solver_name(SOLVER_SPARSE)
       call start_phase('factor')
       call factor_body(fem, i_body, body, result, status)
       call stop_phase('factor')
-      call check_held(fem, i_body, is_held)
-      if (.not. is_ok(is_held)) status = is_held
       select type (solver => body%solver)
       type is (shared_body_t)
          body%is_near = solver%is_near
@@ -121,18 +127,12 @@ contains
       end if
    end function rank_text
 
-   !> Lets go of bodies that are not all factored: the answers of the ranks are waited for.
-   subroutine give_up(shared, condensed)
+   !> The ranks give back bodies of which one has no factors.
+   subroutine give_up(shared)
       type(shared_body_t), intent(inout) :: shared(:)
-      integer(ip), intent(in) :: condensed           !< the last of which there are no answers to come
-      type(outcome_t) :: outcome
-      integer(ip) :: b, p
+      integer(ip) :: b
 
       do b = 1, size(shared, kind=ip)
-         if (.not. allocated(shared(b)%piece)) cycle
-         do p = 1, size(shared(b)%piece, kind=ip)
-            if (b > condensed .and. shared(b)%piece(p)%rank > 0) call receive_outcome(shared(b)%piece(p)%rank, outcome)
-         end do
          call forget_pieces(shared(b))
       end do
    end subroutine give_up
