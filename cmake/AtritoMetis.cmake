@@ -1,7 +1,7 @@
 # METIS, which orders bodies whose elements are graded or lie askew. Sets ATRITO_METIS_FOUND, and then ATRITO_METIS_FILE (what the
 # program loads when it needs it: the name with the version, as the linker would take it) and ATRITO_METIS_VERSION.
 #
-# It is not linked: few runs need it, and every start of the program would pay for it. The program hands it integers of 32 bits; a
+# It is not linked: few runs need it, and every start of the program would pay for it. The program hands it integers and reals of 32 bits; a
 # METIS with others is as good as none, so its header is read.
 include_guard()
 
@@ -12,7 +12,7 @@ mark_as_advanced(ATRITO_METIS_INCLUDE_DIR ATRITO_METIS_LIBRARY_PATH)
 
 if(ATRITO_METIS_INCLUDE_DIR AND ATRITO_METIS_LIBRARY_PATH)
    file(READ ${ATRITO_METIS_INCLUDE_DIR}/metis.h header)
-   if(header MATCHES "define +IDXTYPEWIDTH +32")
+   if(header MATCHES "define +IDXTYPEWIDTH +32" AND header MATCHES "define +REALTYPEWIDTH +32")
       set(ATRITO_METIS_FILE ${ATRITO_METIS_LIBRARY_PATH})
       if(CMAKE_OBJDUMP)
          execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${ATRITO_METIS_LIBRARY_PATH} OUTPUT_VARIABLE headers ERROR_QUIET)

@@ -4,7 +4,7 @@
 !> with the version in it) and its version (ATRITO_METIS_VERSION), and sees to it that its integers have 32 bits.
 module atrito_metis
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_float, c_funptr, c_int32_t, c_int64_t, &
-                                          c_null_ptr, c_ptr
+                                                                             c_null_ptr, c_ptr
    use atrito_kinds, only: ip, wp
    use atrito_system, only: c_restore_halting, c_suspend_halting, find_routine, terminate
    implicit none (type, external)

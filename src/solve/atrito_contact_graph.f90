@@ -93,53 +93,53 @@ contains
    end subroutine close_contact_graph
 
    !> The rank of each vertex, from 1 on: by METIS, what has much in common on one rank; or greedily, where that is more even.
-   subroutine share_vertices(graph, work, n_ranks, rank)
+   subroutine share_vertices(graph, work, n_ranks, rank_of)
       type(contact_graph_t), intent(in) :: graph
       real(wp), intent(in) :: work(:)            !< (n) >= 0
       integer(ip), intent(in) :: n_ranks
-      integer(ip), intent(out) :: rank(:)        !< (n) 1..n_ranks
+      integer(ip), intent(out) :: rank_of(:)        !< (n) 1..n_ranks
       integer(ip) :: greedy(size(work))
       real(wp) :: load(n_ranks)
       logical :: done
 
       load = 0.0_wp
       call add_greedily(work, load, greedy)
-      rank = greedy
+      rank_of = greedy
       if (n_ranks == 1 .or. graph%n <= n_ranks) return
       call share_graph(graph%first, graph%neighbour, max(1_ip, int(SUM_OF_WEIGHTS*work/sum(work), ip)), graph%weight, n_ranks, &
-                       rank, done)
-      if (done) done = unevenness(work, rank, n_ranks) <= max(EVEN, unevenness(work, greedy, n_ranks))
-      if (.not. done) rank = greedy
+                       rank_of, done)
+      if (done) done = unevenness(work, rank_of, n_ranks) <= max(EVEN, unevenness(work, greedy, n_ranks))
+      if (.not. done) rank_of = greedy
    end subroutine share_vertices
 
    !> Gives the heavier vertices first, in classes of powers of two, each to the rank that has least by then.
-   pure subroutine add_greedily(work, load, rank)
+   pure subroutine add_greedily(work, load, rank_of)
       real(wp), intent(in) :: work(:)            !< (n) >= 0
       real(wp), intent(inout) :: load(:)         !< (ranks)
-      integer(ip), intent(out) :: rank(:)        !< (n) 1..size(load)
-      integer(ip) :: class(size(work)), c, i
+      integer(ip), intent(out) :: rank_of(:)        !< (n) 1..size(load)
+      integer(ip) :: magnitude(size(work)), m, i
 
-      class = exponent(work)
-      do c = maxval(class), minval(class), -1_ip
+      magnitude = exponent(work)
+      do m = maxval(magnitude), minval(magnitude), -1_ip
          do i = 1, size(work, kind=ip)
-            if (class(i) /= c) cycle
-            rank(i) = minloc(load, dim=1, kind=ip)
-            load(rank(i)) = load(rank(i)) + work(i)
+            if (magnitude(i) /= m) cycle
+            rank_of(i) = minloc(load, dim=1, kind=ip)
+            load(rank_of(i)) = load(rank_of(i)) + work(i)
          end do
       end do
    end subroutine add_greedily
 
    !> The largest work of a rank over the mean.
-   pure real(wp) function unevenness(work, rank, n_ranks)
+   pure real(wp) function unevenness(work, rank_of, n_ranks)
       real(wp), intent(in) :: work(:)
-      integer(ip), intent(in) :: rank(:)         !< 1..n_ranks
+      integer(ip), intent(in) :: rank_of(:)         !< 1..n_ranks
       integer(ip), intent(in) :: n_ranks
       real(wp) :: load(n_ranks)
       integer(ip) :: i
 
       load = 0.0_wp
       do i = 1, size(work, kind=ip)
-         load(rank(i)) = load(rank(i)) + work(i)
+         load(rank_of(i)) = load(rank_of(i)) + work(i)
       end do
       unevenness = maxval(load)*real(n_ranks, wp)/max(sum(load), tiny(1.0_wp))
    end function unevenness

@@ -22,7 +22,7 @@ module atrito_shares
    !> A part of the scene: a body, or a piece of one.
    type :: share_t
       integer(ip) :: body = 0
-      integer(ip) :: rank = 0                    !< 0..n_ranks - 1
+      integer(ip) :: rank = 0                       !< 0..n_ranks - 1
       logical :: is_whole = .true.               !< the body is
       real(wp) :: work = 0.0_wp                  !< predicted, operations of the skyline
       integer(ip), allocatable :: elements(:)    !< in the order of the body
@@ -191,28 +191,28 @@ contains
       integer(ip), intent(in) :: n_ranks
       type(share_t), intent(inout) :: list(:)
       type(contact_graph_t) :: graph
-      integer(ip) :: rank(size(list)), greedy(size(list)), n_full, p
+      integer(ip) :: rank_of(size(list)), greedy(size(list)), n_full, p
       integer(ip), allocatable :: rest(:), rank_of_rest(:)
       real(wp) :: load(n_ranks)
 
       n_full = 0
-      rank = 0
+      rank_of = 0
       do p = 1, size(list, kind=ip)
          if (list(p)%work < NEARLY_FAIR*fair .or. n_full == n_ranks - 1) cycle
          n_full = n_full + 1
-         rank(p) = n_full
+         rank_of(p) = n_full
       end do
-      rest = pack([(p, p=1, size(list, kind=ip))], rank == 0)
+      rest = pack([(p, p=1, size(list, kind=ip))], rank_of == 0)
       allocate (rank_of_rest(size(rest)))
       if (size(rest) > 0) then
          call make_graph(fem, rows, list, rest, graph)
          call share_vertices(graph, list(rest)%work, n_ranks - n_full, rank_of_rest)
       end if
-      rank(rest) = n_full + rank_of_rest
+      rank_of(rest) = n_full + rank_of_rest
       load = 0.0_wp
       call add_greedily(list%work, load, greedy)
-      if (unevenness(list%work, rank, n_ranks) > max(EVEN_ENOUGH, unevenness(list%work, greedy, n_ranks))) rank = greedy
-      list%rank = rank - 1
+      if (unevenness(list%work, rank_of, n_ranks) > max(EVEN_ENOUGH, unevenness(list%work, greedy, n_ranks))) rank_of = greedy
+      list%rank = rank_of - 1
    end subroutine give_to_ranks
 
    !> Parts are neighbours by contact points, by bilateral rows and by the nodes of cuts.
