@@ -12,8 +12,7 @@
 !> All ranks call every procedure in the same order (but memory_of_shared, schur_of_shared). With one rank it works as well.
 !>
 !> MUMPS sees the interior scaled to a diagonal between 1/2 and 2 by powers of two, as in atrito_mumps, for the same reasons. It
-!> reads the matrices where they are (distributed input, ICNTL(18)=3). Right-hand sides and solutions go through rank 0: they are the
-!> least of what is sent.
+!> reads the matrices where they are (ICNTL(18)=3). Right-hand sides and solutions go through rank 0: they are little.
 !>
 !> Reference: MUMPS users' guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
 module atrito_shared_system
@@ -24,6 +23,7 @@ module atrito_shared_system
    use atrito_mumps_library, only: dmumps_struc, begin_mumps, has_mumps, mumps_trouble, run_mumps
    use atrito_packed_matrices, only: packed_matrices_t, add_diagonals, add_packed_column, list_coordinates, packed_length, &
                                      raise_diagonals, scale_packed
+   use atrito_rank_values, only: add_up_values, spread_values
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
@@ -57,7 +57,6 @@ module atrito_shared_system
    integer, parameter :: NO_PIVOTS(2) = [-10, -40]
    !> INFOG(1) of work space that was predicted too small.
    integer, parameter :: NO_ROOM(*) = [-8, -9, -14, -15, -17, -20]
-   integer, parameter :: NO_MEMORY = -13
    !> More room than predicted, in per cent, at first and when that was too little.
    integer, parameter :: ROOM(*) = [30, 100, 400]
    !> Digits lost from which the place is worth two solves; what is added to a matrix that could not be factored, of its diagonal, to
@@ -140,6 +139,7 @@ contains
          call agree(status)
          if (is_ok(status)) call list_coordinates(system%own, mumps%irn_loc, mumps%jcn_loc)
       end associate
+      if (.not. is_ok(status)) call drop_coordinates(system)
    end subroutine make_coordinates
 
    !> MUMPS wants them no more.
@@ -147,7 +147,8 @@ contains
       type(shared_system_t), intent(inout) :: system
 
       associate (mumps => system%instance%mumps)
-         deallocate (mumps%irn_loc, mumps%jcn_loc)
+         if (associated(mumps%irn_loc)) deallocate (mumps%irn_loc)
+         if (associated(mumps%jcn_loc)) deallocate (mumps%jcn_loc)
          nullify (mumps%a_loc)
       end associate
    end subroutine drop_coordinates
@@ -165,17 +166,17 @@ contains
 
       system%report = factor_report_t()
       call find_scale(system, values, empty)
-      if (system%n == system%n_kept) then
-         call make_schur(system, status)
-         if (is_ok(status)) call add_up_kept(system, values)
-         return
-      else if (empty > 0) then
+      if (empty > 0) then
          system%report%worst_equation = empty
          system%report%digits_lost = ALL_DIGITS
          call set_status(status, STATUS_SINGULAR, 'the matrix is singular: unknown '//to_text(empty)//' is empty')
          return
       end if
       call make_schur(system, status)
+      if (system%n == system%n_kept) then
+         if (is_ok(status)) call add_up_kept(system, values)
+         return
+      end if
       if (is_ok(status)) call make_coordinates(system, status)
       if (.not. is_ok(status)) return
       call scale_packed(system%own, system%scale, values)
@@ -204,7 +205,7 @@ contains
       empty = findloc(abs(diagonal(:n_interior)) > 0.0_wp, .false., dim=1, kind=ip)
    end subroutine find_scale
 
-   !> Room for S on rank 0, where MUMPS, or add_up_kept, puts it.
+   !> Room for S on rank 0.
    subroutine make_schur(system, status)
       type(shared_system_t), intent(inout) :: system
       type(status_t), intent(inout) :: status
@@ -279,11 +280,9 @@ contains
       type(shared_system_t), intent(in) :: system
       type(status_t), intent(inout) :: status
 
-      associate (code => system%instance%mumps%infog(1), detail => system%instance%mumps%infog(2))
-         if (code >= 0) return
-         call set_status(status, STATUS_INTERNAL, 'the solver over the ranks failed: '//trim(merge('not enough memory, ', &
-                                                  '                   ', code == NO_MEMORY))//' INFOG(1:2) = '// &
-                         to_text(int(code, ip))//', '//to_text(int(detail, ip)))
+      associate (code => system%instance%mumps%infog(1:2))
+         if (code(1) < 0) call set_status(status, STATUS_INTERNAL, 'the solver over the ranks failed: INFOG(1:2) = '// &
+                                          to_text(int(code(1), ip))//', '//to_text(int(code(2), ip)))
       end associate
    end subroutine judge_failure
 
@@ -339,7 +338,7 @@ contains
 
       if (own_rank() == 0) x(system%n - system%n_kept + 1:, :) = 0.0_wp
       call solve_loads(system, INTERIOR_ALONE, x, status)
-      call spread_own(system, x, own)
+      call spread_values(system%n, system%own%unknown, x, own)
    end subroutine solve_shared
 
    !> f_c <- f_c - K_ci K_ii^-1 f_i on rank 0; f_i stays.
@@ -360,7 +359,7 @@ contains
       type(status_t), intent(out) :: status
 
       call solve_loads(system, EXPAND, x, status)
-      call spread_own(system, x, own)
+      call spread_values(system%n, system%own%unknown, x, own)
    end subroutine expand_shared
 
    !> All loads at once; how many, rank 0 knows.
@@ -443,40 +442,13 @@ contains
       end do
    end subroutine solve_with
 
-   !> Gives each rank its part of what rank 0 has.
-   subroutine spread_own(system, x, own)
-      type(shared_system_t), intent(in) :: system
-      real(wp), intent(in) :: x(:, :)            !< (n, loads) on rank 0
-      real(wp), allocatable, intent(out) :: own(:, :)
-      real(wp) :: loads(1), column(system%n)
-      integer(ip) :: j
-
-      loads = real(size(x, 2), wp)
-      call spread_from_first(loads)
-      allocate (own(size(system%own%unknown), nint(loads(1))))
-      do j = 1, size(own, 2, kind=ip)
-         if (own_rank() == 0) column = x(:, j)
-         call spread_from_first(column)
-         own(:, j) = column(system%own%unknown)
-      end do
-   end subroutine spread_own
-
    !> Adds up what the ranks have of their unknowns: the loads of a right-hand side.
    subroutine add_up_shared(system, own, x)
       type(shared_system_t), intent(in) :: system
       real(wp), intent(in) :: own(:, :)          !< (size(system%own%unknown), loads), as many loads on all ranks
       real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: the sums on return. Other ranks: of any size
-      real(wp) :: column(system%n)
-      integer(ip) :: j, k
 
-      do j = 1, size(own, 2, kind=ip)
-         column = 0.0_wp
-         do k = 1, size(system%own%unknown, kind=ip)
-            column(system%own%unknown(k)) = column(system%own%unknown(k)) + own(k, j)
-         end do
-         call sum_to_first(column)
-         if (own_rank() == 0) x(:, j) = column
-      end do
+      call add_up_values(system%n, system%own%unknown, own, x)
    end subroutine add_up_shared
 
    !> What this rank holds of the factor, as MUMPS counts it, and the rest.
