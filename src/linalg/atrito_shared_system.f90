@@ -12,8 +12,7 @@
 !> All ranks call every procedure in the same order (but memory_of_shared, schur_of_shared). With one rank it works as well.
 !>
 !> MUMPS sees the interior scaled to a diagonal between 1/2 and 2 by powers of two, as in atrito_mumps, for the same reasons. It
-!> reads the matrices where they are (distributed input, ICNTL(18)=3). Right-hand sides and solutions go through rank 0: they are the
-!> least of what is sent.
+!> reads the matrices where they are (ICNTL(18)=3). Right-hand sides and solutions go through rank 0: they are little.
 !>
 !> Reference: MUMPS users' guide 5.5 (ICNTL, INFOG and RINFOG below are its names).
 module atrito_shared_system
@@ -22,13 +21,16 @@ module atrito_shared_system
    use atrito_linear_solver, only: factor_report_t, smallest_ratio, ALL_DIGITS
    use atrito_mpi, only: all_ranks_communicator, largest_of_ranks, own_rank, spread_from_first, sum_to_first
    use atrito_mumps_library, only: dmumps_struc, begin_mumps, has_mumps, mumps_trouble, run_mumps
+   use atrito_packed_matrices, only: packed_matrices_t, add_diagonals, add_packed_column, list_coordinates, packed_length, &
+                                     raise_diagonals, scale_packed
+   use atrito_rank_values, only: add_up_values, spread_values
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
    public :: shared_system_t, begin_shared, end_shared, factor_shared, schur_of_shared
    public :: solve_shared, reduce_shared, expand_shared, add_up_shared
-   public :: packed_length, put_packed, memory_of_shared
+   public :: memory_of_shared
 
    !> What MUMPS works on, behind a pointer.
    type :: instance_t
@@ -41,8 +43,7 @@ module atrito_shared_system
       integer(ip) :: n = 0                       !< unknowns
       integer(ip) :: n_kept = 0                  !< the last n_kept are kept
       type(factor_report_t) :: report            !< of the last factorisation, the same on all ranks
-      integer(ip), allocatable :: start(:)       !< (matrices + 1) where the unknowns of each matrix of this rank begin
-      integer(ip), allocatable :: unknown(:)     !< unknowns of the matrices of this rank, one matrix after the other
+      type(packed_matrices_t) :: own             !< unknowns of the matrices of this rank
       type(instance_t), pointer, private :: instance => null()
       real(wp), pointer, contiguous, private :: schur(:) => null()   !< (n_kept**2) on rank 0, by columns, between factor and schur
       real(wp), allocatable, private :: scale(:) !< (n) of rows and columns; 1 for the kept ones
@@ -56,9 +57,8 @@ module atrito_shared_system
    integer, parameter :: NO_PIVOTS(2) = [-10, -40]
    !> INFOG(1) of work space that was predicted too small.
    integer, parameter :: NO_ROOM(*) = [-8, -9, -14, -15, -17, -20]
-   integer, parameter :: NO_MEMORY = -13
    !> More room than predicted, in per cent, at first and when that was too little.
-   integer, parameter :: ROOM(*) = [30, 100, 400, 3000]
+   integer, parameter :: ROOM(*) = [30, 100, 400]
    !> Digits lost from which the place is worth two solves; what is added to a matrix that could not be factored, of its diagonal, to
    !> find the motion that it leaves free. As in atrito_mumps.
    real(wp), parameter :: MANY_DIGITS = 9.0_wp, SHIFT = 1.0e-13_wp
@@ -79,8 +79,7 @@ contains
       call end_shared(system)
       system%n = n
       system%n_kept = n_kept
-      system%start = start
-      system%unknown = unknown
+      system%own = packed_matrices_t(start, unknown)
       if (.not. has_mumps()) call set_status(status, STATUS_INTERNAL, mumps_trouble())
       call agree(status)
       if (n == n_kept .or. .not. is_ok(status)) return
@@ -117,12 +116,7 @@ contains
             allocate (mumps%listvar_schur(n_kept))
             mumps%listvar_schur = [(i, i=system%n - n_kept + 1, system%n)]
             mumps%size_schur = n_kept
-            mumps%icntl(19) = 1                   ! lower triangle by columns
-            mumps%nprow = 1                       ! all of it on rank 0
-            mumps%npcol = 1
-            mumps%mblock = 100
-            mumps%nblock = 100
-            mumps%schur_lld = n_kept
+            mumps%icntl(19) = 1                   ! on rank 0, lower triangle by rows
          end if
       end associate
       call make_coordinates(system, status)
@@ -136,70 +130,25 @@ contains
    subroutine make_coordinates(system, status)
       type(shared_system_t), intent(inout) :: system
       type(status_t), intent(inout) :: status
-      integer(lp) :: length, k
-      integer(ip) :: m, a, b
       integer :: no_memory
 
-      length = packed_length(system)
-      associate (mumps => system%instance%mumps, start => system%start, unknown => system%unknown)
-         allocate (mumps%irn_loc(length), mumps%jcn_loc(length), stat=no_memory)
+      associate (mumps => system%instance%mumps)
+         mumps%nnz_loc = packed_length(system%own)
+         allocate (mumps%irn_loc(mumps%nnz_loc), mumps%jcn_loc(mumps%nnz_loc), stat=no_memory)
          if (no_memory /= 0) call set_status(status, STATUS_INTERNAL, 'not enough memory for the matrices of a rank')
          call agree(status)
-         if (.not. is_ok(status)) return
-         mumps%nnz_loc = length
-         k = 0
-         do m = 1, size(start, kind=ip) - 1
-            do b = start(m), start(m + 1) - 1
-               do a = b, start(m + 1) - 1
-                  k = k + 1
-                  mumps%irn_loc(k) = unknown(a)
-                  mumps%jcn_loc(k) = unknown(b)
-               end do
-            end do
-         end do
+         if (is_ok(status)) call list_coordinates(system%own, mumps%irn_loc, mumps%jcn_loc)
       end associate
+      if (.not. is_ok(status)) call drop_coordinates(system)
    end subroutine make_coordinates
-
-   !> Entries of the lower triangles of the matrices of this rank.
-   pure integer(lp) function packed_length(system) result(length)
-      type(shared_system_t), intent(in) :: system
-      integer(ip) :: m
-
-      length = 0
-      do m = 1, size(system%start, kind=ip) - 1
-         associate (order => int(system%start(m + 1) - system%start(m), lp))
-            length = length + order*(order + 1)/2
-         end associate
-      end do
-   end function packed_length
-
-   !> Puts matrix m of this rank to its place among the values for factor_shared.
-   pure subroutine put_packed(system, m, matrix, values)
-      type(shared_system_t), intent(in) :: system
-      integer(ip), intent(in) :: m
-      real(wp), intent(in) :: matrix(:, :)       !< its lower triangle is read
-      real(wp), intent(inout) :: values(:)       !< (packed_length)
-      integer(lp) :: k
-      integer(ip) :: i, j
-
-      k = 0
-      do i = 1, m - 1
-         associate (order => int(system%start(i + 1) - system%start(i), lp))
-            k = k + order*(order + 1)/2
-         end associate
-      end do
-      do j = 1, size(matrix, 2, kind=ip)
-         values(k + 1:k + size(matrix, 1) - j + 1) = matrix(j:, j)
-         k = k + size(matrix, 1) - j + 1
-      end do
-   end subroutine put_packed
 
    !> MUMPS wants them no more.
    subroutine drop_coordinates(system)
       type(shared_system_t), intent(inout) :: system
 
       associate (mumps => system%instance%mumps)
-         deallocate (mumps%irn_loc, mumps%jcn_loc)
+         if (associated(mumps%irn_loc)) deallocate (mumps%irn_loc)
+         if (associated(mumps%jcn_loc)) deallocate (mumps%jcn_loc)
          nullify (mumps%a_loc)
       end associate
    end subroutine drop_coordinates
@@ -210,27 +159,27 @@ contains
    !> motion. STATUS_INTERNAL when the memory is too small. The same on all ranks.
    subroutine factor_shared(system, values, status)
       type(shared_system_t), intent(inout) :: system
-      !> (packed_length) lower triangles by columns of the matrices of this rank, one after the other; scaled on return
+      !> (packed_length(system%own)) values of the matrices of this rank, as put_packed puts them; scaled on return
       real(wp), intent(inout), contiguous, target :: values(:)
       type(status_t), intent(out) :: status
       integer(ip) :: empty
 
       system%report = factor_report_t()
       call find_scale(system, values, empty)
-      if (system%n == system%n_kept) then
-         call make_schur(system, status)
-         if (is_ok(status)) call add_up_kept(system, values)
-         return
-      else if (empty > 0) then
+      if (empty > 0) then
          system%report%worst_equation = empty
          system%report%digits_lost = ALL_DIGITS
          call set_status(status, STATUS_SINGULAR, 'the matrix is singular: unknown '//to_text(empty)//' is empty')
          return
       end if
       call make_schur(system, status)
+      if (system%n == system%n_kept) then
+         if (is_ok(status)) call add_up_kept(system, values)
+         return
+      end if
       if (is_ok(status)) call make_coordinates(system, status)
       if (.not. is_ok(status)) return
-      call scale_values(system, values)
+      call scale_packed(system%own, system%scale, values)
       system%instance%mumps%a_loc => values
       call run_with_room(system)
       call judge_pivots(system, values, status)
@@ -242,45 +191,21 @@ contains
       type(shared_system_t), intent(inout) :: system
       real(wp), intent(in) :: values(:)
       integer(ip), intent(out) :: empty
-      real(wp), allocatable :: diagonal(:)
-      integer(lp) :: k
-      integer(ip) :: m, a, n_interior
+      real(wp) :: diagonal(system%n)
+      integer(ip) :: n_interior
 
-      allocate (diagonal(system%n), source=0.0_wp)
-      k = 1
-      do m = 1, size(system%start, kind=ip) - 1
-         do a = system%start(m), system%start(m + 1) - 1
-            diagonal(system%unknown(a)) = diagonal(system%unknown(a)) + values(k)
-            k = k + system%start(m + 1) - a
-         end do
-      end do
+      diagonal = 0.0_wp
+      call add_diagonals(system%own, values, diagonal)
       call sum_to_first(diagonal)
       call spread_from_first(diagonal)
       n_interior = system%n - system%n_kept
-      system%scale = [(1.0_wp, m=1, system%n)]
+      if (.not. allocated(system%scale)) allocate (system%scale(system%n))
+      system%scale = 1.0_wp
       where (abs(diagonal(:n_interior)) > 0.0_wp) system%scale(:n_interior) = root_scale(diagonal(:n_interior))
       empty = findloc(abs(diagonal(:n_interior)) > 0.0_wp, .false., dim=1, kind=ip)
    end subroutine find_scale
 
-   pure subroutine scale_values(system, values)
-      type(shared_system_t), intent(in) :: system
-      real(wp), intent(inout) :: values(:)
-      integer(lp) :: k, length
-      integer(ip) :: m, b
-
-      k = 0
-      do m = 1, size(system%start, kind=ip) - 1
-         associate (own => system%unknown(system%start(m):system%start(m + 1) - 1))
-            do b = 1, size(own, kind=ip)
-               length = size(own, kind=lp) - b + 1
-               values(k + 1:k + length) = values(k + 1:k + length)*system%scale(own(b))*system%scale(own(b:))
-               k = k + length
-            end do
-         end associate
-      end do
-   end subroutine scale_values
-
-   !> Room for S on rank 0, where MUMPS, or add_up_kept, puts it.
+   !> Room for S on rank 0.
    subroutine make_schur(system, status)
       type(shared_system_t), intent(inout) :: system
       type(status_t), intent(inout) :: status
@@ -298,48 +223,16 @@ contains
    subroutine add_up_kept(system, values)
       type(shared_system_t), intent(inout) :: system
       real(wp), intent(in) :: values(:)
-      integer(ip), allocatable :: place(:, :)    !< (n, matrices) of the unknowns in the matrices of this rank; 0: not in it
-      real(wp), allocatable :: column(:)
-      integer(lp) :: before
-      integer(ip) :: m, a, j
+      real(wp) :: column(system%n)
+      integer(ip) :: j
 
-      allocate (place(system%n, size(system%start) - 1), source=0_ip)
-      allocate (column(system%n))
-      do m = 1, size(place, 2, kind=ip)
-         do a = system%start(m), system%start(m + 1) - 1
-            place(system%unknown(a), m) = a - system%start(m) + 1
-         end do
-      end do
       do j = 1, system%n
          column = 0.0_wp
-         before = 0
-         do m = 1, size(place, 2, kind=ip)
-            associate (own => system%unknown(system%start(m):system%start(m + 1) - 1))
-               if (place(j, m) > 0) call add_column(own, place(j, m), values(before + 1:), column)
-               before = before + size(own, kind=lp)*(size(own, kind=lp) + 1)/2
-            end associate
-         end do
+         call add_packed_column(system%own, values, j, column)
          call sum_to_first(column)
          if (own_rank() == 0) system%schur(int(j - 1, lp)*int(system%n, lp) + 1:int(j, lp)*int(system%n, lp)) = column
       end do
    end subroutine add_up_kept
-
-   !> Adds a column of a packed lower triangle.
-   pure subroutine add_column(own, b, packed, column)
-      integer(ip), intent(in) :: own(:)          !< unknowns of the matrix
-      integer(ip), intent(in) :: b               !< its column
-      real(wp), intent(in) :: packed(:)
-      real(wp), intent(inout) :: column(:)
-      integer(ip) :: a
-      integer(lp) :: before
-
-      do a = 1, size(own, kind=ip)
-         associate (j => min(a, b))
-            before = int(j - 1, lp)*int(2*size(own) - j + 2, lp)/2     ! entries of the columns before j
-            column(own(a)) = column(own(a)) + packed(before + max(a, b) - j + 1)
-         end associate
-      end do
-   end subroutine add_column
 
    !> Factors, again with more room where MUMPS predicted too little.
    subroutine run_with_room(system)
@@ -373,7 +266,10 @@ contains
          end if
          report%digits_lost = ALL_DIGITS
          if (.not. singular) report%digits_lost = max(-log10(report%smallest_pivot), 0.0_wp)
-         if (failed) call factor_shifted(system, values)
+         if (failed) then                         ! once more, with what find_weakest wants
+            call raise_diagonals(system%own, 1.0_wp + SHIFT, values)
+            call run_with_room(system)
+         end if
          if (singular .or. report%digits_lost > MANY_DIGITS) call find_weakest(system)
          if (singular) call set_status(status, STATUS_SINGULAR, 'the matrix is singular or indefinite: its softest '// &
                                        'motion is largest at unknown '//to_text(report%worst_equation))
@@ -384,30 +280,11 @@ contains
       type(shared_system_t), intent(in) :: system
       type(status_t), intent(inout) :: status
 
-      associate (code => system%instance%mumps%infog(1), detail => system%instance%mumps%infog(2))
-         if (code >= 0) return
-         call set_status(status, STATUS_INTERNAL, 'the solver over the ranks failed: '//trim(merge('not enough memory, ', &
-                                                  '                   ', code == NO_MEMORY))//' INFOG(1:2) = '// &
-                         to_text(int(code, ip))//', '//to_text(int(detail, ip)))
+      associate (code => system%instance%mumps%infog(1:2))
+         if (code(1) < 0) call set_status(status, STATUS_INTERNAL, 'the solver over the ranks failed: INFOG(1:2) = '// &
+                                          to_text(int(code(1), ip))//', '//to_text(int(code(2), ip)))
       end associate
    end subroutine judge_failure
-
-   !> Factors the matrix with a little more on its diagonal, for find_weakest.
-   subroutine factor_shifted(system, values)
-      type(shared_system_t), intent(inout) :: system
-      real(wp), intent(inout) :: values(:)
-      integer(lp) :: k
-      integer(ip) :: m, a
-
-      k = 1
-      do m = 1, size(system%start, kind=ip) - 1
-         do a = system%start(m), system%start(m + 1) - 1
-            values(k) = values(k)*(1.0_wp + SHIFT)
-            k = k + system%start(m + 1) - a
-         end do
-      end do
-      call run_with_room(system)
-   end subroutine factor_shifted
 
    !> Puts the unknown that moves most in the softest motion of the interior into the report, by inverse iteration. 0 where the
    !> matrix has no factor.
@@ -456,12 +333,12 @@ contains
       type(shared_system_t), intent(inout) :: system
       !> (n, loads) on rank 0: f_i; on return x. Other ranks: of any size
       real(wp), intent(inout) :: x(:, :)
-      real(wp), allocatable, intent(out) :: own(:, :)   !< (size(system%unknown), loads) x of this rank's unknowns
+      real(wp), allocatable, intent(out) :: own(:, :)   !< (size(system%own%unknown), loads) x of this rank's unknowns
       type(status_t), intent(out) :: status
 
       if (own_rank() == 0) x(system%n - system%n_kept + 1:, :) = 0.0_wp
       call solve_loads(system, INTERIOR_ALONE, x, status)
-      call spread_own(system, x, own)
+      call spread_values(system%n, system%own%unknown, x, own)
    end subroutine solve_shared
 
    !> f_c <- f_c - K_ci K_ii^-1 f_i on rank 0; f_i stays.
@@ -478,11 +355,11 @@ contains
    subroutine expand_shared(system, x, own, status)
       type(shared_system_t), intent(inout) :: system
       real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f_i and x_c; on return x. Other ranks: of any size
-      real(wp), allocatable, intent(out) :: own(:, :)   !< (size(system%unknown), loads) x of this rank's unknowns
+      real(wp), allocatable, intent(out) :: own(:, :)   !< (size(system%own%unknown), loads) x of this rank's unknowns
       type(status_t), intent(out) :: status
 
       call solve_loads(system, EXPAND, x, status)
-      call spread_own(system, x, own)
+      call spread_values(system%n, system%own%unknown, x, own)
    end subroutine expand_shared
 
    !> All loads at once; how many, rank 0 knows.
@@ -565,40 +442,13 @@ contains
       end do
    end subroutine solve_with
 
-   !> Gives each rank its part of what rank 0 has.
-   subroutine spread_own(system, x, own)
-      type(shared_system_t), intent(in) :: system
-      real(wp), intent(in) :: x(:, :)            !< (n, loads) on rank 0
-      real(wp), allocatable, intent(out) :: own(:, :)
-      real(wp) :: loads(1), column(system%n)
-      integer(ip) :: j
-
-      loads = real(size(x, 2), wp)
-      call spread_from_first(loads)
-      allocate (own(size(system%unknown), nint(loads(1))))
-      do j = 1, size(own, 2, kind=ip)
-         if (own_rank() == 0) column = x(:, j)
-         call spread_from_first(column)
-         own(:, j) = column(system%unknown)
-      end do
-   end subroutine spread_own
-
    !> Adds up what the ranks have of their unknowns: the loads of a right-hand side.
    subroutine add_up_shared(system, own, x)
       type(shared_system_t), intent(in) :: system
-      real(wp), intent(in) :: own(:, :)          !< (size(system%unknown), loads), as many loads on all ranks
+      real(wp), intent(in) :: own(:, :)          !< (size(system%own%unknown), loads), as many loads on all ranks
       real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: the sums on return. Other ranks: of any size
-      real(wp) :: column(system%n)
-      integer(ip) :: j, k
 
-      do j = 1, size(own, 2, kind=ip)
-         column = 0.0_wp
-         do k = 1, size(system%unknown, kind=ip)
-            column(system%unknown(k)) = column(system%unknown(k)) + own(k, j)
-         end do
-         call sum_to_first(column)
-         if (own_rank() == 0) x(:, j) = column
-      end do
+      call add_up_values(system%n, system%own%unknown, own, x)
    end subroutine add_up_shared
 
    !> What this rank holds of the factor, as MUMPS counts it, and the rest.

@@ -4,19 +4,19 @@ module atrito_shared_system
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: factor_report_t
    use atrito_mumps_library, only: mumps_trouble
+   use atrito_packed_matrices, only: packed_matrices_t
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    implicit none (type, external)
    private
    public :: shared_system_t, begin_shared, end_shared, factor_shared, schur_of_shared
    public :: solve_shared, reduce_shared, expand_shared, add_up_shared
-   public :: packed_length, put_packed, memory_of_shared
+   public :: memory_of_shared
 
    type :: shared_system_t
       integer(ip) :: n = 0
       integer(ip) :: n_kept = 0
       type(factor_report_t) :: report
-      integer(ip), allocatable :: start(:)
-      integer(ip), allocatable :: unknown(:)
+      type(packed_matrices_t) :: own
    end type shared_system_t
 
 contains
@@ -34,19 +34,6 @@ contains
 
       call set_status(status, STATUS_INTERNAL, 'the ranks share a system by MUMPS, and '//mumps_trouble())
    end subroutine no_mumps
-
-   pure integer(lp) function packed_length(system) result(length)
-      type(shared_system_t), intent(in) :: system
-
-      length = 0
-   end function packed_length
-
-   pure subroutine put_packed(system, m, matrix, values)
-      type(shared_system_t), intent(in) :: system
-      integer(ip), intent(in) :: m
-      real(wp), intent(in) :: matrix(:, :)
-      real(wp), intent(inout) :: values(:)
-   end subroutine put_packed
 
    subroutine factor_shared(system, values, status)
       type(shared_system_t), intent(inout) :: system
