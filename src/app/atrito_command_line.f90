@@ -32,6 +32,7 @@ module atrito_command_line
       type(string_t), allocatable :: settings(:)    !< NAME=VALUE of --set, in their order
       character(len=7) :: solver = 'auto'           !< one of the words of --solver
       character(len=6) :: contact = 'auto'          !< one of the words of --contact
+      character(len=4) :: share = 'auto'            !< one of the words of --share
       type(string_t), allocatable :: observe(:)     !< NAME=EXPRESSION of --observe, in their order
       type(string_t), allocatable :: vary(:)        !< NAME=v1,v2,... of --vary, in their order; of a limit NAME=a:b
       real(wp) :: limit_tolerance = 1.0e-6_wp       !< of a limit
@@ -300,6 +301,9 @@ contains
       case ('--contact')
          ok = place_of_word(name, given%value) > 0
          if (ok) command%contact = given%value
+      case ('--share')
+         ok = place_of_word(name, given%value) > 0
+         if (ok) command%share = given%value
       case ('--format')
          command%is_csv = given%value == 'csv'
          ok = place_of_word(name, given%value) > 0

@@ -44,6 +44,9 @@ module atrito_option_table
                                 option_t('--contact', 'NAME', [Y, Y, N, N, Y, Y, Y], &
                                          'form of the contact system', &
                                          default='auto', words='auto dense sparse'), &
+                                option_t('--share', 'NAME', [Y, N, N, N, N, N, N], &
+                                         'one scene over the ranks of atrito-mpi: large ones, all, or none', &
+                                         default='auto', words='auto all none'), &
                                 option_t('--threads', 'N', [Y, Y, N, N, Y, Y, Y], &
                                          'cores of a run, or runs of a sweep side by side', &
                                          default='1', expected='a whole number, 1 to 1024'), &

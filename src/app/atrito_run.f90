@@ -4,7 +4,7 @@ module atrito_run
    use atrito_body_cache, only: body_cache_t
    use atrito_build_model, only: build_model
    use atrito_build_requests, only: refuse_field_files
-   use atrito_command_line, only: command_t, output_folder
+   use atrito_command_line, only: command_t, output_folder, TASK_RUN
    use atrito_console, only: print_message, print_messages, print_status
    use atrito_deck, only: deck_t
    use atrito_deck_as_run, only: take_deck_as_run
@@ -31,7 +31,8 @@ module atrito_run
    use atrito_restart_recorder, only: restart_recorder_t, begin_recorder
    use atrito_results, only: history_t, results_t, last_frame
    use atrito_screen, only: compose_summary
-   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SOLVER_AUTO, &
+   use atrito_solve, only: solve_options_t, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE, SHARE_AUTO, SHARE_ALL, SHARE_NONE, &
+                           SOLVER_AUTO, &
                            SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, &
                            SOLVER_MUMPS
    use atrito_status, only: status_t, set_status, reword_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_DECK, STATUS_FILE, &
@@ -281,11 +282,14 @@ contains
       type(command_t), intent(in) :: command
       type(solve_options_t) :: options
       integer, parameter :: KINDS(*) = [SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS]
+      integer, parameter :: SHARES(*) = [SHARE_AUTO, SHARE_ALL, SHARE_NONE]
       integer, parameter :: FORMS(*) = [CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE]
 
       options%solver_kind = KINDS(place_of_word('--solver', command%solver))
       options%contact_form = FORMS(place_of_word('--contact', command%contact))
       options%element_errors = command%plot
+      ! the runs of sweeps, studies and limits stay where they are
+      if (command%task == TASK_RUN) options%share = SHARES(place_of_word('--share', command%share))
    end function solve_options
 
 end module atrito_run

@@ -145,7 +145,7 @@ contains
       if (allocated(store%shares)) deallocate (store%shares)
       if (allocated(data%rank_of)) deallocate (data%rank_of)
       if (.not. any(data%solver_kind == [0, SOLVER_SPARSE])) return
-      if (.not. is_worth_sharing(data%fem, rank_count())) return
+      if (.not. is_worth_sharing(data%fem, rank_count(), data%share)) return
       call start_phase('order')
       allocate (store%shares)
       call make_shares(data%fem, data%rows, rank_count(), store%shares)

@@ -5,11 +5,11 @@
 module atrito_part_tops
    use atrito_kinds, only: ip, wp
    use atrito_mpi, only: rank_count, send_parcel
+   use atrito_packed_matrices, only: packed_length, put_packed
    use atrito_parcel, only: parcel_t, put, take
    use atrito_part_store, only: part_store_t
    use atrito_rank_services, only: SERVICE_TOPS
-   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, packed_length, put_packed, &
-                                   reduce_shared, expand_shared
+   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, reduce_shared, expand_shared
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -102,12 +102,12 @@ contains
       associate (system => tops%list(at)%system)
          call begin_shared(system, sizes(1), sizes(2), start, unknown, status)
          if (.not. is_ok(status)) return
-         allocate (values(packed_length(system)))
+         allocate (values(packed_length(system%own)))
          m = 0
          do i = 1, parts%n
             if (parts%list(i)%group /= group) cycle
             m = m + 1
-            call put_packed(system, m, parts%list(i)%schur, values)
+            call put_packed(system%own, m, parts%list(i)%schur, values)
          end do
          call factor_shared(system, values, status)
       end associate

@@ -20,6 +20,7 @@ module atrito_scene_data
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
    use atrito_scene_memory, only: check_average_memory, most_average_entries
+   use atrito_shares, only: SHARE_NONE
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
@@ -45,6 +46,7 @@ module atrito_scene_data
       integer :: contact_form = CONTACT_DENSE
       character(len=:), allocatable :: reason               !< why this form
       integer :: solver_kind = 0                           !< that the bodies are numbered for
+      integer :: share = SHARE_NONE                        !< whether the scene goes over the ranks, SHARE_*
       type(assembled_scene_t) :: assembled                  !< the sparse form
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
@@ -63,6 +65,7 @@ module atrito_scene_data
    !> What the user asks for.
    type :: asked_t
       integer :: solver_kind = 0                           !< STORAGE_* or 0
+      integer :: share = SHARE_NONE                        !< SHARE_*
       integer :: contact_form = CONTACT_AUTO
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
       integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
@@ -88,6 +91,7 @@ contains
       data%rigid_prescribed = data%step%rigid_prescribed
       call choose_form(asked, data)
       data%solver_kind = asked%solver_kind
+      data%share = asked%share
       data%wants_element_errors = asked%element_errors
       ! all bodies in one matrix: none is numbered for a profile of its own
       if (data%contact_form == CONTACT_SPARSE) data%solver_kind = SOLVER_SPARSE

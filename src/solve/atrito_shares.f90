@@ -18,6 +18,7 @@ module atrito_shares
    implicit none (type, external)
    private
    public :: shares_t, share_t, top_t, make_shares, predict_work, is_worth_sharing, LEAST_WORK
+   public :: SHARE_NONE, SHARE_AUTO, SHARE_ALL
 
    !> A part of the scene: a body, or a piece of one.
    type :: share_t
@@ -45,8 +46,11 @@ module atrito_shares
       type(top_t), allocatable :: tops(:)        !< (bodies)
    end type shares_t
 
+   !> What the user asks for.
+   integer, parameter :: SHARE_NONE = 0, SHARE_AUTO = 1, SHARE_ALL = 2
+
    !> Scenes of less work, some 2e5 displacements in one body or 0.3 s of one process, are not shared out.
-   real(wp), parameter :: LEAST_WORK = 1.0e8_wp
+   real(wp), parameter :: LEAST_WORK = 2.0e9_wp
    !> A piece with this share of what is fair has a rank of its own; less than this, of what is fair, is no piece of its own.
    real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
    !> The largest work of a rank over the mean for which nothing is cut any more, and pieces of the fair share that are not.
@@ -71,12 +75,14 @@ contains
       end do
    end function predict_work
 
-   logical function is_worth_sharing(fem, n_ranks)
+   !> Whether the scene goes over the ranks.
+   logical function is_worth_sharing(fem, n_ranks, asked)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: n_ranks
+      integer, intent(in) :: asked               !< SHARE_*
 
-      is_worth_sharing = n_ranks > 1
-      if (is_worth_sharing) is_worth_sharing = sum(predict_work(fem)) >= LEAST_WORK
+      is_worth_sharing = n_ranks > 1 .and. asked /= SHARE_NONE
+      if (is_worth_sharing .and. asked == SHARE_AUTO) is_worth_sharing = sum(predict_work(fem)) >= LEAST_WORK
    end function is_worth_sharing
 
    !> Shares out the elements of all bodies.

@@ -10,6 +10,7 @@ module atrito_solve
    use atrito_results, only: results_t, scene_t
    use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
    use atrito_scene_forecast, only: forecast_memory
+   use atrito_shares, only: SHARE_AUTO, SHARE_ALL, SHARE_NONE
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
    use atrito_solution_warnings, only: warn
    use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
@@ -21,6 +22,7 @@ module atrito_solve
    public :: solve_options_t, solve_static, survey_scene, begin_scene, note_method
    public :: SOLVER_AUTO, SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
    public :: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
+   public :: SHARE_AUTO, SHARE_ALL, SHARE_NONE
 
    integer, parameter :: SOLVER_AUTO = 0
 
