@@ -14,7 +14,7 @@ module atrito_mpi
    private
    public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ANY_RANK
    public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
-   public :: all_ranks_communicator, own_communicator, mpi_name
+   public :: all_ranks_communicator, own_communicator, has_mpi, mpi_name
 
    !> The sender of any message that waits.
    integer(ip), parameter :: ANY_RANK = -1_ip
@@ -132,6 +132,10 @@ contains
    integer function own_communicator() result(communicator)
       communicator = MPI_COMM_SELF%MPI_VAL
    end function own_communicator
+
+   logical function has_mpi()
+      has_mpi = .true.
+   end function has_mpi
 
    !> For --version: 'Open MPI v4.1.4'.
    function mpi_name() result(name)

@@ -7,7 +7,7 @@ module atrito_mpi
    private
    public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ANY_RANK
    public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
-   public :: all_ranks_communicator, own_communicator, mpi_name
+   public :: all_ranks_communicator, own_communicator, has_mpi, mpi_name
 
    integer(ip), parameter :: ANY_RANK = -1_ip
    character(len=*), parameter :: NOBODY = 'atrito_mpi: there is no other rank'
@@ -72,6 +72,10 @@ contains
    integer function own_communicator()
       own_communicator = 0
    end function own_communicator
+
+   logical function has_mpi()
+      has_mpi = .false.
+   end function has_mpi
 
    function mpi_name() result(name)
       character(len=:), allocatable :: name
