@@ -88,6 +88,10 @@ for number in '' 0 00 x 2x -1 1.5 1025 99999; do
 done
 ask 1 --ranks
 grep -q 'wants the number of ranks' "$work/err" || fail '--ranks without a number: not told'
+ask 1 deck.inp --ranks
+grep -q 'wants the number of ranks' "$work/err" || fail 'deck.inp --ranks: not told'
+ask 1 --ranks=two deck.inp
+grep -q "not 'two'" "$work/err" || fail '--ranks=two: not told'
 
 # without a network: said, with the packages
 touch "$work/no-network"
@@ -107,6 +111,14 @@ for setting in OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MC
    OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_pml=ob1; do
    grep -qx "$setting" "$work/settings" || fail "mpirun without $setting"
 done
+
+# where it stands
+for words in 'deck.inp --ranks 3 --quiet' 'deck.inp --ranks=3 --quiet' '--ranks 2 deck.inp --quiet --ranks 3'; do
+   ask 0 $words
+   done_so "$words" "^mpirun -n 3 $top/build/run-mpi/bin/atrito-mpi deck.inp --quiet\$"
+done
+ask 0 --ranks 3 --quiet -- --ranks
+done_so 'behind --' "^mpirun -n 3 $top/build/run-mpi/bin/atrito-mpi --quiet -- --ranks\$"
 
 # from then on; codes of the run are those of ./run
 for number in 2 3 4 5 9; do
