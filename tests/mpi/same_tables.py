@@ -3,7 +3,7 @@
 
    same_tables.py PLAIN MPI --ranks 1,2,3,4 [options] DECK.inp | FOLDER ...
 
-   FOLDER         what record.py has recorded, or one of its runs
+   FOLDER         all decks below it, or what record.py has recorded
    --jobs J       so many decks at a time; default 1
    --exceptions FILE   what may differ, and why (exceptions.txt beside this file)
    --only TEXT    decks whose name has the text
@@ -42,6 +42,8 @@ def find_decks(paths):
                 run = json.load(open(os.path.join(folder, 'run.json')))
                 name = f'{run["test"].removeprefix("verify_")}/{os.path.basename(run["deck"])} {" ".join(run["options"])}'.strip()
                 yield Deck(name, run['command'], os.path.join(folder, 'files', run['deck']), run['options'])
+            else:
+                yield from find_decks(os.path.join(folder, file) for file in sorted(files) if file.endswith('.inp'))
 
 
 def without_digits(options):
