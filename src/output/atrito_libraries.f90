@@ -21,7 +21,7 @@ module atrito_libraries
 
 contains
 
-   !> Compiler, BLAS, LAPACK, MUMPS, Clp and METIS, and MPI where a run has several ranks, or where a build that has it is asked for.
+   !> Compiler, BLAS, LAPACK, MUMPS, Clp and METIS; and MPI, where a run has several ranks or a build that has it is asked for.
    !> A library that a run does not need is not loaded to ask for it.
    subroutine list_libraries(mumps, list, uses_metis)
       integer, intent(in) :: mumps                  !< USED or NOT_USED by a run; NOT_KNOWN: what this build could use

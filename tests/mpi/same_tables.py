@@ -13,13 +13,12 @@
 
 Both run each deck with --digits 17; exit codes, the codes of messages and all tables are compared, these by `atrito compare --rtol
 1e-10`, which knows the scale of each column. Left out are timing.tab and iterations.tab and, in other tables, how many iterations and
-solves it took. `differs` tells the smallest power of ten by which the tables are the same."""
+solves it took, and times. `differs` tells the smallest power of ten by which the tables are the same."""
 import argparse, concurrent.futures, json, os, re, shutil, subprocess, sys, tempfile, time
 
 RTOL = 1e-10
 POWERS = ['0', '1e-16', '1e-15', '1e-14', '1e-13', '1e-12', '1e-11', '1e-10', '1e-9', '1e-8', '1e-6', '1e-4', '1e-2', '1']
-COUNTS = {'picard_iterations', 'linear_solves'}             # rows of summary.tab
-COUNT_COLUMNS = {'iterations', 'linear_solves', 'picard_iterations'}
+COUNTS = {'picard_iterations', 'linear_solves', 'iterations'}
 TABLE = re.compile(r'\.(tab|csv)$')
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -40,7 +39,7 @@ def find_decks(paths):
             if 'run.json' in files:
                 del folders[:]
                 run = json.load(open(os.path.join(folder, 'run.json')))
-                name = f'{run["test"].removeprefix("verify_")}/{os.path.basename(run["deck"])} {" ".join(run["options"])}'.strip()
+                name = f'{run["test"].removeprefix("verify_")}/{os.path.basename(run["deck"])} {" ".join(run["options"])}'.strip() + f' [{os.path.basename(folder)[:6]}]'
                 yield Deck(name, run['command'], os.path.join(folder, 'files', run['deck']), run['options'])
             else:
                 yield from find_decks(os.path.join(folder, file) for file in sorted(files) if file.endswith('.inp'))
@@ -82,23 +81,28 @@ def run(program, deck, output, environment, limit):
     return process.returncode, sorted(re.findall(r'(?:error|warning|note) \[([A-Z0-9-]+)\]', said)), time.time() - begin
 
 
+def is_count(column):
+    """Counts of iterations, whose digits may be lost to rounding, and times."""
+    return column in COUNTS or column.endswith(('_wall', '_cpu'))
+
+
 def drop_counts(folder):
-    """Takes counts of iterations out of the tables below a folder, whose digits may be lost to rounding."""
+    """Takes counts and times out of the tables below a folder."""
     for place, _, files in os.walk(folder):
-        for file in files:
-            if not TABLE.search(file):
-                continue
-            path = os.path.join(place, file)
+        for path in (os.path.join(place, file) for file in files if TABLE.search(file)):
             lines = open(path, errors='replace').read().splitlines()
+            separator = ',' if path.endswith('.csv') else None
             new, columns = [], []
             for line in lines:
+                words = line.split(separator)
                 if line.startswith('# columns:'):
-                    columns = line.split()[2:]
-                words = line.split(',') if file.endswith('.csv') else line.split()
-                if file.startswith('summary.') and COUNTS & set(words):
+                    columns = words[2:]
+                elif not line.startswith('#') and separator and not columns:
+                    columns = words
+                elif not line.startswith('#') and any(map(is_count, columns)) and len(words) == len(columns):
+                    line = (separator or ' ').join('0' if is_count(c) else w for c, w in zip(columns, words))
+                if os.path.basename(path).startswith('summary.') and COUNTS & set(words):
                     continue
-                if COUNT_COLUMNS & set(columns) and not line.startswith('#') and len(words) == len(columns):
-                    line = ' '.join('0' if c in COUNT_COLUMNS else w for c, w in zip(columns, words))
                 new.append(line)
             if new != lines:
                 open(path, 'w').write('\n'.join(new) + '\n')
