@@ -14,13 +14,14 @@ missing_packages() {
    command -v cc >/dev/null 2>&1 || printf ' gcc'
    command -v cmake >/dev/null 2>&1 || printf ' cmake'
    command -v make >/dev/null 2>&1 || printf ' make'
-   found_openblas || printf ' libopenblas-dev'
+   found_library libopenblas.so || printf ' libopenblas-dev'
    found_hdf5 || printf ' libhdf5-dev'
 }
 
-found_openblas() {
+# found_library FILE: a library that programs can be linked with.
+found_library() {
    for folder in /usr/lib /usr/lib64 /usr/lib/*-linux-gnu /usr/local/lib; do
-      [ -e "$folder/libopenblas.so" ] && return 0
+      [ -e "$folder/$1" ] && return 0
    done
    return 1
 }
@@ -28,20 +29,6 @@ found_openblas() {
 found_hdf5() {
    for folder in /usr/include/hdf5/serial /usr/include /usr/local/include; do
       [ -e "$folder/hdf5.mod" ] && return 0
-   done
-   return 1
-}
-
-found_mumps() {
-   for folder in /usr/include /usr/include/mumps_seq /usr/local/include; do
-      [ -e "$folder/dmumps_struc.h" ] && return 0
-   done
-   return 1
-}
-
-found_clp() {
-   for folder in /usr/lib /usr/lib64 /usr/lib/*-linux-gnu /usr/local/lib; do
-      [ -e "$folder/libClp.so" ] && return 0
    done
    return 1
 }
@@ -57,8 +44,8 @@ found_metis() {
 install_missing() {
    packages=$(missing_packages)
    command -v gnuplot >/dev/null 2>&1 || want gnuplot-nox "without gnuplot --plot writes its scripts, but no pictures"
-   found_mumps || want libmumps-seq-dev "without MUMPS there is no --solver mumps (a check of the sparse solver) and no limit program (tests/bench)"
-   found_clp || want coinor-libclp-dev "without Clp it is not proved that a scene has no equilibrium: such runs end with 3 in place of 4"
+   found_library libdmumps_seq.so || want libmumps-seq-dev "without MUMPS there is no --solver mumps (a check of the sparse solver) and no limit program (tests/bench)"
+   found_library libClp.so || want coinor-libclp-dev "without Clp it is not proved that a scene has no equilibrium: such runs end with 3 in place of 4"
    found_metis || want libmetis-dev "without METIS large graded meshes take longer"
    [ -z "$packages" ] || install_packages "$packages"
 }
@@ -118,13 +105,14 @@ forget_moved_build() {
    rm -rf "$1"
 }
 
-# build_preset NAME: configures build/NAME where that was not done, and builds what has changed.
+# build_preset NAME: configures build/NAME where that was not done, or for other presets, and builds what has changed.
 build_preset() {
    preset=$1
    log=$top/build/$preset.log
    mkdir -p "$top/build"
    forget_moved_build "$top/build/$preset"
-   if [ ! -f "$top/build/$preset/CMakeCache.txt" ] || [ ! -f "$top/build/$preset/Makefile" ]; then
+   if [ ! -f "$top/build/$preset/CMakeCache.txt" ] || [ ! -f "$top/build/$preset/Makefile" ] ||
+      [ -n "$(find "$top/CMakePresets.json" -newer "$top/build/$preset/CMakeCache.txt" 2>/dev/null)" ]; then
       need_cmake
       say "configuring build/$preset"
       (cd "$top" && cmake --preset "$preset") >"$log" 2>&1 || show_log "configuring failed"

@@ -151,6 +151,8 @@ static volatile sig_atomic_t held;                  /* depth of atrito_hold_inte
 static volatile sig_atomic_t waiting;               /* a signal that came meanwhile */
 static pthread_t main_thread;
 static int is_silent;                               /* a worker leaves the word to the process that made it */
+static int is_rank;                                 /* of several */
+static int is_follower;                             /* a rank other than the first, which leaves it the word */
 static void (*former_handler[FAULTS])(int);
 static int fault_code;                              /* exit code of a fault */
 static int on_guard;                                /* between atrito_guard_exit and atrito_release_exit */
@@ -200,13 +202,21 @@ static void end_children(void) {
    }
 }
 
+/* mpirun ends all ranks by SIGTERM when one of them fails or it is told to end itself, and kills those that are left, still
+ * cleaning up or not, as soon as it sees the first of them gone (Open MPI 4.1). So each waits a moment for the others [ms]. */
+enum { LINGER = 500 };
+
 static void end_by(int number) {
    held++;                                          /* a second signal changes nothing */
    end_children();
    remove_unfinished();
-   say("atrito: error [E-INTERRUPTED] ");
-   say(number == SIGINT ? "interrupted" : number == SIGTERM ? "terminated" : "the terminal hung up");
-   say("; files that were not complete are removed\n");
+   if (!is_follower) {
+      say("atrito: error [E-INTERRUPTED] ");
+      say(number == SIGINT ? "interrupted" : number == SIGTERM ? "terminated" : "the terminal hung up");
+      say(is_rank ? ", all ranks; files that were not complete are removed\n" : "; files that were not complete are removed\n");
+   }
+   if (is_rank)
+      poll(NULL, 0, LINGER);
    _exit(128 + number);
 }
 
@@ -266,6 +276,12 @@ void atrito_guard_interrupts(int code) {
    for (int i = 0; i < FAULTS; i++)
       guard_fault(i);
    atexit(remove_unfinished);
+}
+
+/* This process is one of several ranks. When all are ended the first says so. */
+void atrito_be_rank(int rank) {
+   is_rank = 1;
+   is_follower = rank > 0;
 }
 
 /* Puts off the end by a signal until atrito_release_interrupts. Calls may be nested. */
@@ -363,6 +379,7 @@ int atrito_begin_worker(void) {
       n_paths = n_children = 0;
       waiting = 0;
       is_silent = 1;
+      is_rank = 0;
    } else if (id > 0) {
       note_child(id);
    }

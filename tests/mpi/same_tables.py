@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Are the tables of atrito-mpi those of the plain program?
+
+   same_tables.py PLAIN MPI --ranks 1,2,3,4 [options] DECK.inp | FOLDER ...
+
+   FOLDER         all decks below it, or what record.py has recorded
+   --jobs J       so many decks at a time; default 1
+   --exceptions FILE   what may differ, and why (exceptions.txt beside this file)
+   --only TEXT    decks whose name has the text
+   --at-most S    leaves out what takes the plain program longer [s]
+   --keep DIR     the results stay there
+   --quiet        only what differs, and the sum
+
+Both run each deck with --digits 17; exit codes, the codes of messages and all tables are compared, these by `atrito compare --rtol
+1e-10`, which knows the scale of each column. Left out are timing.tab and iterations.tab and, in other tables, how many iterations and
+solves it took, and times. `differs` tells the smallest power of ten by which the tables are the same."""
+import argparse, concurrent.futures, json, os, re, shutil, subprocess, sys, tempfile, time
+
+RTOL = 1e-10
+POWERS = ['0', '1e-16', '1e-15', '1e-14', '1e-13', '1e-12', '1e-11', '1e-10', '1e-9', '1e-8', '1e-6', '1e-4', '1e-2', '1']
+COUNTS = {'picard_iterations', 'linear_solves', 'iterations'}
+TABLE = re.compile(r'\.(tab|csv)$')
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+class Deck:
+    def __init__(self, name, command, path, options):
+        self.name, self.command, self.path, self.options = name, command, os.path.abspath(path), options
+
+
+def find_decks(paths):
+    for path in paths:
+        if os.path.isfile(path):
+            name = os.path.relpath(path, os.path.join(HERE, '..', '..'))
+            yield Deck(name if not name.startswith('..') else path, 'run', path, [])
+            continue
+        for folder, folders, files in os.walk(path):
+            folders.sort()
+            if 'run.json' in files:
+                del folders[:]
+                run = json.load(open(os.path.join(folder, 'run.json')))
+                name = f'{run["test"].removeprefix("verify_")}/{os.path.basename(run["deck"])} {" ".join(run["options"])}'.strip() + f' [{os.path.basename(folder)[:6]}]'
+                yield Deck(name, run['command'], os.path.join(folder, 'files', run['deck']), run['options'])
+            else:
+                yield from find_decks(os.path.join(folder, file) for file in sorted(files) if file.endswith('.inp'))
+
+
+def without_digits(options):
+    """The options but --digits N, which both runs get anew."""
+    kept, skip = [], False
+    for word in options:
+        if not skip and word != '--digits':
+            kept.append(word)
+        skip = word == '--digits' and not skip
+    return kept
+
+
+def arguments(deck, output):
+    command = [] if deck.command == 'run' else [deck.command]
+    return command + [deck.path, '-o', output] + without_digits(deck.options) + ['--digits', '17']
+
+
+def settings():
+    """What ./run --ranks sets (tools/ranks.sh)."""
+    script = f'. {HERE}/../../tools/ranks.sh; prepare_mpirun; env | grep "^OMPI_\\|^PRTE_"'
+    lines = subprocess.run(['sh', '-c', script], capture_output=True, text=True).stdout.splitlines()
+    return dict(os.environ, **dict(line.split('=', 1) for line in lines))
+
+
+def run(program, deck, output, environment, limit):
+    """Exit code, codes of errors and warnings, seconds."""
+    begin = time.time()
+    process = subprocess.Popen(program + arguments(deck, output), env=environment, cwd=os.path.dirname(output), stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors='replace')
+    try:
+        said = process.communicate(timeout=limit)[1]
+    except subprocess.TimeoutExpired:
+        process.terminate()
+        process.communicate()
+        return None, [], time.time() - begin
+    return process.returncode, sorted(re.findall(r'(?:error|warning|note) \[([A-Z0-9-]+)\]', said)), time.time() - begin
+
+
+def is_count(column):
+    """Counts of iterations, whose digits may be lost to rounding, and times."""
+    return column in COUNTS or column.endswith(('_wall', '_cpu'))
+
+
+def drop_counts(folder):
+    """Takes counts and times out of the tables below a folder."""
+    for place, _, files in os.walk(folder):
+        for path in (os.path.join(place, file) for file in files if TABLE.search(file)):
+            lines = open(path, errors='replace').read().splitlines()
+            separator = ',' if path.endswith('.csv') else None
+            new, columns = [], []
+            for line in lines:
+                words = line.split(separator)
+                if line.startswith('# columns:'):
+                    columns = words[2:]
+                elif not line.startswith('#') and separator and not columns:
+                    columns = words
+                elif not line.startswith('#') and any(map(is_count, columns)) and len(words) == len(columns):
+                    line = (separator or ' ').join('0' if is_count(c) else w for c, w in zip(columns, words))
+                if os.path.basename(path).startswith('summary.') and COUNTS & set(words):
+                    continue
+                new.append(line)
+            if new != lines:
+                open(path, 'w').write('\n'.join(new) + '\n')
+
+
+def tables(folder):
+    return sorted(os.path.relpath(os.path.join(place, file), folder) for place, _, files in os.walk(folder) for file in files
+                  if TABLE.search(file) and not re.match(r'(timing|iterations)\.', file))
+
+
+def difference(plain, a, b):
+    """The power of ten by which two tables are the same, as text."""
+    if open(a, 'rb').read() == open(b, 'rb').read():
+        return '0'
+    for power in POWERS:
+        if subprocess.call([plain, 'compare', a, b, '--rtol', power, '--quiet']) == 0:
+            return power
+    return 'more'
+
+
+def compare(plain, a, b, excepted):
+    """What is different: the largest power of ten of all tables, that of the excepted ones, and the tables past RTOL."""
+    names_a, names_b = tables(a), tables(b)
+    faults = [f'{name} only of one' for name in sorted(set(names_a) ^ set(names_b))]
+    worst, worst_excepted = '0', '0'
+    rank = (POWERS + ['more']).index
+    for name in sorted(set(names_a) & set(names_b)):
+        found = difference(plain, os.path.join(a, name), os.path.join(b, name))
+        limit = excepted.get(os.path.basename(name), excepted.get('*'))
+        if limit is not None:
+            worst_excepted = max(worst_excepted, found, key=rank)
+        else:
+            worst = max(worst, found, key=rank)
+        if found == 'more' or float(found) > (RTOL if limit is None else limit):
+            faults.append(f'{name} differs by up to {found}')
+    return worst, worst_excepted, faults
+
+
+def read_exceptions(path):
+    """Lines `DECK TABLE LIMIT REASON`, by | apart; DECK is a regular expression for the beginning of the name."""
+    rows = []
+    for line in open(path):
+        if line.strip() and not line.startswith('#'):
+            deck, table, limit, reason = [part.strip() for part in line.split('|')]
+            rows.append((re.compile(deck), table, float(limit), reason))
+    return rows
+
+
+def try_deck(deck, options, exceptions, environment):
+    """Lines of the report, and whether all is as it should be."""
+    work = tempfile.mkdtemp(dir=options.keep, prefix='same-')
+    excepted = {table: limit for pattern, table, limit, _ in exceptions if pattern.match(deck.name)}
+    try:
+        plain = os.path.join(work, 'plain')
+        code, said, seconds = run([options.plain], deck, plain, None, options.at_most)
+        if code is None:
+            return [f'{deck.name}: left out, more than {options.at_most} s'], True, False
+        drop_counts(plain)
+        right, words = True, []
+        for n in options.ranks:
+            by_ranks = os.path.join(work, f'ranks-{n}')
+            found = run(['mpirun', '-n', str(n), options.mpi], deck, by_ranks, environment, 100 + 20*seconds)
+            drop_counts(by_ranks)
+            worst, worst_excepted, faults = compare(options.plain, plain, by_ranks, excepted)
+            if found[0] != code:
+                faults.append(f'exit {found[0]}, not {code}')
+            if found[1] != said:
+                faults.append(f'said {found[1]}, not {said}')
+            right = right and not faults
+            words.append(f'{n} ranks {worst}' + (f' ({worst_excepted} excepted)' if worst_excepted != '0' else '') +
+                         ''.join(f' FAILED: {fault}' for fault in faults))
+        return [f'{deck.name}: exit {code}, {len(tables(plain))} tables, differs: {"; ".join(words)}'], right, True
+    finally:
+        if not options.keep:
+            shutil.rmtree(work, ignore_errors=True)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument('plain', type=os.path.abspath)
+    parser.add_argument('mpi', type=os.path.abspath)
+    parser.add_argument('paths', nargs='+')
+    parser.add_argument('--ranks', type=lambda text: [int(n) for n in text.split(',')], default=[1, 2, 3, 4])
+    parser.add_argument('--jobs', type=int, default=1)
+    parser.add_argument('--exceptions', default=os.path.join(HERE, 'exceptions.txt'))
+    parser.add_argument('--only', default='')
+    parser.add_argument('--at-most', type=float, default=None)
+    parser.add_argument('--keep')
+    parser.add_argument('--quiet', action='store_true')
+    options = parser.parse_args()
+    decks = sorted((deck for deck in find_decks(options.paths) if options.only in deck.name), key=lambda deck: deck.name)
+    if options.keep:
+        options.keep = os.path.abspath(options.keep)
+        os.makedirs(options.keep, exist_ok=True)
+    exceptions, environment = read_exceptions(options.exceptions), settings()
+    wrong = compared = 0
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for lines, right, was_run in pool.map(lambda deck: try_deck(deck, options, exceptions, environment), decks):
+            wrong += not right
+            compared += was_run
+            if not (right and options.quiet):
+                print('\n'.join(lines), flush=True)
+    print(f'{compared} decks with {", ".join(map(str, options.ranks))} ranks: {wrong} differ; {len(decks) - compared} left out')
+    return 1 if wrong or not compared else 0
+
+
+sys.exit(main())
