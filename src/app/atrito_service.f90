@@ -1,9 +1,12 @@
 !> What ranks other than the first do: they wait for what the first wants of them, and do it.
 module atrito_service
+   use atrito_command_line, only: command_t, TASK_SWEEP
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
-   use atrito_rank_services, only: SERVICE_END
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_RUNS
+   use atrito_run_request, only: take_request
+   use atrito_sweep, only: serve_sweep
    implicit none (type, external)
    private
    public :: serve
@@ -16,15 +19,30 @@ contains
       integer(ip) :: service
 
       do
+         call await_message()
          call receive_parcel(request, 0_ip)
          call take(request, service)
          select case (service)
          case (SERVICE_END)
             return
+         case (SERVICE_RUNS)
+            call serve_runs(request)
          case default
             error stop 'atrito_service: an unknown service is wanted'
          end select
       end do
    end subroutine serve
+
+   !> The runs of a sweep or a study.
+   subroutine serve_runs(request)
+      type(parcel_t), intent(inout) :: request
+      type(command_t) :: command
+
+      call take_request(request, command)
+      select case (command%task)
+      case (TASK_SWEEP)
+         call serve_sweep(command)
+      end select
+   end subroutine serve_runs
 
 end module atrito_service
