@@ -434,6 +434,9 @@ void atrito_pause(double seconds) {
 /* An integer that workers share: what was written before it is seen by whoever has read it. */
 int atrito_get_shared(const int *number) { return atomic_load_explicit((const _Atomic int *)number, memory_order_acquire); }
 
+/* Sets it and says what it was: of two that take it at once one alone gets it. */
+int atrito_swap_shared(int *number, int value) { return atomic_exchange((_Atomic int *)number, value); }
+
 void atrito_set_shared(int *number, int value) { atomic_store_explicit((_Atomic int *)number, value, memory_order_release); }
 
 /* Has the shell run a command and waits for its end: the exit code, 128 and the number of the signal that ended it, or 127 where

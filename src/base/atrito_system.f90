@@ -10,7 +10,8 @@ module atrito_system
    public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit, terminate
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
-   public :: worker_end, end_with_maker, process_number, maker_number, pause_for, get_shared, set_shared
+   public :: worker_end, end_with_maker, process_number, maker_number, pause_for, get_shared, set_shared, &
+             swap_shared
    public :: processor_seconds, peak_memory, address_space_limit, keep_freed_memory, reusable_memory
    public :: c_suspend_halting, c_restore_halting
 
@@ -131,6 +132,11 @@ module atrito_system
          import :: c_int
          integer(c_int), intent(in) :: number
       end function get_shared
+      integer(c_int) function swap_shared(number, value) bind(C, name='atrito_swap_shared')
+         import :: c_int
+         integer(c_int), intent(inout) :: number
+         integer(c_int), value :: value
+      end function swap_shared
       subroutine set_shared(number, value) bind(C, name='atrito_set_shared')
          import :: c_int
          integer(c_int), intent(inout) :: number
