@@ -1,11 +1,12 @@
 !> What ranks other than the first do: they wait for what the first wants of them, and do it.
 module atrito_service
-   use atrito_command_line, only: command_t, TASK_SWEEP
+   use atrito_command_line, only: command_t, TASK_STUDY, TASK_SWEEP
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
    use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_RUNS
    use atrito_run_request, only: take_request
+   use atrito_study, only: serve_study
    use atrito_sweep, only: serve_sweep
    implicit none (type, external)
    private
@@ -42,6 +43,8 @@ contains
       select case (command%task)
       case (TASK_SWEEP)
          call serve_sweep(command)
+      case (TASK_STUDY)
+         call serve_study(command)
       end select
    end subroutine serve_runs
 
