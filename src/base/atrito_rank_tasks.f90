@@ -95,19 +95,19 @@ contains
       type(hand_out_t) :: state
       type(parcel_t) :: last
       integer(lp) :: began
-      real(c_double) :: pause
+      real(c_double) :: wait_time
       logical :: any_news
 
       call system_clock(began)
       call begin_hand_out(list, tasks%in_own_process, state)
-      pause = SHORT_PAUSE
+      wait_time = SHORT_PAUSE
       do
          call give_to_free(tasks, state)
          if (all(state%n == 0) .and. .not. any(state%is_recalled)) exit
          call recall_for_idle(state)
          call look_for_answer(tasks, state, any_news)
-         if (any_news) pause = SHORT_PAUSE
-         if (.not. any_news) call sleep_longer(pause)
+         if (any_news) wait_time = SHORT_PAUSE
+         if (.not. any_news) call sleep_longer(wait_time)
       end do
       times = rank_times_t(size(state%n, kind=ip), state%longest, seconds_from(began) - minval(state%busy, mask=state%works))
       call put(last, LAST_TASK)
@@ -198,7 +198,7 @@ contains
    subroutine take_back(state, rank, task)
       type(hand_out_t), intent(inout) :: state
       integer(ip), intent(in) :: rank
-      integer(ip), intent(in) :: task               !< 0: begun
+      integer(ip), intent(in) :: task               !< 0 where it has begun
 
       state%is_recalled(rank) = .false.
       if (task == 0) return
@@ -249,11 +249,11 @@ contains
       type(parcel_t) :: answer
       integer :: end_code
       real(wp) :: seconds
-      real(c_double) :: pause
+      real(c_double) :: wait_time
       logical :: is_done, is_last
 
       is_last = .false.
-      pause = SHORT_PAUSE
+      wait_time = SHORT_PAUSE
       do
          if (own%n == 0) call await_message()
          if (has_message()) call listen(own, is_last)
@@ -261,9 +261,9 @@ contains
          call look_at_own(tasks, own, answer, is_done, end_code, seconds)
          if (is_done) then
             call send_answer(answer, end_code, seconds)
-            pause = SHORT_PAUSE
+            wait_time = SHORT_PAUSE
          else if (own%n > 0) then
-            call sleep_longer(pause)
+            call sleep_longer(wait_time)
          end if
       end do
       call end_task_process(own%process)
@@ -391,11 +391,11 @@ contains
       if (end_code /= 0) own%n_given = 0              ! the next one had not begun
    end subroutine look_at_own
 
-   subroutine sleep_longer(pause)
-      real(c_double), intent(inout) :: pause        !< [s]
+   subroutine sleep_longer(wait_time)
+      real(c_double), intent(inout) :: wait_time        !< [s]
 
-      call pause_for(pause)
-      pause = min(LONG_PAUSE, LONGER*pause)
+      call pause_for(wait_time)
+      wait_time = min(LONG_PAUSE, LONGER*wait_time)
    end subroutine sleep_longer
 
    real(wp) function seconds_from(began) result(seconds)

@@ -141,14 +141,14 @@ contains
    subroutine await_task(process, task)
       type(task_process_t), intent(inout) :: process
       integer(ip), intent(out) :: task
-      real(c_double) :: pause
+      real(c_double) :: wait_time
 
-      pause = SHORT_PAUSE
+      wait_time = SHORT_PAUSE
       do
          task = take_task_back(process)
          if (task == LAST_TASK) call end_worker()
          if (task /= 0) return
-         call wait_with_maker(process, pause)
+         call wait_with_maker(process, wait_time)
       end do
    end subroutine await_task
 
@@ -158,12 +158,12 @@ contains
       type(parcel_t), intent(in), target :: answer
       real(wp), intent(in) :: seconds_taken
       integer(int8), pointer :: bytes(:), room(:)
-      real(c_double) :: pause
+      real(c_double) :: wait_time
 
       if (parcel_length(answer) > NUMBER_BYTES*MOST_NUMBERS) error stop 'atrito_task_process: an answer is too long'
-      pause = SHORT_PAUSE
+      wait_time = SHORT_PAUSE
       do while (get_shared(process%shared(ANSWERED)) /= 0)
-         call wait_with_maker(process, pause)
+         call wait_with_maker(process, wait_time)
       end do
       bytes => parcel_bytes(answer)
       if (associated(bytes)) then
@@ -177,13 +177,13 @@ contains
    end subroutine give_answer
 
    !> Sleeps, a little longer than the last time; ends where the process that made this one is gone.
-   subroutine wait_with_maker(process, pause)
+   subroutine wait_with_maker(process, wait_time)
       type(task_process_t), intent(in) :: process
-      real(c_double), intent(inout) :: pause        !< [s]
+      real(c_double), intent(inout) :: wait_time        !< [s]
 
       if (maker_number() /= process%maker) call end_worker()
-      call pause_for(pause)
-      pause = min(LONG_PAUSE, LONGER*pause)
+      call pause_for(wait_time)
+      wait_time = min(LONG_PAUSE, LONGER*wait_time)
    end subroutine wait_with_maker
 
    !> The bytes of the answer.
