@@ -31,7 +31,7 @@ module atrito_sweep
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
    use atrito_sweep_journal, only: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, &
-                                    OUTCOMES
+                                   OUTCOMES
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
    use atrito_table, only: origin_t
@@ -369,7 +369,7 @@ contains
       type(page_t), intent(inout) :: page
 
       if (sweep%n_left > 0) call add_above_rule(page, 'left alone', &
-                                                   plural(sweep%n_left, 'run', 'runs')//', made by an earlier sweep')
+                                                 plural(sweep%n_left, 'run', 'runs')//', made by an earlier sweep')
       associate (times => sweep%times)
          if (times%n_ranks > 1) call add_above_rule(page, 'ranks', to_text(times%n_ranks)//', idle for '// &
                                                     number(times%longest_idle, 3)//' s at most; longest run '// &
