@@ -51,6 +51,8 @@ module atrito_command_line
       logical :: plot = .false.                     !< pictures by gnuplot
       type(plot_view_t) :: view                     !< what is asked of those of bodies
       logical :: report = .false.                   !< a page of HTML with everything, pictures too
+      logical :: resume = .false.                   !< of a sweep: runs that were done before are left alone
+      logical :: on_one_rank = .false.              !< a run of a sweep or a study, which are shared out over ranks as wholes
       logical :: json = .false.                     !< messages as JSON
       real(wp) :: rtol = DEFAULT_RTOL, atol = DEFAULT_ATOL
    end type command_t
@@ -319,6 +321,8 @@ contains
          command%plot = .true.
       case ('--quiet')
          command%quiet = .true.
+      case ('--resume')
+         command%resume = .true.
       case default
          call take_number(name, given%value, command, ok)
       end select

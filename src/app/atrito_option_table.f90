@@ -75,6 +75,8 @@ module atrito_option_table
                                 option_t('--vary', 'NAME=VALUES', [N, N, N, N, Y, N, Y], &
                                 'values of a *PARAMETER: v1,v2,... of a sweep (several --vary: all combinations), a:b of a limit', &
                                      expected='NAME=v1,v2,..., values of a parameter of the deck, each an expression of numbers'), &
+                                option_t('--resume', '', [N, N, N, N, Y, N, N], &
+                                         'leave the runs alone that an earlier sweep of the same deck and options has made'), &
                                 option_t('--levels', 'N', [N, N, N, N, N, Y, N], &
                                          'so many meshes, each of four times the elements', &
                                          expected='a whole number, 1 to 12: so many meshes, each with four elements for one'), &

@@ -1,13 +1,17 @@
 !> What ranks other than the first do: they wait for what the first wants of them, and do it.
 module atrito_service
+   use atrito_command_line, only: command_t, TASK_STUDY, TASK_SWEEP
    use atrito_kinds, only: ip
    use atrito_mpi, only: receive_parcel
    use atrito_parcel, only: parcel_t, take
    use atrito_part_service, only: serve_parts
    use atrito_part_store, only: part_store_t
    use atrito_part_tops, only: serve_tops, top_store_t
-   use atrito_rank_services, only: SERVICE_END, SERVICE_FIELDS, SERVICE_PARTS, SERVICE_TOPS
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_PARTS, SERVICE_RUNS, SERVICE_TOPS
    use atrito_shared_fields, only: serve_fields
+   use atrito_run_request, only: take_request
+   use atrito_study, only: serve_study
+   use atrito_sweep, only: serve_sweep
    implicit none (type, external)
    private
    public :: serve
@@ -22,6 +26,7 @@ contains
       integer(ip) :: service
 
       do
+         call await_message()
          call receive_parcel(request, 0_ip)
          call take(request, service)
          select case (service)
@@ -33,10 +38,26 @@ contains
             call serve_tops(parts, tops, request)
          case (SERVICE_FIELDS)
             call serve_fields(request)
+         case (SERVICE_RUNS)
+            call serve_runs(request)
          case default
             error stop 'atrito_service: an unknown service is wanted'
          end select
       end do
    end subroutine serve
+
+   !> The runs of a sweep or a study.
+   subroutine serve_runs(request)
+      type(parcel_t), intent(inout) :: request
+      type(command_t) :: command
+
+      call take_request(request, command)
+      select case (command%task)
+      case (TASK_SWEEP)
+         call serve_sweep(command)
+      case (TASK_STUDY)
+         call serve_study(command)
+      end select
+   end subroutine serve_runs
 
 end module atrito_service

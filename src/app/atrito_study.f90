@@ -1,45 +1,50 @@
 !> `atrito study`: one deck at several levels of refinement and with several elements; error against run time.
 module atrito_study
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use atrito_body_cache, only: body_cache_t
    use atrito_command_line, only: command_t, output_folder
    use atrito_console, only: print_status
-   use atrito_element_table, only: KINDS, kind_named
    use atrito_folder_claim, only: folder_claim_t, release_folder
-   use atrito_history, only: solve_history
    use atrito_kinds, only: ip, wp
-   use atrito_messages, only: clear_messages
-   use atrito_numbers, only: read_real, NUMBER_OK
-   use atrito_observations, only: observation_names, observations_t
+   use atrito_mpi, only: rank_count
    use atrito_page, only: page_t
-   use atrito_read_table, only: table_file_t, find_column
+   use atrito_parcel, only: parcel_t, put, take
    use atrito_provenance, only: provenance_t
+   use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, hand_out, work_for_first
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_run, only: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
+   use atrito_run_request, only: request_runs, has_own_process, print_lost
    use atrito_series_reports, only: begin_series, take_heading, report_of_study
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED
-   use atrito_strings, only: string_t, append_string, join, nearest_names, to_text, upper_case
-   use atrito_summary, only: quantity_t, scales_t, quantity_names, pair_quantities, step_quantities, summarise_pair
-   use atrito_study_errors, only: run_facts_t, study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
+   use atrito_strings, only: string_t, join, to_text
+   use atrito_study_errors, only: study_t, study_row_t, study_probe_t
+   use atrito_study_parcel, only: put_row, take_row
+   use atrito_study_plan, only: plan_study
    use atrito_study_plot, only: write_study_plot
-   use atrito_model, only: model_t, interaction_t
-   use atrito_results, only: history_t, results_t
+   use atrito_study_runs, only: make_timed_run, find_probe, make_command, has_failed, PROBES
    use atrito_study_table, only: write_study, compose_study
    use atrito_study_words, only: judge_study
-   use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
    use atrito_table, only: origin_t
-   use atrito_timers, only: phase_time_t, reset_timers, get_phases
    implicit none (type, external)
    private
-   public :: run_study
+   public :: run_study, serve_study
 
-   character(len=*), parameter :: DECK_ELEMENTS = 'deck'   !< instead of a kind of element: as in the deck
-   real(wp), parameter :: SHORT = 0.1_wp             !< [s] shorter runs are made three times, for the clock
-   integer, parameter :: REPEATS = 2                 !< times that a short run is made again
    integer(ip), parameter :: COARSER = 2             !< levels from the finest one to the one at which regularisations are probed
+
+   !> The tasks of ranks: the rows, then the probes of all kinds.
+   type, extends(rank_tasks_t) :: study_runs_t
+      type(command_t) :: command
+      type(study_t) :: study
+      type(reporter_t) :: reporter
+      type(status_t) :: status                       !< of the first run that could not be read back
+      logical :: is_first = .true.                   !< no run was made by this process
+      logical :: is_complete = .false.               !< all rows were made
+   contains
+      procedure :: make => make_task
+      procedure :: begin => begin_task
+      procedure :: keep => take_answer
+   end type study_runs_t
 
 contains
 
@@ -47,304 +52,216 @@ contains
    subroutine run_study(asked, code)
       type(command_t), intent(in) :: asked
       integer, intent(out) :: code                  !< one of STATUS_*
-      type(command_t) :: command
-      type(study_t) :: study
+      type(study_runs_t) :: runs
       type(status_t) :: status
       type(folder_claim_t) :: claim
 
-      command = asked
-      ! one solver on all levels: another one from some level on would put a step into the times
-      if (command%solver == 'auto') command%solver = 'sparse'
-      call choose_quantities(command, study, status)
-      call claim_output(command, claim, status)
+      call plan_study(asked, runs%command, runs%study, status)
+      call claim_output(runs%command, claim, status)
       code = status%code
       if (.not. is_ok(status)) return
-      call make_runs(command, study, code)
+      call make_runs(runs, code)
       call release_folder(claim)
    end subroutine run_study
 
-   !> The runs and what is made of them.
-   subroutine make_runs(command, study, code)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(inout) :: study
-      integer, intent(out) :: code
+   !> On the other ranks: makes what runs rank 0 hands out.
+   subroutine serve_study(asked)
+      type(command_t), intent(in) :: asked
+      type(study_runs_t) :: runs
       type(status_t) :: status
-      type(reporter_t) :: reporter
-      type(provenance_t) :: provenance
-      integer :: k
 
-      reporter%quiet = command%quiet .or. command%json
-      call find_provenance(command, provenance)
-      call list_runs(command, study)
-      code = STATUS_OK
-      do k = 1, size(study%rows)
-         associate (row => study%rows(k))
-            call report_progress(reporter, 'run '//to_text(int(k, ip))//' of '//to_text(size(study%rows, kind=ip))//'  ' &
-                                 //row%element//', level '//to_text(row%level))
-            call make_run(command, study, row, status)
-            if (is_ok(status) .and. .not. has_failed(row)) call time_again(command, study, row, k == 1, status)
-            code = max(code, status%code, int(row%code))
-            ! a fault of the command line or the deck is the same at every level
-            if (.not. is_ok(status) .or. row%code == STATUS_USAGE .or. (k == 1 .and. has_failed(row))) exit
-         end associate
-      end do
-      if (is_ok(status) .and. k > size(study%rows)) then
-         call make_probes(command, study, reporter)
-         call finish(command, provenance, study, status)
-      end if
-      if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
-      code = max(code, status%code)
+      call plan_study(asked, runs%command, runs%study, status)
+      runs%in_own_process = has_own_process(runs%command)
+      call work_for_first(runs)
+   end subroutine serve_study
+
+   !> The runs and what is made of them.
+   subroutine make_runs(runs, code)
+      type(study_runs_t), intent(inout) :: runs
+      integer, intent(out) :: code
+      type(provenance_t) :: provenance
+
+      associate (command => runs%command, status => runs%status)
+         runs%reporter%quiet = command%quiet .or. command%json
+         call find_provenance(command, provenance)
+         if (rank_count() > 1) then
+            call make_on_ranks(runs)
+         else
+            call make_here(runs)
+         end if
+         if (is_ok(status) .and. runs%is_complete) then
+            call make_probes(runs)
+            call finish(command, provenance, runs%study, status)
+         end if
+         if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
+         code = max(int(maxval(runs%study%rows%code)), status%code)
+      end associate
    end subroutine make_runs
 
-   !> Makes a short run again and keeps the times of the fastest; the first run of a process pays for loading it, and is made
-   !> again however long it takes.
-   subroutine time_again(command, study, row, is_first, status)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(in) :: study
-      type(study_row_t), intent(inout) :: row
-      logical, intent(in) :: is_first
-      type(status_t), intent(out) :: status
-      type(phase_time_t), allocatable :: best(:)
-      integer :: i
+   !> One after the other. A fault of the command line or the deck is the same at every level.
+   subroutine make_here(runs)
+      type(study_runs_t), intent(inout) :: runs
+      integer(ip) :: k
 
-      best = row%phases
-      do i = 1, REPEATS
-         if (sum(best%cpu) > SHORT .and. .not. (is_first .and. i == 1)) exit
-         call make_run(command, study, row, status)
-         if (.not. is_ok(status)) return
-         if (total_seconds(row, PROCESSOR) < sum(best%cpu)) best = row%phases
+      do k = 1, size(runs%study%rows, kind=ip)
+         call begin_task(runs, k)
+         associate (row => runs%study%rows(k))
+            call make_timed_run(runs%command, runs%study, row, runs%is_first, runs%status)
+            runs%is_first = .false.
+            if (.not. is_ok(runs%status) .or. row%code == STATUS_USAGE .or. (k == 1 .and. has_failed(row))) return
+         end associate
       end do
-      row%phases = best
-   end subroutine time_again
+      runs%is_complete = .true.
+   end subroutine make_here
 
-   !> What half of delta and half of eps do to the quantities, at a level of the last element that costs little.
-   subroutine make_probes(command, study, reporter)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(inout) :: study
-      type(reporter_t), intent(in) :: reporter
+   !> The first run shows whether there is any sense in the others; of these the longest begin first.
+   subroutine make_on_ranks(runs)
+      type(study_runs_t), intent(inout) :: runs
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: level, k
+
+      runs%in_own_process = has_own_process(runs%command)
+      call share_out(runs, [1_ip])
+      if (.not. is_ok(runs%status) .or. has_failed(runs%study%rows(1))) return
+      allocate (order(0))
+      do level = runs%command%levels - 1, 0, -1
+         order = [order, pack([(k, k=1, size(runs%study%rows, kind=ip))], runs%study%rows%level == level)]
+      end do
+      call share_out(runs, pack(order, order > 1))
+      runs%is_complete = all(runs%study%rows%code /= STATUS_USAGE)
+   end subroutine make_on_ranks
+
+   subroutine share_out(runs, list)
+      type(study_runs_t), intent(inout) :: runs
+      integer(ip), intent(in) :: list(:)
+      type(rank_times_t) :: times
+
+      if (size(list) == 0) return
+      call request_runs()
+      call hand_out(runs, list, times)
+   end subroutine share_out
+
+   !> What half of delta and half of eps do to the quantities.
+   subroutine make_probes(runs)
+      type(study_runs_t), intent(inout) :: runs
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i
       integer :: k
 
-      k = size(study%rows) - int(min(COARSER, command%levels - 1_ip))
-      allocate (study%probes(0))
-      associate (row => study%rows(k))
+      k = probed_row(runs)
+      allocate (runs%study%probes(0))
+      associate (row => runs%study%rows(k))
          if (row%code /= STATUS_OK) return
-         if (row%has_delta .or. row%has_eps .or. row%has_stick_slope) call report_progress(reporter, 'half of delta, half of eps')
-         if (row%has_delta) call add_probe(command, 'half the delta', .true., k, study)
-         if (row%has_eps) call add_probe(command, 'half the eps', .false., k, study)
-         if (row%has_stick_slope .and. .not. row%has_eps) call add_probe(command, 'twice the stick slope', .false., k, study)
+         list = pack([(i, i=1, size(PROBES, kind=ip))], &
+                     [row%has_delta, row%has_eps, row%has_stick_slope .and. .not. row%has_eps])
       end associate
+      if (size(list) == 0) return
+      call report_progress(runs%reporter, 'half of delta, half of eps')
+      deallocate (runs%study%probes)
+      allocate (runs%study%probes(size(list)))
+      do i = 1, size(list, kind=ip)
+         if (rank_count() == 1) call find_probe(runs%command, runs%study, k, int(list(i)), runs%study%probes(i))
+         if (rank_count() > 1) call name_probe(runs, int(list(i)), runs%study%probes(i))
+      end do
+      if (rank_count() > 1) call share_out(runs, list + size(runs%study%rows, kind=ip))
    end subroutine make_probes
 
-   !> A run once more, of which nothing is written, with half of a regularisation, or half the compliance of the stick slope.
-   subroutine add_probe(command, what, is_penalty, k, study)
-      type(command_t), intent(in) :: command
-      character(len=*), intent(in) :: what
-      logical, intent(in) :: is_penalty
-      integer, intent(in) :: k                      !< row
-      type(study_t), intent(inout) :: study
+   !> A level of the last element that costs little.
+   pure integer function probed_row(runs) result(k)
+      class(study_runs_t), intent(in) :: runs
+
+      k = size(runs%study%rows) - int(min(COARSER, runs%command%levels - 1_ip))
+   end function probed_row
+
+   !> A probe of which nothing is known.
+   subroutine name_probe(runs, kind, probe)
+      class(study_runs_t), intent(in) :: runs
+      integer, intent(in) :: kind                   !< place in PROBES
+      type(study_probe_t), intent(out) :: probe
+
+      probe = study_probe_t(trim(PROBES(kind)), kind == 1, probed_row(runs))
+      allocate (probe%values(size(runs%study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+   end subroutine name_probe
+
+   subroutine begin_task(self, task)
+      class(study_runs_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+
+      associate (rows => self%study%rows)
+         if (task > size(rows)) return
+         call report_progress(self%reporter, 'run '//to_text(task)//' of '//to_text(size(rows, kind=ip))//'  ' &
+                              //rows(task)%element//', level '//to_text(rows(task)%level))
+      end associate
+   end subroutine begin_task
+
+   !> A row or a probe, on any rank.
+   subroutine make_task(self, task, answer)
+      class(study_runs_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+      type(parcel_t), intent(inout) :: answer
       type(study_probe_t) :: probe
-      type(command_t) :: one
-      type(body_cache_t) :: store
-      type(model_t) :: model
-      type(history_t) :: history
-      type(observations_t) :: observations
-      type(reporter_t) :: reporter
       type(status_t) :: status
-      integer(ip) :: told
-      integer :: code
+      integer(ip) :: n
 
-      probe = study_probe_t(what, is_penalty, k)
-      allocate (probe%values(size(study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
-      reporter%quiet = .true.
-      call make_command(command, study%rows(k), one)
-      call clear_messages()
-      call load_model(one, reporter, model, told, code)
-      if (code == STATUS_OK) call prepare_observations(one, model, observations, code)
-      if (code == STATUS_OK) then
-         call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, is_penalty), merge(1.0_wp, 0.5_wp, is_penalty))
-         call solve_history(model, solve_options(one), reporter, history, status, store, observer=observations)
-         associate (n => size(history%frames))
-            if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-            if (is_ok(status)) call find_values(history%frames(n), study, probe%values)
-         end associate
+      n = size(self%study%rows, kind=ip)
+      if (task <= n) then
+         call make_timed_run(self%command, self%study, self%study%rows(task), self%is_first, status)
+         call put_row(self%study%rows(task), answer)
+         call put(answer, int(status%code, ip))
+         if (.not. is_ok(status)) call put(answer, status%text)
+         self%is_first = .false.
+      else
+         call find_probe(self%command, self%study, probed_row(self), int(task - n), probe)
+         call put(answer, probe%values)
       end if
-      call clear_messages()
-      study%probes = [study%probes, probe]
-   end subroutine add_probe
+   end subroutine make_task
 
-   !> Every element at every level.
-   pure subroutine list_runs(command, study)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(inout) :: study
-      integer(ip) :: i, k
-
-      study%elements = command%elements
-      if (size(study%elements) == 0) study%elements = [string_t(DECK_ELEMENTS)]
-      allocate (study%rows(size(study%elements)*command%levels))
-      do k = 1, size(study%rows, kind=ip)
-         i = (k - 1)/command%levels + 1
-         study%rows(k)%level = k - 1 - (i - 1)*command%levels
-         study%rows(k)%element = study%elements(i)%s
-      end do
-   end subroutine list_runs
-
-   pure logical function has_failed(row)
-      type(study_row_t), intent(in) :: row
-
-      has_failed = row%code /= STATUS_OK .and. row%code /= STATUS_NOT_CONVERGED
-   end function has_failed
-
-   !> --reference QUANTITY[=VALUE]; without any the energy and the resultants of the first pair. What is observed is studied in any
-   !> case.
-   subroutine choose_quantities(command, study, status)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(inout) :: study
-      type(status_t), intent(out) :: status
-      type(string_t), allocatable :: list(:)
-      integer :: i, equals, outcome
-
-      call list_references(command, list)
-      allocate (study%quantities(size(list)))
-      do i = 1, size(list)
-         associate (quantity => study%quantities(i))
-            equals = index(list(i)%s, '=')
-            quantity%name = quantity_of(list(i)%s)
-            call check_name(quantity%name, observation_names(command%observe), status)
-            if (.not. is_ok(status)) return
-            if (equals == 0) cycle
-            quantity%is_given = .true.
-            quantity%source = 'given'
-            call read_real(list(i)%s(equals + 1:), quantity%reference, outcome)
-            if (outcome == NUMBER_OK) cycle
-            call set_status(status, STATUS_USAGE, '--reference '//list(i)%s//': QUANTITY=VALUE with a number is expected')
-            return
-         end associate
-      end do
-   end subroutine choose_quantities
-
-   !> The references, then what is observed and not among them; without any reference the energy and the resultants last.
-   subroutine list_references(command, list)
-      type(command_t), intent(in) :: command
-      type(string_t), allocatable, intent(out) :: list(:)
-      type(string_t), allocatable :: observed(:)
-      integer :: i, k
-
-      list = command%references
-      observed = observation_names(command%observe)
-      do i = 1, size(observed)
-         do k = 1, size(command%references)
-            if (quantity_of(command%references(k)%s) == observed(i)%s) exit
-         end do
-         if (k > size(command%references)) call append_string(list, observed(i)%s)
-      end do
-      if (size(command%references) > 0) return
-      call append_string(list, 'strain_energy')
-      call append_string(list, 'normal_resultant')
-   end subroutine list_references
-
-   !> QUANTITY of `QUANTITY=VALUE` or of itself.
-   pure function quantity_of(reference) result(name)
-      character(len=*), intent(in) :: reference
-      character(len=:), allocatable :: name
-
-      name = reference
-      if (index(reference, '=') > 0) name = reference(:index(reference, '=') - 1)
-   end function quantity_of
-
-   subroutine check_name(name, observed, status)
-      character(len=*), intent(in) :: name
-      type(string_t), intent(in) :: observed(:)     !< names of --observe
-      type(status_t), intent(inout) :: status
-      type(string_t), allocatable :: names(:), near(:)
-      character(len=:), allocatable :: text
+   !> What a rank found. Where its process crashed, the run has failed, and a probe says nothing.
+   subroutine take_answer(self, task, answer, end_code)
+      class(study_runs_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+      type(parcel_t), intent(inout) :: answer
+      integer, intent(in) :: end_code
       integer :: i
 
-      names = quantity_names()
-      do i = 1, size(observed)
-         call append_string(names, observed(i)%s)
-      end do
-      do i = 1, size(names)
-         if (names(i)%s == name) return
-      end do
-      text = '--reference '//name//': summary.tab has no such quantity'
-      near = nearest_names(name, names, 3)
-      if (size(near) > 0) text = text//'; nearest: '//join(near, ', ')
-      call set_status(status, STATUS_USAGE, text)
-   end subroutine check_name
+      if (task > size(self%study%rows)) then
+         if (end_code /= 0) return
+         do i = 1, size(self%study%probes)
+            if (self%study%probes(i)%what == PROBES(task - size(self%study%rows))) call take(answer, self%study%probes(i)%values)
+         end do
+      else if (end_code == 0) then
+         call take_row(answer, self%study%rows(task))
+         call take_status(answer, self%status)
+      else
+         call lose_row(self, self%study%rows(task), end_code)
+      end if
+   end subroutine take_answer
 
-   subroutine make_run(command, study, row, status)
-      type(command_t), intent(in) :: command
-      type(study_t), intent(in) :: study
-      type(study_row_t), intent(inout) :: row       !< element and level are given
-      type(status_t), intent(out) :: status
-      type(command_t) :: one
-      type(body_cache_t) :: store
-      type(run_facts_t) :: facts
-      type(sweep_run_t) :: run
+   subroutine take_status(answer, status)
+      type(parcel_t), intent(inout) :: answer
+      type(status_t), intent(inout) :: status        !< an earlier one stays
+      character(len=:), allocatable :: text
+      integer(ip) :: code
+
+      call take(answer, code)
+      if (code == STATUS_OK) return
+      call take(answer, text)
+      if (is_ok(status)) call set_status(status, int(code), text)
+   end subroutine take_status
+
+   subroutine lose_row(runs, row, end_code)
+      class(study_runs_t), intent(in) :: runs
+      type(study_row_t), intent(inout) :: row
+      integer, intent(in) :: end_code
       real(wp) :: nan
-      integer :: i, code
 
-      call make_command(command, row, one)
-      call clear_messages()
-      call reset_timers()
-      call run_deck(one, store, code, facts)
-      row%code = int(code, ip)
-      row%run_facts_t = facts
-      row%phases = get_phases()
-      run%code = code
-      run%is_written = facts%is_whole                ! values of another time are no values of the study
-      call read_summary(one%folder, run, status)
+      call print_lost(runs%command, row%element//', level '//to_text(row%level), end_code)
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
-      row%values = [(amount(run%summary, study%quantities(i)%name, nan), i=1, size(study%quantities))]
-      row%estimate = amount(run%summary, 'error_estimate_percent', nan)
-      row%penetration = amount(run%summary, 'max_penetration', 0.0_wp)
-      row%pressure = amount(run%summary, 'max_pressure', 0.0_wp)
-   end subroutine make_run
-
-   !> The command of one run.
-   pure subroutine make_command(command, row, one)
-      type(command_t), intent(in) :: command
-      type(study_row_t), intent(in) :: row
-      type(command_t), intent(out) :: one
-
-      one = command
-      one%quiet = .true.
-      one%plot = .false.
-      one%report = .false.
-      one%refine = command%refine + row%level
-      if (row%element /= DECK_ELEMENTS) one%element = row%element
-      one%shape = shape_of(one%element)
-      one%state = state_of(one%element)
-      one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
-   end subroutine make_command
-
-   !> 0: the deck's own.
-   pure integer(ip) function shape_of(element)
-      character(len=*), intent(in) :: element
-
-      shape_of = 0
-      if (len_trim(element) > 0) shape_of = KINDS(kind_named(upper_case(trim(element))))%shape
-   end function shape_of
-
-   !> The same of the state.
-   pure integer(ip) function state_of(element)
-      character(len=*), intent(in) :: element
-
-      state_of = 0
-      if (len_trim(element) > 0) state_of = KINDS(kind_named(upper_case(trim(element))))%state
-   end function state_of
-
-   !> A quantity of the first pair, or of the step; `missing` where the summary has none.
-   pure real(wp) function amount(summary, name, missing)
-      type(table_file_t), intent(in) :: summary
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: missing
-      integer(ip) :: row
-
-      row = row_of_quantity(summary, name)
-      amount = missing
-      if (row > 0) amount = summary%value(find_column(summary, 'value'), row)
-   end function amount
+      row%code = int(STATUS_INTERNAL, ip)
+      allocate (row%values(size(runs%study%quantities)), source=nan)
+      row%estimate = nan
+      allocate (row%phases(0))
+   end subroutine lose_row
 
    subroutine finish(command, provenance, study, status)
       type(command_t), intent(in) :: command
@@ -379,29 +296,5 @@ contains
       end if
       call tell_series(command, page, has_report)
    end subroutine finish
-
-   pure elemental subroutine scale_laws(law, delta_factor, eps_factor)
-      type(interaction_t), intent(inout) :: law
-      real(wp), intent(in) :: delta_factor, eps_factor
-
-      law%delta = delta_factor*law%delta
-      law%eps = eps_factor*law%eps
-      law%stick_slope = law%stick_slope/eps_factor
-   end subroutine scale_laws
-
-   pure subroutine find_values(results, study, values)
-      type(results_t), intent(in) :: results
-      type(study_t), intent(in) :: study
-      real(wp), intent(inout) :: values(:)
-      type(quantity_t), allocatable :: list(:)
-      integer :: i, k
-
-      list = [pair_quantities(summarise_pair(results%contact(1)), scales_t()), step_quantities(results)]
-      do i = 1, size(values)
-         do k = 1, size(list)
-            if (list(k)%name == study%quantities(i)%name) values(i) = list(k)%value
-         end do
-      end do
-   end subroutine find_values
 
 end module atrito_study

@@ -1,7 +1,8 @@
 !> `atrito sweep`: one run a value, each in a folder of its own, one table of all.
 !>
 !> The first run is made before the others and leaves its factored bodies to them, and to the workers of --threads, which are
-!> copies of this process. What a worker finds stands in the files of its runs and in the integers that all share.
+!> copies of this process. What a worker finds stands in the files of its runs and in the integers that all share. With ranks
+!> (atrito_mpi) the runs are handed out to them instead, each to one rank with all of --threads.
 module atrito_sweep
    use, intrinsic :: iso_c_binding, only: c_int
    use atrito_body_cache, only: body_cache_t
@@ -12,19 +13,25 @@ module atrito_sweep
    use atrito_messages, only: clear_messages
    use atrito_overlay_plots, only: write_overlay_plots
    use atrito_observations, only: observation_names
-   use atrito_page, only: page_t
+   use atrito_mpi, only: rank_count
+   use atrito_page, only: page_t, add_above_rule, number, plural
+   use atrito_parcel, only: parcel_t, put, take
    use atrito_plot_files, only: plot_folder
    use atrito_processes, only: begin_worker, end_worker, share_integers
    use atrito_provenance, only: provenance_t
+   use atrito_rank_tasks, only: rank_tasks_t, rank_times_t, hand_out, work_for_first
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_run, only: run_deck
+   use atrito_run_request, only: request_runs, has_own_process, is_sound, print_lost
    use atrito_series_reports, only: begin_series, report_of_sweep
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_status, only: status_t, set_status, is_ok, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_INTERNAL
    use atrito_strings, only: string_t, append_string, to_text
    use atrito_study_errors, only: run_facts_t
+   use atrito_sweep_journal, only: sweep_journal_t, begin_journal, note_begin, note_end, find_done, remove_journal, &
+                                   OUTCOMES
    use atrito_sweep_plan, only: sweep_plan_t, plan_sweep
    use atrito_sweep_tables, only: sweep_run_t, read_summary, write_sweep, compose_sweep
    use atrito_table, only: origin_t
@@ -32,17 +39,24 @@ module atrito_sweep
    use atrito_timers, only: reset_timers
    implicit none (type, external)
    private
-   public :: run_sweep
+   public :: run_sweep, serve_sweep
 
    integer(c_int), parameter :: NOT_DONE = -1_c_int
 
-   !> What is asked, and the exit codes of the runs, then their factorisations, then what they wrote.
-   type :: sweep_t
+   !> What is asked, and what became of the runs. The tasks of ranks are the runs.
+   type, extends(rank_tasks_t) :: sweep_t
       type(command_t) :: command
       type(sweep_plan_t) :: plan
       type(provenance_t) :: provenance
-      integer(c_int), pointer :: shared(:) => null()   !< (3 n_runs)
+      type(sweep_journal_t) :: journal
+      integer(c_int), pointer :: shared(:) => null()   !< (OUTCOMES*n_runs) all exit codes, all factorisations, all that was written
       type(body_cache_t) :: store
+      integer(ip) :: n_left = 0                        !< runs that were done before
+      type(rank_times_t) :: times
+   contains
+      procedure :: make => make_task
+      procedure :: begin => begin_run
+      procedure :: keep => take_answer
    end type sweep_t
 
 contains
@@ -58,7 +72,7 @@ contains
       sweep%command = command
       call plan_sweep(command%vary, command%settings, sweep%plan, status)
       if (is_ok(status)) then
-         call share_integers(3*sweep%plan%n_runs, sweep%shared)
+         call share_integers(OUTCOMES*sweep%plan%n_runs, sweep%shared)
          if (.not. associated(sweep%shared)) call set_status(status, STATUS_INTERNAL, 'no memory for the outcome of the runs')
       end if
       call claim_output(command, claim, status)
@@ -75,72 +89,214 @@ contains
       type(sweep_run_t), allocatable :: runs(:)
       type(status_t) :: status
       integer(lp) :: began
+      logical :: is_possible
 
       call system_clock(began)
       call find_provenance(sweep%command, sweep%provenance)
+      call begin_journal(sweep%command, sweep%provenance, sweep%journal)
       sweep%shared = 0
       sweep%shared(:sweep%plan%n_runs) = NOT_DONE
-      call make_runs(sweep)
+      if (sweep%command%resume) call leave_alone(sweep)
+      call make_runs(sweep, is_possible)
       code = STATUS_USAGE
-      if (sweep%shared(1) == STATUS_USAGE) return         ! the deck has no such parameter: told by the first run
+      if (.not. is_possible) call remove_journal(sweep%journal)
+      if (.not. is_possible) return                       ! the deck has no such parameter: told by the first run
       call collect(sweep, runs, status)
       if (is_ok(status)) call finish(sweep, runs, seconds_since(began), status)
       if (.not. is_ok(status)) call print_status(status, sweep%command%names(1)%s, sweep%command%json)
       code = max(maxval(runs%code), status%code)
    end subroutine make_and_collect
 
-   !> The first run here, the others here or by workers, which take turns.
-   subroutine make_runs(sweep)
+   !> Runs that were done before keep what they have.
+   subroutine leave_alone(sweep)
       type(sweep_t), intent(inout) :: sweep
-      integer(ip) :: n_workers, w, run
+      logical :: is_done(sweep%plan%n_runs)
+      integer :: outcomes_of(OUTCOMES, sweep%plan%n_runs)
+      integer(ip) :: run
+
+      call find_done(sweep%journal, sweep%plan, is_done, outcomes_of)
+      do run = 1, sweep%plan%n_runs
+         if (is_done(run)) call keep_outcome(sweep, run, outcomes_of(:, run))
+      end do
+      sweep%n_left = count(is_done, kind=ip)
+   end subroutine leave_alone
+
+   !> All runs that are to be made; one that says that the command line is wrong says so for all.
+   subroutine make_runs(sweep, is_possible)
+      type(sweep_t), intent(inout) :: sweep
+      logical, intent(out) :: is_possible
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i
+
+      is_possible = .true.
+      list = pack([(i, i=1, sweep%plan%n_runs)], sweep%shared(:sweep%plan%n_runs) == NOT_DONE)
+      if (size(list) == 0) return
+      sweep%store%keeps = size(list) > 1
+      if (rank_count() > 1) then
+         call make_on_ranks(sweep, list)
+      else
+         call make_here(sweep, list)
+      end if
+      is_possible = sweep%shared(list(1)) /= STATUS_USAGE
+   end subroutine make_runs
+
+   !> The first run here, the others here or by workers, which take turns.
+   subroutine make_here(sweep, list)
+      type(sweep_t), intent(inout) :: sweep
+      integer(ip), intent(in) :: list(:)
+      integer(ip) :: n_workers, w, k
       logical :: is_worker, made
 
-      sweep%store%keeps = sweep%plan%n_runs > 1
-      call make_run(sweep, 1_ip)
-      if (sweep%shared(1) == STATUS_USAGE) return
-      n_workers = max(1_ip, min(sweep%command%threads, sweep%plan%n_runs - 1))
+      call make_run_here(sweep, list(1))
+      if (sweep%shared(list(1)) == STATUS_USAGE) return
+      n_workers = max(1_ip, min(sweep%command%threads, size(list, kind=ip) - 1))
       do w = 1, n_workers
          is_worker = .false.
          made = .false.
          if (n_workers > 1) call begin_worker(is_worker, made)
-         do run = 1 + w, sweep%plan%n_runs, n_workers
-            if (is_worker .or. .not. made) call make_run(sweep, run)
+         do k = 1 + w, size(list, kind=ip), n_workers
+            if (is_worker .or. .not. made) call make_run_here(sweep, list(k))
          end do
          if (is_worker) call end_worker()
       end do
       if (n_workers > 1) call await_workers()
-   end subroutine make_runs
+   end subroutine make_here
 
-   subroutine make_run(sweep, run)
+   subroutine make_run_here(sweep, run)
       type(sweep_t), intent(inout) :: sweep
       integer(ip), intent(in) :: run
-      type(command_t) :: one
-      type(reporter_t) :: reporter
-      type(run_facts_t) :: facts
-      integer :: i, code
+      integer :: outcome(OUTCOMES)
 
-      one = sweep%command
-      reporter%quiet = one%quiet .or. one%json
-      call report_progress(reporter, 'run '//to_text(run)//' of '//to_text(sweep%plan%n_runs)//'  '//sweep%plan%labels(run)%s)
-      one%quiet = .true.
-      one%report = .false.
-      one%plot = .false.                            ! the pictures of a sweep lay its runs over one another
-      one%threads = 1
-      one%folder = run_folder(sweep, run)
-      do i = 1, size(sweep%plan%names)
-         call append_string(one%settings, sweep%plan%names(i)%s//'='//sweep%plan%texts(i, run)%s)
-      end do
+      call begin_run(sweep, run)
+      call make_run(sweep, run, outcome)
+      call end_run(sweep, run, outcome)
+   end subroutine make_run_here
+
+   !> By all ranks. Where the first run is likely to fail for all, it is made alone, so that it is told once.
+   subroutine make_on_ranks(sweep, list)
+      type(sweep_t), intent(inout) :: sweep
+      integer(ip), intent(in) :: list(:)
+      type(command_t) :: one
+      integer(ip) :: n_alone
+
+      sweep%in_own_process = has_own_process(sweep%command)
+      n_alone = 0
+      call make_command(sweep, list(1), one)
+      if (.not. is_sound(one)) then
+         n_alone = 1
+         call request_runs()
+         call hand_out(sweep, list(:1), sweep%times)
+         if (sweep%shared(list(1)) == STATUS_USAGE) return
+      end if
+      call request_runs()
+      call hand_out(sweep, list(1 + n_alone:), sweep%times)
+   end subroutine make_on_ranks
+
+   !> On the other ranks: makes what runs rank 0 hands out.
+   subroutine serve_sweep(command)
+      type(command_t), intent(in) :: command
+      type(sweep_t) :: sweep
+      type(status_t) :: status
+
+      sweep%command = command
+      sweep%in_own_process = has_own_process(command)
+      sweep%store%keeps = .true.
+      call plan_sweep(command%vary, command%settings, sweep%plan, status)
+      call work_for_first(sweep)
+   end subroutine serve_sweep
+
+   !> A run as the task of a rank.
+   subroutine make_task(self, task, answer)
+      class(sweep_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+      type(parcel_t), intent(inout) :: answer
+      integer :: outcome(OUTCOMES)
+
+      call make_run(self, task, outcome)
+      call put(answer, int(outcome, ip))
+   end subroutine make_task
+
+   !> What a rank found. Where its process crashed, the run has failed.
+   subroutine take_answer(self, task, answer, end_code)
+      class(sweep_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+      type(parcel_t), intent(inout) :: answer
+      integer, intent(in) :: end_code
+      integer(ip), allocatable :: outcome(:)
+
+      if (end_code == 0) then
+         call take(answer, outcome)
+         call end_run(self, task, int(outcome))
+      else
+         call print_lost(self%command, self%plan%labels(task)%s, end_code)
+         call end_run(self, task, [STATUS_INTERNAL, 0, 0])
+      end if
+   end subroutine take_answer
+
+   subroutine begin_run(self, task)
+      class(sweep_t), intent(inout) :: self
+      integer(ip), intent(in) :: task
+      type(reporter_t) :: reporter
+
+      reporter%quiet = self%command%quiet .or. self%command%json
+      call report_progress(reporter, 'run '//to_text(task)//' of '//to_text(self%plan%n_runs)//'  '//self%plan%labels(task)%s)
+      call note_begin(self%journal, self%plan, task)
+   end subroutine begin_run
+
+   subroutine end_run(sweep, run, outcome)
+      class(sweep_t), intent(inout) :: sweep
+      integer(ip), intent(in) :: run
+      integer, intent(in) :: outcome(OUTCOMES)
+
+      call keep_outcome(sweep, run, outcome)
+      call note_end(sweep%journal, sweep%plan, run, outcome)
+   end subroutine end_run
+
+   subroutine keep_outcome(sweep, run, outcome)
+      class(sweep_t), intent(inout) :: sweep
+      integer(ip), intent(in) :: run
+      integer, intent(in) :: outcome(OUTCOMES)
+
+      sweep%shared(run::sweep%plan%n_runs) = int(outcome, c_int)
+   end subroutine keep_outcome
+
+   subroutine make_run(sweep, run, outcome)
+      class(sweep_t), intent(inout) :: sweep
+      integer(ip), intent(in) :: run
+      integer, intent(out) :: outcome(OUTCOMES)
+      type(command_t) :: one
+      type(run_facts_t) :: facts
+      integer :: code
+
+      call make_command(sweep, run, one)
       call clear_messages()
       call reset_timers()
       sweep%store%factorisations = 0
       call run_deck(one, sweep%store, code, facts)
-      sweep%shared(2*sweep%plan%n_runs + run) = count([facts%is_written, facts%is_whole], kind=c_int)
-      sweep%shared(sweep%plan%n_runs + run) = int(sweep%store%factorisations, c_int)
-      sweep%shared(run) = int(code, c_int)
+      outcome = [code, int(sweep%store%factorisations), count([facts%is_written, facts%is_whole])]
    end subroutine make_run
 
+   !> The command of one run.
+   subroutine make_command(sweep, run, one)
+      class(sweep_t), intent(in) :: sweep
+      integer(ip), intent(in) :: run
+      type(command_t), intent(out) :: one
+      integer :: i
+
+      one = sweep%command
+      one%quiet = .true.
+      one%report = .false.
+      one%plot = .false.                            ! the pictures of a sweep lay its runs over one another
+      if (rank_count() == 1) one%threads = 1         ! the runs are side by side instead
+      one%on_one_rank = .true.
+      one%folder = run_folder(sweep, run)
+      do i = 1, size(sweep%plan%names)
+         call append_string(one%settings, sweep%plan%names(i)%s//'='//sweep%plan%texts(i, run)%s)
+      end do
+   end subroutine make_command
+
    pure function run_folder(sweep, run) result(folder)
-      type(sweep_t), intent(in) :: sweep
+      class(sweep_t), intent(in) :: sweep
       integer(ip), intent(in) :: run
       character(len=:), allocatable :: folder
 
@@ -181,7 +337,10 @@ contains
       type(string_t), allocatable :: pictures(:)
       logical :: has_report
 
-      if (.not. any(runs%is_written)) return
+      if (.not. any(runs%is_written)) then
+         call remove_journal(sweep%journal)
+         return
+      end if
       associate (command => sweep%command, plan => sweep%plan)
          origin = series_origin(command, sweep%provenance, any(runs%code == STATUS_NOT_CONVERGED .or. &
                                                                (runs%is_written .and. .not. runs%is_whole)))
@@ -199,9 +358,24 @@ contains
             call report_of_sweep(plan%names, runs, seconds, report)
             call make_report(command, report, has_report)
          end if
+         call tell_work(sweep, page)
          call tell_series(command, page, has_report)
       end associate
    end subroutine finish
+
+   !> What is to be told of ranks, and of what was done before.
+   subroutine tell_work(sweep, page)
+      type(sweep_t), intent(in) :: sweep
+      type(page_t), intent(inout) :: page
+
+      if (sweep%n_left > 0) call add_above_rule(page, 'left alone', &
+                                                 plural(sweep%n_left, 'run', 'runs')//', made by an earlier sweep')
+      associate (times => sweep%times)
+         if (times%n_ranks > 1) call add_above_rule(page, 'ranks', to_text(times%n_ranks)//', idle for '// &
+                                                    number(times%longest_idle, 3)//' s at most; longest run '// &
+                                                    number(times%longest_task, 3)//' s')
+      end associate
+   end subroutine tell_work
 
    !> Lays the runs that came to their end over one another.
    subroutine plot_sweep(command, plan, runs, deck, drawn)

@@ -12,14 +12,16 @@ module atrito_processes
 contains
 
    !> Makes a worker. is_worker tells whom of the two this is; made is false when there is no worker.
-   subroutine begin_worker(is_worker, made)
+   subroutine begin_worker(is_worker, made, number)
       logical, intent(out) :: is_worker, made
+      integer, intent(out), optional :: number         !< of the worker's process
       integer :: id
 
       call flush_output()
       id = c_begin_worker()
       is_worker = id == 0
       made = id >= 0
+      if (present(number)) number = id
    end subroutine begin_worker
 
    !> Ends a worker. It leaves no word: what it found stands in its files and in shared integers.

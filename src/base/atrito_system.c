@@ -20,7 +20,11 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -101,6 +105,24 @@ int atrito_write_line(void *file, const char *text, size_t length) {
 }
 
 int atrito_close_file(void *file) { return fclose(file) == 0; }
+
+/* Adds a line at the end of a file, which is made where it is missing. The system takes it as one piece: what several processes
+ * add does not mix. 1: done. */
+int atrito_append_line(const char *path, const char *line) {
+   size_t length = strlen(line);
+   char *text = malloc(length + 1);
+   int file = text ? open(path, O_WRONLY | O_APPEND | O_CREAT, 0666) : -1;
+   int is_done = 0;
+
+   if (file >= 0) {
+      memcpy(text, line, length);
+      text[length] = '\n';
+      is_done = write(file, text, length + 1) == (ssize_t)(length + 1);
+      is_done = close(file) == 0 && is_done;
+   }
+   free(text);
+   return is_done;
+}
 
 /* ---- locks on folders ---- */
 
@@ -395,6 +417,44 @@ void atrito_await_workers(void) {
    while ((id = wait(NULL)) > 0)
       forget_child(id);
 }
+
+/* Whether a worker has ended: -1 while it runs; else its exit code, or 128 and the number of the signal that ended it. */
+int atrito_worker_end(int id) {
+   int state;
+   pid_t ended = waitpid(id, &state, WNOHANG);
+
+   if (ended == 0)
+      return -1;
+   forget_child(id);
+   if (ended != id)
+      return fault_code;                            /* nobody knows what became of it */
+   return WIFSIGNALED(state) ? 128 + WTERMSIG(state) : WEXITSTATUS(state);
+}
+
+/* This process, a worker, is ended when the one that made it is gone, however it went: by a signal where the system knows of such
+ * a thing, else where it asks. */
+void atrito_end_with_maker(void) {
+#ifdef __linux__
+   prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+}
+
+int atrito_process_number(void) { return getpid(); }
+
+int atrito_maker_number(void) { return getppid(); }
+
+void atrito_pause(double seconds) {
+   struct timespec time = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
+   nanosleep(&time, NULL);
+}
+
+/* An integer that workers share: what was written before it is seen by whoever has read it. */
+int atrito_get_shared(const int *number) { return atomic_load_explicit((const _Atomic int *)number, memory_order_acquire); }
+
+/* Sets it and says what it was: of two that take it at once one alone gets it. */
+int atrito_swap_shared(int *number, int value) { return atomic_exchange((_Atomic int *)number, value); }
+
+void atrito_set_shared(int *number, int value) { atomic_store_explicit((_Atomic int *)number, value, memory_order_release); }
 
 /* Has the shell run a command and waits for its end: the exit code, 128 and the number of the signal that ended it, or 127 where
  * there is no shell. The command is a group of processes of its own: a signal from the terminal comes to this process alone,

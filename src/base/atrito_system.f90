@@ -6,11 +6,13 @@ module atrito_system
    implicit none (type, external)
    private
    public :: c_is_folder, c_may_write, c_judge_folder, c_make_folder, c_remove_file, c_remove_folder, c_rename, c_true_path
-   public :: c_is_terminal, c_file_length, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file
+   public :: c_is_terminal, c_file_length, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
    public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit
    public :: terminate, be_rank
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
+   public :: worker_end, end_with_maker, process_number, maker_number, pause_for, get_shared, set_shared, &
+             swap_shared
    public :: processor_seconds, peak_memory, address_space_limit, keep_freed_memory, reusable_memory
    public :: c_suspend_halting, c_restore_halting
 
@@ -65,6 +67,9 @@ module atrito_system
    procedure(ask), bind(C, name='atrito_begin_worker') :: c_begin_worker
    procedure(act), bind(C, name='atrito_end_worker') :: c_end_worker
    procedure(act), bind(C, name='atrito_await_workers') :: await_workers
+   procedure(act), bind(C, name='atrito_end_with_maker') :: end_with_maker
+   procedure(ask), bind(C, name='atrito_process_number') :: process_number
+   procedure(ask), bind(C, name='atrito_maker_number') :: maker_number
    procedure(ask_path), bind(C, name='atrito_run_command') :: c_run_command
    procedure(ask_bytes), bind(C, name='atrito_peak_memory') :: peak_memory
    procedure(ask_bytes), bind(C, name='atrito_address_space_limit') :: address_space_limit
@@ -113,6 +118,32 @@ module atrito_system
          integer(c_int), value :: folder
          real(c_double), value :: seconds
       end function c_lock_folder
+      integer(c_int) function c_append_line(path, line) bind(C, name='atrito_append_line')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*), line(*)
+      end function c_append_line
+      integer(c_int) function worker_end(id) bind(C, name='atrito_worker_end')
+         import :: c_int
+         integer(c_int), value :: id                !< of c_begin_worker
+      end function worker_end
+      subroutine pause_for(seconds) bind(C, name='atrito_pause')
+         import :: c_double
+         real(c_double), value :: seconds
+      end subroutine pause_for
+      integer(c_int) function get_shared(number) bind(C, name='atrito_get_shared')
+         import :: c_int
+         integer(c_int), intent(in) :: number
+      end function get_shared
+      integer(c_int) function swap_shared(number, value) bind(C, name='atrito_swap_shared')
+         import :: c_int
+         integer(c_int), intent(inout) :: number
+         integer(c_int), value :: value
+      end function swap_shared
+      subroutine set_shared(number, value) bind(C, name='atrito_set_shared')
+         import :: c_int
+         integer(c_int), intent(inout) :: number
+         integer(c_int), value :: value
+      end subroutine set_shared
       type(c_ptr) function c_share_memory(bytes) bind(C, name='atrito_share_memory')
          import :: c_ptr, c_size_t
          integer(c_size_t), value :: bytes

@@ -205,7 +205,7 @@ for threads in 1 3; do
    [ "$(grep -c E-INTERRUPTED err)" -eq 1 ] || fail "a sweep, --threads $threads: told more than once, or not at all"
    [ -f sweep/q_1/summary.tab ] || fail "a sweep, --threads $threads: a finished run is gone"
    no_parts sweep "a sweep, --threads $threads"
-   for folder in sweep/*; do
+   for folder in sweep/q_*; do
       [ -f "$folder/summary.tab" ] || fail "a sweep, --threads $threads: $folder is left without tables"
    done
    [ ! -e sweep/sweep.tab ] || fail "a sweep, --threads $threads: sweep.tab was written"

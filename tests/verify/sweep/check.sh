@@ -89,6 +89,41 @@ near 'history without an increment: exit code' $? 3 0
 absent slow/push3_3.5
 says 'history without an increment' slow/sweep.tab '# push3=3.5: exit code 3'
 
+# --resume leaves alone what has been made: after a sweep that was killed, with more values, and not with other options.
+deck=$input/ex1-plate-on-support.inp
+written() { ls -l --time-style=full-iso "$1"/*/summary.tab | awk '{ print $6, $7, $9 }' | sort; }
+long=$(awk 'BEGIN { for (i = 1; i <= 30; i++) printf "%s%d.5e-5", (i > 1 ? "," : ""), i }')
+sweep 0 whole --vary "eps=$long" --refine 3 --threads 2 --quiet
+rm -rf again
+"$atrito" sweep "$deck" --vary "eps=$long" --refine 3 --threads 2 -o again --quiet &
+job=$!
+while kill -0 $job 2>/dev/null; do [ "$(cat again/sweep.journal 2>/dev/null | wc -l)" -ge 3 ] && break; sleep 0.02; done
+workers=$(cat /proc/[0-9]*/stat 2>/dev/null | awk -v p="$job" '{ id = $1; sub(/^.*[)] /, "") } $2 == p { print id }')
+# shellcheck disable=SC2086
+kill -KILL $job $workers 2>/dev/null || complain 'the sweep was over before it could be killed'
+wait $job
+absent again/runs.tab
+made=$(wc -l <again/sweep.journal)
+written again >before
+for values in "$long" "$long" "$long,1"; do
+   "$atrito" sweep "$deck" --vary "eps=$values" --refine 3 --threads 2 -o again --resume >again.out 2>&1 || complain 'sweep --resume'
+   says 'runs that are left alone' again.out "left alone   $made run"
+   equal_folders "begun again behind $made runs" whole/sweep.tab again/sweep.tab >again.cmp
+   grep -q '^FAILED' again.cmp && [ "$values" = "$long" ] && cat again.cmp && failures=$((failures + 1))
+   written again >after
+   [ "$(comm -12 before after | wc -l)" -ge "$made" ] || complain 'what was made has been made again'
+   made=30
+   mv after before
+done
+for folder in whole/eps_*; do equal_folders "$folder begun again" "$folder" "again/${folder#whole/}"; done
+near 'one value more' "$(grep -vc '^#' again/runs.tab)" 31 0
+"$atrito" sweep "$deck" --vary "eps=1.5e-5,2.5e-5" --refine 2 -o again --resume >again.out 2>&1 || complain 'sweep --resume with another mesh'
+grep -q 'left alone' again.out && complain 'another mesh, and runs are left alone'
+"$atrito" sweep "$deck" --vary "eps=1.5e-5,2.5e-5,3.5e-5" --refine 3 -o again --resume >again.out 2>&1 || complain 'sweep --resume with the former mesh'
+says 'only what is still there' again.out 'left alone   1 run,'
+"$atrito" sweep "$deck" --vary "eps=1.5e-5,3.5e-5" --refine 3 -o again >again.out 2>&1 || complain 'sweep without --resume'
+grep -q 'left alone' again.out && complain 'without --resume runs are left alone'
+
 # What is wrong with the command line is told before anything is computed.
 sweep 1 wrong --vary epss=1,2
 says 'an unknown parameter' wrong.err 'setting epss'

@@ -1,0 +1,112 @@
+!> What rank 0 tells the others of runs that it will hand out: the arguments of the program, of which each makes the command anew.
+module atrito_run_request
+   use atrito_build_model, only: build_model
+   use atrito_command_line, only: command_t, fetch_arguments, parse_command
+   use atrito_console, only: print_status
+   use atrito_deck, only: deck_t
+   use atrito_kinds, only: ip
+   use atrito_messages, only: message_t, clear_messages, count_messages, SEVERITY_ERROR
+   use atrito_model, only: model_t
+   use atrito_observations, only: observations_t, read_observations
+   use atrito_parcel, only: parcel_t, put, take
+   use atrito_rank_services, only: send_to_others, SERVICE_RUNS
+   use atrito_reader, only: read_deck
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL
+   use atrito_strings, only: string_t, to_text
+   implicit none (type, external)
+   private
+   public :: request_runs, put_arguments, take_arguments, take_request, has_own_process, is_sound, print_lost
+
+   integer(ip), parameter :: FIRST_SIGNAL = 128_ip   !< exit codes above it are of signals
+
+contains
+
+   !> On rank 0: the others get ready for what the command line of the program asks for.
+   subroutine request_runs()
+      type(string_t), allocatable :: arguments(:)
+      type(parcel_t) :: request
+
+      call fetch_arguments(arguments)
+      call put(request, SERVICE_RUNS)
+      call put_arguments(arguments, request)
+      call send_to_others(request)
+   end subroutine request_runs
+
+   subroutine put_arguments(arguments, parcel)
+      type(string_t), intent(in) :: arguments(:)
+      type(parcel_t), intent(inout) :: parcel
+      integer :: i
+
+      call put(parcel, size(arguments, kind=ip))
+      do i = 1, size(arguments)
+         call put(parcel, arguments(i)%s)
+      end do
+   end subroutine put_arguments
+
+   subroutine take_arguments(parcel, arguments)
+      type(parcel_t), intent(inout) :: parcel
+      type(string_t), allocatable, intent(out) :: arguments(:)
+      integer(ip) :: i, n
+
+      call take(parcel, n)
+      allocate (arguments(n))
+      do i = 1, n
+         call take(parcel, arguments(i)%s)
+      end do
+   end subroutine take_arguments
+
+   !> On the other ranks: the command, from a request whose first number has been taken.
+   subroutine take_request(request, command)
+      type(parcel_t), intent(inout) :: request
+      type(command_t), intent(out) :: command
+      type(string_t), allocatable :: arguments(:)
+      type(message_t) :: error
+      logical :: ok
+
+      call take_arguments(request, arguments)
+      call parse_command(arguments, command, ok, error)
+      if (.not. ok) error stop 'atrito: ranks do not agree on the command line; is the same program installed on all machines?'
+   end subroutine take_request
+
+   !> Whether runs are made in processes apart. MUMPS over MPI does not survive a fork: with it a rank makes its runs itself.
+   pure logical function has_own_process(command)
+      type(command_t), intent(in) :: command
+
+      has_own_process = command%solver /= 'mumps'
+   end function has_own_process
+
+   !> Whether a run begins: its deck has no errors, and --observe none either. Nothing is told.
+   logical function is_sound(command)
+      type(command_t), intent(in) :: command        !< of the run
+      type(deck_t) :: deck
+      type(model_t) :: model
+      type(observations_t) :: observations
+      type(message_t) :: error
+      type(status_t) :: status
+
+      call clear_messages()
+      call read_deck(command%names(1)%s, command%settings, deck, status)
+      is_sound = is_ok(status) .and. count_messages(SEVERITY_ERROR) == 0
+      if (is_sound .and. size(command%observe) > 0) then
+         call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
+         is_sound = count_messages(SEVERITY_ERROR) == 0
+         if (is_sound) call read_observations(command%observe, model, observations, is_sound, error)
+      end if
+      call clear_messages()
+   end function is_sound
+
+   !> A run was lost with the process that made it.
+   subroutine print_lost(command, label, end_code)
+      type(command_t), intent(in) :: command
+      character(len=*), intent(in) :: label         !< of the run
+      integer, intent(in) :: end_code               !< its exit code, or 128 and the number of the signal
+      type(status_t) :: status
+      character(len=:), allocatable :: text
+
+      text = 'ended with exit code '//to_text(int(end_code, ip))
+      if (end_code > FIRST_SIGNAL) text = 'was ended by signal '//to_text(int(end_code, ip) - FIRST_SIGNAL)
+      call set_status(status, STATUS_INTERNAL, 'the process of the run '//label//' '//text//'; the other runs go on')
+      call print_status(status, command%names(1)%s, command%json)
+   end subroutine print_lost
+
+end module atrito_run_request

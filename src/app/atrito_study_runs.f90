@@ -1,0 +1,208 @@
+!> The runs of a study: at a level with an element, and once more with other regularisations.
+module atrito_study_runs
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use atrito_body_cache, only: body_cache_t
+   use atrito_command_line, only: command_t, output_folder
+   use atrito_element_table, only: KINDS, kind_named
+   use atrito_history, only: solve_history
+   use atrito_kinds, only: ip, wp
+   use atrito_messages, only: clear_messages
+   use atrito_model, only: model_t, interaction_t
+   use atrito_observations, only: observations_t
+   use atrito_read_table, only: table_file_t, find_column
+   use atrito_reporter, only: reporter_t
+   use atrito_results, only: history_t, results_t
+   use atrito_run, only: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
+   use atrito_status, only: status_t, is_ok, STATUS_OK, STATUS_NOT_CONVERGED
+   use atrito_strings, only: to_text, upper_case
+   use atrito_study_errors, only: run_facts_t, study_t, study_row_t, study_probe_t, total_seconds, PROCESSOR
+   use atrito_study_plan, only: DECK_ELEMENTS
+   use atrito_summary, only: quantity_t, scales_t, pair_quantities, step_quantities, summarise_pair
+   use atrito_sweep_tables, only: sweep_run_t, read_summary, row_of_quantity
+   use atrito_timers, only: phase_time_t, reset_timers, get_phases
+   implicit none (type, external)
+   private
+   public :: make_timed_run, find_probe, make_command, has_failed, PROBES
+
+   real(wp), parameter :: SHORT = 0.1_wp             !< [s] shorter runs are made three times, for the clock
+   integer, parameter :: REPEATS = 2                 !< times that a short run is made again
+   !> The runs with other regularisations: half of delta, half of eps, half the compliance of the stick slope.
+   character(len=*), parameter :: PROBES(3) = [character(len=21) :: 'half the delta', 'half the eps', 'twice the stick slope']
+
+contains
+
+   !> A run, and once more where it is short.
+   subroutine make_timed_run(command, study, row, is_first, status)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(in) :: study
+      type(study_row_t), intent(inout) :: row       !< element and level are given
+      logical, intent(in) :: is_first               !< of this process
+      type(status_t), intent(out) :: status
+
+      call make_run(command, study, row, status)
+      if (is_ok(status) .and. .not. has_failed(row)) call time_again(command, study, row, is_first, status)
+   end subroutine make_timed_run
+
+   !> Makes a short run again and keeps the times of the fastest; the first run of a process pays for loading it, and is made
+   !> again however long it takes.
+   subroutine time_again(command, study, row, is_first, status)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(in) :: study
+      type(study_row_t), intent(inout) :: row
+      logical, intent(in) :: is_first
+      type(status_t), intent(out) :: status
+      type(phase_time_t), allocatable :: best(:)
+      integer :: i
+
+      best = row%phases
+      do i = 1, REPEATS
+         if (sum(best%cpu) > SHORT .and. .not. (is_first .and. i == 1)) exit
+         call make_run(command, study, row, status)
+         if (.not. is_ok(status)) return
+         if (total_seconds(row, PROCESSOR) < sum(best%cpu)) best = row%phases
+      end do
+      row%phases = best
+   end subroutine time_again
+
+   !> A run once more, of which nothing is written, with half of a regularisation, or half the compliance of the stick slope.
+   subroutine find_probe(command, study, k, kind, probe)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(in) :: study
+      integer, intent(in) :: k                      !< row
+      integer, intent(in) :: kind                   !< place in PROBES
+      type(study_probe_t), intent(out) :: probe
+      type(command_t) :: one
+      type(body_cache_t) :: store
+      type(model_t) :: model
+      type(history_t) :: history
+      type(observations_t) :: observations
+      type(reporter_t) :: reporter
+      type(status_t) :: status
+      integer(ip) :: told
+      integer :: code
+
+      probe = study_probe_t(trim(PROBES(kind)), kind == 1, k)
+      allocate (probe%values(size(study%quantities)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      reporter%quiet = .true.
+      call make_command(command, study%rows(k), one)
+      call clear_messages()
+      call load_model(one, reporter, model, told, code)
+      if (code == STATUS_OK) call prepare_observations(one, model, observations, code)
+      if (code == STATUS_OK) then
+         call scale_laws(model%interactions, merge(0.5_wp, 1.0_wp, probe%is_penalty), &
+                         merge(1.0_wp, 0.5_wp, probe%is_penalty))
+         call solve_history(model, solve_options(one), reporter, history, status, store, observer=observations)
+         associate (n => size(history%frames))
+            if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
+            if (is_ok(status)) call find_values(history%frames(n), study, probe%values)
+         end associate
+      end if
+      call clear_messages()
+   end subroutine find_probe
+
+   pure logical function has_failed(row)
+      type(study_row_t), intent(in) :: row
+
+      has_failed = row%code /= STATUS_OK .and. row%code /= STATUS_NOT_CONVERGED
+   end function has_failed
+
+   subroutine make_run(command, study, row, status)
+      type(command_t), intent(in) :: command
+      type(study_t), intent(in) :: study
+      type(study_row_t), intent(inout) :: row       !< element and level are given
+      type(status_t), intent(out) :: status
+      type(command_t) :: one
+      type(body_cache_t) :: store
+      type(run_facts_t) :: facts
+      type(sweep_run_t) :: run
+      real(wp) :: nan
+      integer :: i, code
+
+      call make_command(command, row, one)
+      call clear_messages()
+      call reset_timers()
+      call run_deck(one, store, code, facts)
+      row%code = int(code, ip)
+      row%run_facts_t = facts
+      row%phases = get_phases()
+      run%code = code
+      run%is_written = facts%is_whole                ! values of another time are no values of the study
+      call read_summary(one%folder, run, status)
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
+      row%values = [(amount(run%summary, study%quantities(i)%name, nan), i=1, size(study%quantities))]
+      row%estimate = amount(run%summary, 'error_estimate_percent', nan)
+      row%penetration = amount(run%summary, 'max_penetration', 0.0_wp)
+      row%pressure = amount(run%summary, 'max_pressure', 0.0_wp)
+   end subroutine make_run
+
+   !> The command of one run.
+   pure subroutine make_command(command, row, one)
+      type(command_t), intent(in) :: command
+      type(study_row_t), intent(in) :: row
+      type(command_t), intent(out) :: one
+
+      one = command
+      one%on_one_rank = .true.
+      one%quiet = .true.
+      one%plot = .false.
+      one%report = .false.
+      one%refine = command%refine + row%level
+      if (row%element /= DECK_ELEMENTS) one%element = row%element
+      one%shape = shape_of(one%element)
+      one%state = state_of(one%element)
+      one%folder = output_folder(command)//'/'//row%element//'_'//to_text(row%level)
+   end subroutine make_command
+
+   !> 0: the deck's own.
+   pure integer(ip) function shape_of(element)
+      character(len=*), intent(in) :: element
+
+      shape_of = 0
+      if (len_trim(element) > 0) shape_of = KINDS(kind_named(upper_case(trim(element))))%shape
+   end function shape_of
+
+   !> The same of the state.
+   pure integer(ip) function state_of(element)
+      character(len=*), intent(in) :: element
+
+      state_of = 0
+      if (len_trim(element) > 0) state_of = KINDS(kind_named(upper_case(trim(element))))%state
+   end function state_of
+
+   !> A quantity of the first pair, or of the step; `missing` where the summary has none.
+   pure real(wp) function amount(summary, name, missing)
+      type(table_file_t), intent(in) :: summary
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: missing
+      integer(ip) :: row
+
+      row = row_of_quantity(summary, name)
+      amount = missing
+      if (row > 0) amount = summary%value(find_column(summary, 'value'), row)
+   end function amount
+
+   pure elemental subroutine scale_laws(law, delta_factor, eps_factor)
+      type(interaction_t), intent(inout) :: law
+      real(wp), intent(in) :: delta_factor, eps_factor
+
+      law%delta = delta_factor*law%delta
+      law%eps = eps_factor*law%eps
+      law%stick_slope = law%stick_slope/eps_factor
+   end subroutine scale_laws
+
+   pure subroutine find_values(results, study, values)
+      type(results_t), intent(in) :: results
+      type(study_t), intent(in) :: study
+      real(wp), intent(inout) :: values(:)
+      type(quantity_t), allocatable :: list(:)
+      integer :: i, k
+
+      list = [pair_quantities(summarise_pair(results%contact(1)), scales_t()), step_quantities(results)]
+      do i = 1, size(values)
+         do k = 1, size(list)
+            if (list(k)%name == study%quantities(i)%name) values(i) = list(k)%value
+         end do
+      end do
+   end subroutine find_values
+
+end module atrito_study_runs
