@@ -36,7 +36,7 @@ module atrito_driver
    use atrito_version, only: PROGRAM_NAME, PROGRAM_VERSION
    implicit none (type, external)
    private
-   public :: run_program
+   public :: begin_program, run_program
 
 contains
 
@@ -50,7 +50,6 @@ contains
       type(body_cache_t) :: store
       logical :: ok
 
-      call begin_program()
       call fetch_arguments(arguments)
       call parse_command(arguments, command, ok, error)
       code = STATUS_USAGE

@@ -93,8 +93,8 @@ contains
       symbols%drawn = ' using ($1 + scale*$3):($2 + scale*$4)'//columns//' '//drawn
    end subroutine begin_block
 
-   !> A block stands in the file from the first thing in it on: gnuplot does not count one that is empty, and would take the next one
-   !> for it.
+   !> A block stands in the file from the first thing in it on: gnuplot does not count one that is empty, and would take the next
+   !> one for it.
    subroutine open_block(symbols)
       type(symbols_t), intent(inout) :: symbols
 

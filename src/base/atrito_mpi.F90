@@ -1,0 +1,147 @@
+!> The processes of one run, its ranks, by MPI; the only module that knows it. without_mpi/ has its twin, with one rank.
+!>
+!> Rank 0 is the program; the others wait for what it wants of them. A message is a parcel. Its length goes before it, so that
+!> whoever receives can make room.
+module atrito_mpi
+   use, intrinsic :: iso_fortran_env, only: int8
+   use atrito_kinds, only: ip, lp, wp
+   use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes, parcel_length
+   use mpi_f08, only: MPI_Abort, MPI_Allreduce, MPI_ANY_SOURCE, MPI_BYTE, MPI_Comm_rank, MPI_Comm_size, MPI_COMM_SELF, &
+                      MPI_COMM_WORLD, MPI_DOUBLE_PRECISION, MPI_Finalize, MPI_Get_library_version, MPI_Init_thread, MPI_INTEGER, &
+                      MPI_INTEGER8, MPI_Iprobe, MPI_MAX, MPI_MAX_LIBRARY_VERSION_STRING, MPI_Recv, MPI_Reduce, MPI_Send, &
+                      MPI_Status, MPI_STATUS_IGNORE, MPI_SUM, MPI_THREAD_FUNNELED
+   implicit none (type, external)
+   private
+   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ANY_RANK
+   public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
+   public :: all_ranks_communicator, own_communicator, mpi_name
+
+   !> The sender of any message that waits.
+   integer(ip), parameter :: ANY_RANK = -1_ip
+   integer, parameter :: LENGTH_TAG = 1, CONTENT_TAG = 2
+   !> MPI counts in default integers: what is longer goes in slices [bytes].
+   integer(lp), parameter :: SLICE = 2_lp**30
+
+contains
+
+   !> Before anything else that is said here.
+   subroutine begin_ranks()
+      integer :: provided
+
+      call MPI_Init_thread(MPI_THREAD_FUNNELED, provided)
+   end subroutine begin_ranks
+
+   !> After it nothing is said any more. All ranks come here, whatever became of the run.
+   subroutine end_ranks()
+
+      call MPI_Finalize()
+   end subroutine end_ranks
+
+   !> Ends all ranks at once: what one of them cannot tell the others would have these wait for ever.
+   subroutine abort_ranks(code)
+      integer, intent(in) :: code                    !< exit code
+
+      call MPI_Abort(MPI_COMM_WORLD, code)
+   end subroutine abort_ranks
+
+   !> 0 is the first.
+   integer(ip) function own_rank() result(rank)
+      integer :: r
+
+      call MPI_Comm_rank(MPI_COMM_WORLD, r)
+      rank = int(r, ip)
+   end function own_rank
+
+   integer(ip) function rank_count() result(n)
+      integer :: ranks
+
+      call MPI_Comm_size(MPI_COMM_WORLD, ranks)
+      n = int(ranks, ip)
+   end function rank_count
+
+   !> Comes back when the parcel may be changed.
+   subroutine send_parcel(parcel, to)
+      type(parcel_t), intent(in), target :: parcel
+      integer(ip), intent(in) :: to
+      integer(int8), pointer :: bytes(:)
+      integer(lp) :: length, first, last
+
+      length = parcel_length(parcel)
+      call MPI_Send([length], 1, MPI_INTEGER8, int(to), LENGTH_TAG, MPI_COMM_WORLD)
+      bytes => parcel_bytes(parcel)
+      do first = 1, length, SLICE
+         last = min(length, first + SLICE - 1)
+         call MPI_Send(bytes(first:last), int(last - first + 1), MPI_BYTE, int(to), CONTENT_TAG, MPI_COMM_WORLD)
+      end do
+   end subroutine send_parcel
+
+   !> The next parcel of a rank, or of the first that has one.
+   subroutine receive_parcel(parcel, from, sender)
+      type(parcel_t), intent(out), target :: parcel
+      integer(ip), intent(in) :: from                !< or ANY_RANK
+      integer(ip), intent(out), optional :: sender
+      type(MPI_Status) :: status
+      integer(int8), pointer :: bytes(:)
+      integer(lp) :: length(1), first, last
+      integer :: source
+
+      source = int(from)
+      if (from == ANY_RANK) source = MPI_ANY_SOURCE
+      call MPI_Recv(length, 1, MPI_INTEGER8, source, LENGTH_TAG, MPI_COMM_WORLD, status)
+      source = status%MPI_SOURCE
+      if (present(sender)) sender = int(source, ip)
+      call make_parcel(length(1), parcel)
+      bytes => parcel_bytes(parcel)
+      do first = 1, length(1), SLICE
+         last = min(length(1), first + SLICE - 1)
+         call MPI_Recv(bytes(first:last), int(last - first + 1), MPI_BYTE, source, CONTENT_TAG, MPI_COMM_WORLD, &
+                       MPI_STATUS_IGNORE)
+      end do
+   end subroutine receive_parcel
+
+   !> Whether a parcel of any rank waits.
+   logical function has_message()
+      call MPI_Iprobe(MPI_ANY_SOURCE, LENGTH_TAG, MPI_COMM_WORLD, has_message, MPI_STATUS_IGNORE)
+   end function has_message
+
+   !> Adds up a list of numbers over all ranks, for rank 0. All ranks call it.
+   subroutine sum_to_first(x)
+      real(wp), intent(inout), contiguous :: x(:)    !< of each rank; on return, on rank 0, the sums
+      real(wp), allocatable :: sums(:)
+
+      allocate (sums(size(x)))
+      call MPI_Reduce(x, sums, size(x), MPI_DOUBLE_PRECISION, MPI_SUM, 0, MPI_COMM_WORLD)
+      if (own_rank() == 0) x = sums
+   end subroutine sum_to_first
+
+   !> The largest of a number over all ranks, for all of them. All ranks call it.
+   integer(ip) function largest_of_ranks(own) result(largest)
+      integer(ip), intent(in) :: own
+      integer :: found(1)
+
+      call MPI_Allreduce([int(own)], found, 1, MPI_INTEGER, MPI_MAX, MPI_COMM_WORLD)
+      largest = int(found(1), ip)
+   end function largest_of_ranks
+
+   !> The communicator of all ranks, for a library that takes it as a number.
+   integer function all_ranks_communicator() result(communicator)
+      communicator = MPI_COMM_WORLD%MPI_VAL
+   end function all_ranks_communicator
+
+   !> That of this rank alone.
+   integer function own_communicator() result(communicator)
+      communicator = MPI_COMM_SELF%MPI_VAL
+   end function own_communicator
+
+   !> For --version: 'Open MPI v4.1.4'.
+   function mpi_name() result(name)
+      character(len=:), allocatable :: name
+      character(len=MPI_MAX_LIBRARY_VERSION_STRING) :: text
+      integer :: length
+
+      call MPI_Get_library_version(text, length)
+      name = text(:length)
+      if (index(name, ',') > 0) name = name(:index(name, ',') - 1)
+   end function mpi_name
+
+end module atrito_mpi

@@ -1,0 +1,82 @@
+!> The twin of src/base/atrito_mpi.F90: one rank, which has nobody to talk to. It is in the library of the room; atrito-mpi alone
+!> links the other in front of it, so both have the same procedures with the same interfaces.
+module atrito_mpi
+   use atrito_kinds, only: ip, wp
+   use atrito_parcel, only: parcel_t
+   implicit none (type, external)
+   private
+   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ANY_RANK
+   public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
+   public :: all_ranks_communicator, own_communicator, mpi_name
+
+   integer(ip), parameter :: ANY_RANK = -1_ip
+   character(len=*), parameter :: NOBODY = 'atrito_mpi: there is no other rank'
+
+contains
+
+   subroutine begin_ranks()
+   end subroutine begin_ranks
+
+   subroutine end_ranks()
+   end subroutine end_ranks
+
+   subroutine abort_ranks(code)
+      integer, intent(in) :: code
+
+      error stop code
+   end subroutine abort_ranks
+
+   integer(ip) function own_rank()
+      own_rank = 0
+   end function own_rank
+
+   integer(ip) function rank_count()
+      rank_count = 1
+   end function rank_count
+
+   subroutine send_parcel(parcel, to)
+      type(parcel_t), intent(in), target :: parcel
+      integer(ip), intent(in) :: to
+
+      error stop NOBODY
+   end subroutine send_parcel
+
+   subroutine receive_parcel(parcel, from, sender)
+      type(parcel_t), intent(out), target :: parcel
+      integer(ip), intent(in) :: from
+      integer(ip), intent(out), optional :: sender
+
+      if (present(sender)) sender = from
+      error stop NOBODY
+   end subroutine receive_parcel
+
+   logical function has_message()
+      has_message = .false.
+   end function has_message
+
+   subroutine sum_to_first(x)
+      real(wp), intent(inout), contiguous :: x(:)
+   end subroutine sum_to_first
+
+   integer(ip) function largest_of_ranks(own)
+      integer(ip), intent(in) :: own
+
+      largest_of_ranks = own
+   end function largest_of_ranks
+
+   !> What sequential libraries take for a communicator.
+   integer function all_ranks_communicator()
+      all_ranks_communicator = 0
+   end function all_ranks_communicator
+
+   integer function own_communicator()
+      own_communicator = 0
+   end function own_communicator
+
+   function mpi_name() result(name)
+      character(len=:), allocatable :: name
+
+      name = 'no MPI'
+   end function mpi_name
+
+end module atrito_mpi
