@@ -53,6 +53,7 @@ contains
       type(status_t), intent(out) :: status
       type(scene_cut_t) :: cut
       real(wp), allocatable :: diagonal(:), coupling(:)
+      integer(ip) :: i
 
       call number_scene(fem, scene%numbering)
       scene%n = scene%numbering%n
@@ -63,8 +64,13 @@ contains
       call set_scene_gaps(rows, line, value, scene)
       allocate (diagonal(scene%n), coupling(scene%n))
       call diagonals_of_rows(fem, rows, scene%numbering, diagonal, coupling)
-      call set_flexibility(fem, rows, line, diagonal, coupling, scene)
       call plan_cut(fem, rows, line, scene%numbering, diagonal, part_of_element, n_parts, cut)
+      do i = 1, scene%k                          ! springs stand beside the elements
+         associate (spring => scene%numbering%spring(i))
+            if (spring > 0) diagonal(spring) = diagonal(spring) + cut%spring_stiffness(i)
+         end associate
+      end do
+      call set_flexibility(fem, rows, line, diagonal, coupling, scene)
       call move_alloc(parts, scene%parts)
       call hand_over(fem, rows, line, cut, scene)
       call scene%parts%assemble(scene%lists, status)
