@@ -4,8 +4,8 @@
 !> parents, so a change is followed from its leaf up to the root, and nothing else is factored again.
 !>
 !> The last unknowns may be kept: they are assembled as the last front and not eliminated. With i for the others and k for these,
-!> S = A_kk - A_ki A_ii^-1 A_ik is what the last factorisation leaves of the matrix, reduce_variable leaves f_k - A_ki A_ii^-1 f_i of
-!> a load, and expand_variable finds x_i = A_ii^-1 (f_i - A_ik x_k).
+!> S = A_kk - A_ki A_ii^-1 A_ik is what the last factorisation leaves of the matrix, reduce_variable leaves f_k - A_ki A_ii^-1 f_i
+!> of a load, and expand_variable finds x_i = A_ii^-1 (f_i - A_ik x_k).
 !>
 !> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted; with
 !> kept unknowns kept_matrix, reduce_variable and expand_variable in place of the last.

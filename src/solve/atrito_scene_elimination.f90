@@ -18,8 +18,8 @@ module atrito_scene_elimination
       integer(ip), allocatable :: first_motion(:) !< (bodies) unknown of the first motion
       integer(ip), allocatable :: n_motions(:)   !< (bodies)
       integer(ip), allocatable :: first_pull(:)  !< (bodies) place of the first motion among the k amplitudes; 0: none
-      integer(ip), allocatable :: spring(:)      !< (k; of a part: its springs) displacement at which a motion is held, so that u_e has no part in it;
-      !< 0: of a rigid body, which has no u_e
+      integer(ip), allocatable :: spring(:)      !< (k; of a part its springs) displacement at which a motion is held, so that u_e
+      !< has no part in it; 0: of a rigid body, which has no u_e
       integer(ip), allocatable :: body(:)        !< (n)
    end type scene_numbering_t
 

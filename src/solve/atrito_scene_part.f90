@@ -2,7 +2,8 @@
 !>
 !> With A the stiffness of the elements, B the rows of the points and P the pulls, all of this part alone, the matrix of the scene
 !> is the sum of A + B' diag(stiffness) B + P over the parts. The unknowns that other parts have, too, are the last ones of a part
-!> and are kept: what its factorisation leaves of them is its share in the system that holds the parts together (atrito_scene_parts).
+!> and are kept: what its factorisation leaves of them is its share in the system that holds the parts together
+!> (atrito_scene_parts).
 !>
 !> A part has numbers of its own for nodes, elements, bodies, points, rows and unknowns; a contact line and contact rows say only
 !> which points have which rows, and over which nodes.

@@ -11,11 +11,24 @@ module shared_cases
    use model_cases, only: build
    implicit none (type, external)
    private
-   public :: prepare_deck, cut_across, cut_at_random, by_bodies, PRESSED, WALL, ROWS, PLATENS
+   public :: prepare_deck, cut_across, cut_at_random, by_bodies, PRESSED, WALL, ROWS, PLATENS, LAYERS
 
    character(len=*), parameter :: STONE = '*MATERIAL, NAME=STONE|*ELASTIC|1000., .3|'
    character(len=*), parameter :: JOINT = '*SURFACE INTERACTION, NAME=JOINT|*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR|1e5|'// &
                                   '*FRICTION|.5, 1e5|*CONTACT PAIR, INTERACTION=JOINT|'
+
+   !> Orthotropic and of varying thickness on isotropic, B-bar; and a block that floats beside them and touches nothing.
+   character(len=*), parameter :: LAYERS = &
+                                  '*BLOCK, TYPE=CPS4, ELSET=LOWER, NX=6, NY=3|0., 0.|3., 0.|3., 1.|0., 1.|'// &
+                                  '*BLOCK, TYPE=CPE4, ELSET=UPPER, NX=4, NY=3|.5, 1.|2.5, 1.|2.5, 2.|.5, 2.|'// &
+                                  '*BLOCK, TYPE=CPE4, ELSET=LONE, NX=3, NY=3|5., 0.|6., 0.|6., 1.|5., 1.|'// &
+                                  STONE//'*MATERIAL, NAME=WOOD|*ELASTIC, TYPE=ENGINEERING CONSTANTS|'// &
+                                  '900., 300., 400., .2, .1, .3, 150., 120.|110.|'// &
+                                  '*ELSET, ELSET=REST|UPPER, LONE|*SOLID SECTION, ELSET=LOWER, MATERIAL=WOOD, NODAL THICKNESS|'// &
+                                  '*SOLID SECTION, ELSET=REST, MATERIAL=STONE, FORMULATION=BBAR|1.|'// &
+                                  '*NSET, NSET=OVER, GENERATE|8, 28|*NODAL THICKNESS|LOWER-BOTTOM, 2.|OVER, 3.|'// &
+                                  JOINT//'UPPER-BOTTOM, LOWER-TOP|*BOUNDARY|LOWER-BOTTOM, 1, 2|'// &
+                                  '*STEP|*STATIC|*DLOAD|UPPER, BY, -1.|*END STEP'
 
    !> A block on another, pressed and sheared; the meshes do not match.
    character(len=*), parameter :: PRESSED = &
