@@ -80,7 +80,7 @@ contains
 
       failed = 0
       failed_top = 0
-      changed = self%top%n /= self%lists%n_top .or. self%top%failed > 0
+      changed = self%top%failed > 0
       do p = 1, self%lists%n_parts
          associate (part => self%parts(p)%scene, lists => self%lists)
             call part%factor(stiffness(lists%first_row(p):lists%first_row(p + 1) - 1), &
@@ -88,9 +88,7 @@ contains
             changed = changed .or. part%matrix%n_refactored > 0
             if (part%failed > 0) failed = lists%first_unknown(p) + part%failed - 1
          end associate
-         if (is_ok(status)) cycle
-         self%top%n = -1                         ! whatever was factored of the others goes into the next top
-         return
+         if (.not. is_ok(status)) return         ! it will be factored again, and the top with it
       end do
       if (changed) call factor_sum(self, failed_top, status)
    end subroutine factor_local
