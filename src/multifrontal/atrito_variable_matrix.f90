@@ -3,9 +3,14 @@
 !> Fronts whose subtrees hold no such element are factored once, equal ones together. The others keep what they leave for their
 !> parents, so a change is followed from its leaf up to the root, and nothing else is factored again.
 !>
-!> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted.
+!> The last unknowns may be kept: they are assembled as the last front and not eliminated. With i for the others and k for these,
+!> S = A_kk - A_ki A_ii^-1 A_ik is what the last factorisation leaves of the matrix, reduce_variable leaves f_k - A_ki A_ii^-1 f_i
+!> of a load, and expand_variable finds x_i = A_ii^-1 (f_i - A_ik x_k).
+!>
+!> Use: create_variable_matrix; then set_variable_element, factor_variable_matrix and solve_variable_matrix as often as wanted; with
+!> kept unknowns kept_matrix, reduce_variable and expand_variable in place of the last.
 module atrito_variable_matrix
-   use atrito_element_store, only: element_store_t, pack_matrix, move_store, sum_diagonals
+   use atrito_element_store, only: element_store_t, pack_matrix, unpack_matrix, move_store, sum_diagonals
    use atrito_elimination, only: elimination_t
    use atrito_front_classes, only: children_of
    use atrito_front_factors, only: fronts_t, front_bytes_t, plan_fronts, factor_class, count_class, held_bytes, tell_of_memory, &
@@ -17,10 +22,12 @@ module atrito_variable_matrix
    implicit none (type, external)
    private
    public :: variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, solve_variable_matrix, &
-             add_fixed_product, fixed_diagonal, variable_matrix_bytes, expect_variable_factors
+             kept_matrix, reduce_variable, expand_variable, add_fixed_product, fixed_diagonal, variable_matrix_bytes, &
+             expect_variable_factors
 
    type :: variable_matrix_t
       integer(ip) :: n = 0                         !< equations
+      integer(ip) :: n_kept = 0                    !< the last ones of them, which are not eliminated
       integer(ip) :: n_fixed = 0                   !< elements that do not change, the first ones
       integer(ip) :: n_fronts = 0, n_refactored = 0 !< all that are different; those of the last factorisation
       integer(ip) :: failed = 0                    !< equation whose pivot was not positive
@@ -40,25 +47,28 @@ module atrito_variable_matrix
 contains
 
    !> Sets up the fronts. status: STATUS_INTERNAL when the memory does not suffice.
-   subroutine create_variable_matrix(matrix, n, elimination, fixed, start, equations, status)
+   subroutine create_variable_matrix(matrix, n, elimination, fixed, start, equations, status, n_kept)
       type(variable_matrix_t), intent(out) :: matrix
       integer(ip), intent(in) :: n                 !< equations
-      type(elimination_t), intent(in) :: elimination !< of all of them
+      type(elimination_t), intent(in) :: elimination !< of all of them; those that are kept last, in the order of their numbers
       type(element_store_t), intent(inout) :: fixed !< elements that do not change; it is emptied
       integer(lp), intent(in) :: start(:)          !< (n_variable + 1)
       integer(ip), intent(in) :: equations(:)      !< of variable element v: start(v) + 1..start(v + 1); 0: prescribed
       type(status_t), intent(out) :: status
+      integer(ip), intent(in), optional :: n_kept  !< equations that are not eliminated, the last ones; none where it is left out
 
       matrix%n = n
+      if (present(n_kept)) matrix%n_kept = n_kept
       matrix%n_fixed = fixed%n
       matrix%elimination = elimination
       matrix%first_matrix = fixed%n_matrices
       call move_store(fixed, matrix%store)
       call append_variable(start, equations, matrix%store)
-      call plan_fronts(elimination, n, 0_ip, matrix%store, matrix%fronts)
+      call plan_fronts(elimination, n, matrix%n_kept, matrix%store, matrix%fronts)
       if (.not. matrix%fronts%enough) call tell_of_memory(status)
       if (.not. matrix%fronts%enough) return
       matrix%n_fronts = matrix%fronts%n_classes - 1
+      if (matrix%n_kept > 0) matrix%n_fronts = matrix%fronts%n_classes
       allocate (matrix%class_of(size(start) - 1), source=0_ip)
       allocate (matrix%is_due(matrix%fronts%n_classes), source=.true.)
       call find_variable_fronts(matrix)
@@ -197,6 +207,37 @@ contains
          x(i) = by_position(matrix%elimination%position(i))
       end do
    end subroutine solve_variable_matrix
+
+   !> What the last factorisation leaves of the matrix at the kept unknowns, their Schur complement: both triangles.
+   pure subroutine kept_matrix(matrix, s)
+      type(variable_matrix_t), intent(in) :: matrix
+      real(wp), intent(out) :: s(:, :)             !< (n_kept, n_kept)
+
+      if (matrix%n_kept > 0) call unpack_matrix(matrix%fronts%factors(matrix%n_fronts)%update, s)
+   end subroutine kept_matrix
+
+   !> f <- L^-1 f by positions; the last n_kept are what it leaves at the kept unknowns.
+   subroutine reduce_variable(matrix, f)
+      type(variable_matrix_t), intent(in) :: matrix
+      real(wp), intent(inout) :: f(:)              !< (n) in: by unknowns; out: by positions
+      real(wp), allocatable :: by_position(:)
+
+      allocate (by_position(matrix%n))
+      by_position(matrix%elimination%position) = f
+      call forward(matrix%fronts, by_position)
+      f = by_position
+   end subroutine reduce_variable
+
+   !> x <- L^-T x behind reduce_variable, with the kept unknowns in the last n_kept places.
+   subroutine expand_variable(matrix, x)
+      type(variable_matrix_t), intent(in) :: matrix
+      real(wp), intent(inout) :: x(:)              !< (n) in: by positions; out: by unknowns
+      real(wp), allocatable :: by_position(:)
+
+      by_position = x
+      call backward(matrix%fronts, by_position)
+      x = by_position(matrix%elimination%position)
+   end subroutine expand_variable
 
    !> y <- y + A x for the elements that do not change, each with the matrix that it has itself.
    subroutine add_fixed_product(matrix, x, y)

@@ -6,26 +6,24 @@
 !> above it.
 module atrito_assembled_scene
    use atrito_assembly, only: fem_t, collect_elements
-   use atrito_bodies, only: mode_at
-   use atrito_contact_line, only: contact_line_t, rest_of
-   use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
-   use atrito_contact_system, only: contact_system_t
+   use atrito_contact_line, only: contact_line_t
+   use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_multifrontal, only: elimination_t, element_store_t, add_to_store, sum_diagonals, take_own_matrices, front_bytes_t, &
                                   variable_matrix_t, create_variable_matrix, set_variable_element, factor_variable_matrix, &
                                   solve_variable_matrix, add_fixed_product, fixed_diagonal, expect_variable_factors, &
                                   variable_matrix_bytes
-   use atrito_row_entries, only: build_constraint_rows, direction_of
+   use atrito_row_entries, only: build_constraint_rows
    use atrito_scene_elimination, only: scene_numbering_t, number_scene, eliminate_scene
+   use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_flexibility
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: assembled_scene_t, assemble_scene, set_scene_gaps, set_scene_load, displacements_of
+   public :: assembled_scene_t, assemble_scene, assemble_part
 
    integer(ip), parameter :: ROWS_A_POINT = 2
 
-   type, extends(contact_system_t) :: assembled_scene_t
-      type(scene_numbering_t) :: numbering
+   type, extends(scene_system_t) :: assembled_scene_t
       type(variable_matrix_t) :: matrix
       logical :: is_near = .false.                          !< fronts have one matrix for elements that are near, and not equal
       character(len=:), allocatable :: order                !< how the order of elimination was found
@@ -44,9 +42,6 @@ module atrito_assembled_scene
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
 
-   !> A load on a motion of at most this share of what it is the sum of is none.
-   real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp
-
 contains
 
    !> Numbers the unknowns, assembles the bodies and finds the fronts. status: STATUS_INTERNAL when the memory does not suffice.
@@ -59,6 +54,7 @@ contains
       type(status_t), intent(out) :: status
       type(element_store_t) :: store
       type(elimination_t) :: elimination
+      real(wp), allocatable :: diagonal(:), coupling(:)
 
       call number_scene(fem, scene%numbering)
       scene%n = scene%numbering%n
@@ -73,29 +69,35 @@ contains
       elimination = eliminate_scene(fem, rows, line, scene%numbering)
       call create_variable_matrix(scene%matrix, scene%n, elimination, store, scene%start, scene%unknown, status)
       call move_alloc(elimination%text, scene%order)
-      if (is_ok(status)) call set_flexibility(fem, rows, line, scene)
+      if (.not. is_ok(status)) return
+      allocate (diagonal(scene%n), coupling(scene%n))
+      call fixed_diagonal(scene%matrix, diagonal, coupling)
+      call set_flexibility(fem, rows, line, diagonal, coupling, scene)
    end subroutine assemble_scene
 
-   !> What prescribed displacements, initial gaps and rest slips leave of the rows: g0.
-   subroutine set_scene_gaps(rows, line, value, scene)
+   !> The same for a part of a scene, whose last unknowns other parts have, too: they are kept (atrito_variable_matrix). It is there
+   !> to be multiplied, factored and reduced, not to be solved. status: STATUS_INTERNAL when the memory does not suffice.
+   subroutine assemble_part(fem, rows, line, spring_stiffness, n_kept, scene, status)
+      type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
-      real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
-      type(assembled_scene_t), intent(inout) :: scene
-      integer(ip) :: i
+      real(wp), intent(in) :: spring_stiffness(:) !< of the numbering's springs [F/L]
+      integer(ip), intent(in) :: n_kept
+      type(assembled_scene_t), intent(inout) :: scene !< with its numbering and its rows
+      type(status_t), intent(out) :: status
+      type(element_store_t) :: store
+      type(elimination_t) :: elimination
 
-      if (.not. allocated(scene%g0)) allocate (scene%g0(scene%rows%n))
-      do i = 1, scene%rows%n
-         associate (j => line%point(i))
-            scene%g0(i) = row_value(rows, j, direction_of(rows, line, i), value)
-            if (line%normal(j) == i) then
-               scene%g0(i) = scene%g0(i) - rows%gap(j)
-            else
-               scene%g0(i) = scene%g0(i) - rest_of(line, j)
-            end if
-         end associate
-      end do
-   end subroutine set_scene_gaps
+      scene%n = scene%numbering%n
+      scene%k = scene%numbering%k
+      scene%n_bodies = fem%bodies%n
+      call list_variable_elements(line, scene)
+      call collect_scene(fem, scene%numbering, store, spring_stiffness)
+      scene%is_near = store%is_near
+      elimination = eliminate_scene(fem, rows, line, scene%numbering, n_kept)
+      call create_variable_matrix(scene%matrix, scene%n, elimination, store, scene%start, scene%unknown, status, n_kept)
+      call move_alloc(elimination%text, scene%order)
+   end subroutine assemble_part
 
    !> The elements that change: the points with the unknowns of their rows, then the motions of each floating body.
    subroutine list_variable_elements(line, scene)
@@ -105,7 +107,7 @@ contains
       integer(lp) :: first
 
       n = count(line%normal > 0 .or. line%tangential > 0, kind=ip)
-      associate (floating => count(scene%numbering%n_motions > 0, kind=ip))
+      associate (floating => count(scene%numbering%first_pull > 0, kind=ip))
          allocate (scene%point_row(ROWS_A_POINT, n), scene%start(n + floating + 1), &
                    scene%unknown(size(scene%rows%column) + scene%k))
       end associate
@@ -122,7 +124,7 @@ contains
          end do
       end do
       do b = 1, scene%n_bodies
-         if (scene%numbering%n_motions(b) == 0) cycle
+         if (scene%numbering%first_pull(b) == 0) cycle
          v = v + 1
          first = scene%start(v)
          scene%start(v + 1) = first + scene%numbering%n_motions(b)
@@ -146,14 +148,15 @@ contains
    end subroutine add_unknowns
 
    !> Elements of all bodies in the numbers of the scene, and the springs that say which part of u is u_e.
-   subroutine collect_scene(fem, numbering, store)
+   subroutine collect_scene(fem, numbering, store, spring_stiffness)
       type(fem_t), intent(in) :: fem
       type(scene_numbering_t), intent(in) :: numbering
       type(element_store_t), intent(out) :: store
+      real(wp), intent(in), optional :: spring_stiffness(:) !< (springs) [F/L]; left out: the diagonal there
       type(element_store_t) :: own
       integer(ip) :: e, b, i
       integer(lp) :: k
-      real(wp) :: diagonal(numbering%n)
+      real(wp) :: diagonal(numbering%n), spring
 
       call collect_elements(fem, [(e, e=1, fem%mesh%n_elements)], store, fem%grain)
       if (store%is_near) then
@@ -167,95 +170,18 @@ contains
             if (store%equations(k) > 0) store%equations(k) = store%equations(k) + numbering%before(b)
          end do
       end do
-      if (numbering%k == 0) return
-      call sum_diagonals(store, store%n, diagonal)
-      do i = 1, numbering%k
+      if (size(numbering%spring) == 0) return
+      if (.not. present(spring_stiffness)) call sum_diagonals(store, store%n, diagonal)
+      do i = 1, size(numbering%spring, kind=ip)
          if (numbering%spring(i) == 0) cycle
-         call add_to_store(store, [numbering%spring(i)], reshape([diagonal(numbering%spring(i))], [1, 1]))
+         if (present(spring_stiffness)) then
+            spring = spring_stiffness(i)
+         else
+            spring = diagonal(numbering%spring(i))
+         end if
+         call add_to_store(store, [numbering%spring(i)], reshape([spring], [1, 1]))
       end do
    end subroutine collect_scene
-
-   !> b' K^-1 b over the displacements of a row, with the stiffness of each node by itself: the same however the scene is turned.
-   subroutine set_flexibility(fem, rows, line, scene)
-      type(fem_t), intent(in) :: fem
-      type(contact_rows_t), intent(in) :: rows
-      type(contact_line_t), intent(in) :: line
-      type(assembled_scene_t), intent(inout) :: scene
-      real(wp) :: diagonal(scene%n), coupling(scene%n), d(2)
-      integer(ip) :: i, j, k, node, first
-
-      call fixed_diagonal(scene%matrix, diagonal, coupling)
-      allocate (scene%flexibility(scene%rows%n), source=0.0_wp)
-      do i = 1, scene%rows%n
-         j = line%point(i)
-         do k = rows%first(j), rows%first(j + 1) - 1
-            node = rows%node(k)
-            d = rows%coefficient(k)*direction_of_entry(rows, j, k, direction_of(rows, line, i))
-            first = scene%numbering%before(fem%bodies%of_node(node))
-            scene%flexibility(i) = scene%flexibility(i) &
-                                   + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)
-         end do
-      end do
-      ! between a held node and a rigid surface, which moves, nothing gives way
-      if (any(scene%flexibility > 0.0_wp)) then
-         where (scene%flexibility <= 0.0_wp) scene%flexibility = maxval(scene%flexibility)
-      else if (scene%n > scene%k) then
-         scene%flexibility = 1.0_wp/maxval(diagonal(:scene%n - scene%k))
-      end if
-   end subroutine set_flexibility
-
-   !> d' K^-1 d for the free displacements of a node.
-   pure real(wp) function node_flexibility(equation, before, diagonal, coupling, d) result(c)
-      integer(ip), intent(in) :: equation(2), before
-      real(wp), intent(in) :: diagonal(:), coupling(:) !< coupling: of a displacement with the other one of its node, at the first
-      real(wp), intent(in) :: d(2)
-      real(wp) :: k11, k22, k12
-
-      c = 0.0_wp
-      if (all(equation > 0)) then
-         k11 = diagonal(before + equation(1))
-         k22 = diagonal(before + equation(2))
-         k12 = coupling(before + equation(1))
-         c = d(1)*(d(1)/k11) + (d(2) - d(1)*(k12/k11))**2/(k22 - k12*(k12/k11))
-      else if (equation(1) > 0) then
-         c = d(1)**2/diagonal(before + equation(1))
-      else if (equation(2) > 0) then
-         c = d(2)**2/diagonal(before + equation(2))
-      end if
-   end function node_flexibility
-
-   !> Takes the applied forces, and those less the forces of the prescribed displacements.
-   subroutine set_scene_load(fem, f, free_load, scene)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: f(:, :), free_load(:, :) !< (2, n_nodes) [F]
-      type(assembled_scene_t), intent(inout) :: scene
-      integer(ip) :: node, dof, b, k, mode, motion
-      real(wp) :: part
-
-      if (allocated(scene%load)) deallocate (scene%load, scene%size_of_load)
-      allocate (scene%load(scene%n), scene%size_of_load(scene%n), source=0.0_wp)
-      do node = 1, fem%mesh%n_nodes
-         b = fem%bodies%of_node(node)
-         if (b == 0) cycle
-         do dof = 1, 2
-            if (fem%bodies%equation(dof, node) == 0) cycle
-            if (fem%bodies%equation(dof, node) > 0) then
-               k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
-               scene%load(k) = free_load(dof, node)
-               scene%size_of_load(k) = abs(free_load(dof, node))
-            end if
-            do mode = 1, scene%numbering%n_motions(b)
-               motion = scene%numbering%first_motion(b) + mode - 1
-               part = f(dof, node)*mode_at(fem%bodies%list(b), fem%bodies%list(b)%modes(:, mode), fem%mesh%x(:, node), dof)
-               scene%load(motion) = scene%load(motion) + part
-               scene%size_of_load(motion) = scene%size_of_load(motion) + abs(part)
-            end do
-         end do
-      end do
-      associate (motions => scene%load(scene%n - scene%k + 1:))
-         where (abs(motions) <= LOAD_ROUND_OFF*scene%size_of_load(scene%n - scene%k + 1:)) motions = 0.0_wp
-      end associate
-   end subroutine set_scene_load
 
    subroutine multiply_scene(self, x, y)
       class(assembled_scene_t), intent(in) :: self
@@ -282,9 +208,9 @@ contains
       end do
       v = n_points
       do b = 1, self%n_bodies
-         if (self%numbering%n_motions(b) == 0) cycle
+         if (self%numbering%first_pull(b) == 0) cycle
          v = v + 1
-         associate (first => self%numbering%first_motion(b) - (self%n - self%k), n => self%numbering%n_motions(b))
+         associate (first => self%numbering%first_pull(b), n => self%numbering%n_motions(b))
             if (any(self%pull(first:first + n - 1) /= pull(first:first + n - 1))) then
                call set_variable_element(self%matrix, v, diagonal_matrix(pull(first:first + n - 1)))
             end if
@@ -375,22 +301,5 @@ contains
       call expect_variable_factors(self%matrix, factors)
       bytes = factors%most + REAL_BYTES*(OF_UNKNOWNS*int(self%n, lp) + OF_ROWS*int(self%rows%n, lp))
    end function solving_bytes
-
-   !> Displacements without rigid motions at the free dofs, (2, n_nodes).
-   pure subroutine displacements_of(fem, scene, x, u)
-      type(fem_t), intent(in) :: fem
-      type(assembled_scene_t), intent(in) :: scene
-      real(wp), intent(in) :: x(:)               !< (n) [L]
-      real(wp), intent(inout) :: u(:, :)         !< (2, n_nodes) [L]: the free dofs are set
-      integer(ip) :: node, dof, b
-
-      do node = 1, fem%mesh%n_nodes
-         b = fem%bodies%of_node(node)
-         if (b == 0) cycle
-         do dof = 1, 2
-            if (fem%bodies%equation(dof, node) > 0) u(dof, node) = x(scene%numbering%before(b) + fem%bodies%equation(dof, node))
-         end do
-      end do
-   end subroutine displacements_of
 
 end module atrito_assembled_scene

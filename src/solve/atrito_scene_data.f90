@@ -1,6 +1,6 @@
 !> The scene with everything that the phases of a solution share.
 module atrito_scene_data
-   use atrito_assembled_scene, only: assembled_scene_t, assemble_scene, set_scene_gaps, set_scene_load
+   use atrito_assembled_scene, only: assembled_scene_t, assemble_scene
    use atrito_assembly, only: fem_t
    use atrito_base_loads, only: base_loads_t, build_bases, load_of_bases, set_factors, without_prescribed
    use atrito_bilateral_rows, only: ROW_KIND_NAME, ROW_SUPPORT
@@ -19,6 +19,7 @@ module atrito_scene_data
    use atrito_reporter, only: reporter_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
+   use atrito_scene_system, only: set_scene_gaps, set_scene_load
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_shares, only: SHARE_NONE
    use atrito_solver_choice, only: SOLVER_SPARSE

@@ -17,8 +17,9 @@ module atrito_scene_elimination
       integer(ip), allocatable :: before(:)      !< (bodies) unknowns of the bodies before
       integer(ip), allocatable :: first_motion(:) !< (bodies) unknown of the first motion
       integer(ip), allocatable :: n_motions(:)   !< (bodies)
-      integer(ip), allocatable :: spring(:)      !< (k) displacement at which a motion is held, so that u_e has no part in it;
-      !< 0: of a rigid body, which has no u_e
+      integer(ip), allocatable :: first_pull(:)  !< (bodies) place of the first motion among the k amplitudes; 0: none
+      integer(ip), allocatable :: spring(:)      !< (k; of a part its springs) displacement at which a motion is held, so that u_e
+      !< has no part in it; 0: of a rigid body, which has no u_e
       integer(ip), allocatable :: body(:)        !< (n)
    end type scene_numbering_t
 
@@ -37,6 +38,7 @@ contains
 
       associate (bodies => fem%bodies)
          allocate (numbering%before(bodies%n), numbering%first_motion(bodies%n), numbering%n_motions(bodies%n))
+         allocate (numbering%first_pull(bodies%n), source=0_ip)
          n = 0
          do b = 1, bodies%n
             numbering%before(b) = n
@@ -51,6 +53,7 @@ contains
             numbering%body(numbering%before(b) + 1:numbering%before(b) + bodies%list(b)%n) = b
             numbering%first_motion(b) = n + k + 1
             if (numbering%n_motions(b) == 0) cycle
+            numbering%first_pull(b) = k + 1
             numbering%body(n + k + 1:n + k + numbering%n_motions(b)) = b
             call choose_springs(fem, bodies%list(b), numbering%before(b), numbering%spring(k + 1:k + numbering%n_motions(b)))
             k = k + numbering%n_motions(b)
@@ -91,12 +94,14 @@ contains
       end do
    end subroutine choose_springs
 
-   !> Nested dissection of the elements and the points; the rigid motions of a body are one more node of its points.
-   function eliminate_scene(fem, rows, line, numbering) result(elimination)
+   !> Nested dissection of the elements and the points; the rigid motions of a body are one more node of its points. The last
+   !> unknowns may be kept: theirs are the last positions, in their order.
+   function eliminate_scene(fem, rows, line, numbering, n_kept) result(elimination)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(in), optional :: n_kept !< a node has all of its unknowns kept, or none; left out: none is
       type(elimination_t) :: elimination
       type(dissection_t) :: parts
       integer(ip), allocatable :: nodes(:, :), n_nodes_of(:)
@@ -112,6 +117,7 @@ contains
       x(:, n + 1:) = 0.0_wp
       wanted(:n) = any(fem%bodies%equation > 0, dim=1)
       wanted(n + 1:) = numbering%n_motions > 0
+      if (present(n_kept)) call leave_out_kept(fem, numbering, numbering%n - n_kept, wanted)
       changes = .false.
       do e = fem%mesh%n_elements + 1, size(n_nodes_of, kind=ip)
          changes(nodes(:n_nodes_of(e), e)) = .true.
@@ -119,7 +125,30 @@ contains
       call order_elements([(e, e=1, size(n_nodes_of, kind=ip))], nodes, n_nodes_of, x, wanted, parts, text)
       call build_elimination(fem, numbering, parts, changes, elimination)
       call move_alloc(text, elimination%text)
+      if (.not. present(n_kept)) return
+      do e = numbering%n - n_kept + 1, numbering%n
+         elimination%position(e) = e
+      end do
    end function eliminate_scene
+
+   !> Nodes and motions whose unknowns are kept are not eliminated.
+   pure subroutine leave_out_kept(fem, numbering, n_eliminated, wanted)
+      type(fem_t), intent(in) :: fem
+      type(scene_numbering_t), intent(in) :: numbering
+      integer(ip), intent(in) :: n_eliminated
+      logical, intent(inout) :: wanted(:)        !< (nodes and bodies)
+      integer(ip) :: i, b
+
+      do i = 1, fem%mesh%n_nodes
+         if (.not. wanted(i)) cycle
+         wanted(i) = numbering%before(fem%bodies%of_node(i)) + maxval(fem%bodies%equation(:, i)) <= n_eliminated
+      end do
+      do b = 1, fem%bodies%n
+         associate (motions => fem%mesh%n_nodes + b)
+            wanted(motions) = wanted(motions) .and. numbering%first_motion(b) <= n_eliminated
+         end associate
+      end do
+   end subroutine leave_out_kept
 
    !> The elements of the mesh, then the points that have a row. A motion that none of them sees stands with an element of its body.
    subroutine list_elements(fem, rows, line, numbering, nodes, n_nodes_of)

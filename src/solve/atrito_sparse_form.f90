@@ -1,6 +1,6 @@
 !> Solving with the sparse form: all bodies in one matrix, the contact points as elements that change.
 module atrito_sparse_form
-   use atrito_assembled_scene, only: assembled_scene_t, displacements_of
+   use atrito_assembled_scene, only: assembled_scene_t
    use atrito_assembly, only: fem_t
    use atrito_condensed_body, only: check_held
    use atrito_constraint_rows, only: constraint_rows_t
@@ -13,6 +13,7 @@ module atrito_sparse_form
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, assemble
    use atrito_row_entries, only: build_constraint_rows
+   use atrito_scene_system, only: displacements_of
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase

@@ -1,0 +1,145 @@
+!> What the two matrices of a scene (atrito_assembled_scene, atrito_shared_scene) have in common: the numbers of the unknowns, the
+!> right hand sides of the rows, and the loads.
+module atrito_scene_system
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: mode_at
+   use atrito_contact_line, only: contact_line_t, rest_of
+   use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
+   use atrito_contact_system, only: contact_system_t
+   use atrito_kinds, only: ip, wp
+   use atrito_row_entries, only: direction_of
+   use atrito_scene_elimination, only: scene_numbering_t
+   implicit none (type, external)
+   private
+   public :: scene_system_t, set_scene_gaps, set_flexibility, set_scene_load, displacements_of
+
+   type, extends(contact_system_t), abstract :: scene_system_t
+      type(scene_numbering_t) :: numbering
+   end type scene_system_t
+
+   !> A load on a motion of at most this share of what it is the sum of is none.
+   real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp
+
+contains
+
+   !> What prescribed displacements, initial gaps and rest slips leave of the rows: g0.
+   subroutine set_scene_gaps(rows, line, value, scene)
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: value(:, :)        !< (2, n_nodes) prescribed displacements [L]
+      class(scene_system_t), intent(inout) :: scene
+      integer(ip) :: i
+
+      if (.not. allocated(scene%g0)) allocate (scene%g0(scene%rows%n))
+      do i = 1, scene%rows%n
+         associate (j => line%point(i))
+            scene%g0(i) = row_value(rows, j, direction_of(rows, line, i), value)
+            if (line%normal(j) == i) then
+               scene%g0(i) = scene%g0(i) - rows%gap(j)
+            else
+               scene%g0(i) = scene%g0(i) - rest_of(line, j)
+            end if
+         end associate
+      end do
+   end subroutine set_scene_gaps
+
+   !> b' K^-1 b over the displacements of a row, with the stiffness of each node by itself: the same however the scene is turned.
+   subroutine set_flexibility(fem, rows, line, diagonal, coupling, scene)
+      type(fem_t), intent(in) :: fem
+      type(contact_rows_t), intent(in) :: rows
+      type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: diagonal(:), coupling(:) !< (n) of the stiffness (sum_diagonals), at the nodes of the rows at least
+      class(scene_system_t), intent(inout) :: scene
+      real(wp) :: d(2)
+      integer(ip) :: i, j, k, node, first
+
+      allocate (scene%flexibility(scene%rows%n), source=0.0_wp)
+      do i = 1, scene%rows%n
+         j = line%point(i)
+         do k = rows%first(j), rows%first(j + 1) - 1
+            node = rows%node(k)
+            d = rows%coefficient(k)*direction_of_entry(rows, j, k, direction_of(rows, line, i))
+            first = scene%numbering%before(fem%bodies%of_node(node))
+            scene%flexibility(i) = scene%flexibility(i) &
+                                   + node_flexibility(fem%bodies%equation(:, node), first, diagonal, coupling, d)
+         end do
+      end do
+      ! between a held node and a rigid surface, which moves, nothing gives way
+      if (any(scene%flexibility > 0.0_wp)) then
+         where (scene%flexibility <= 0.0_wp) scene%flexibility = maxval(scene%flexibility)
+      else if (scene%n > scene%k) then
+         scene%flexibility = 1.0_wp/maxval(diagonal(:scene%n - scene%k))
+      end if
+   end subroutine set_flexibility
+
+   !> d' K^-1 d for the free displacements of a node.
+   pure real(wp) function node_flexibility(equation, before, diagonal, coupling, d) result(c)
+      integer(ip), intent(in) :: equation(2), before
+      real(wp), intent(in) :: diagonal(:), coupling(:) !< coupling: of a displacement with the other one of its node, at the first
+      real(wp), intent(in) :: d(2)
+      real(wp) :: k11, k22, k12
+
+      c = 0.0_wp
+      if (all(equation > 0)) then
+         k11 = diagonal(before + equation(1))
+         k22 = diagonal(before + equation(2))
+         k12 = coupling(before + equation(1))
+         c = d(1)*(d(1)/k11) + (d(2) - d(1)*(k12/k11))**2/(k22 - k12*(k12/k11))
+      else if (equation(1) > 0) then
+         c = d(1)**2/diagonal(before + equation(1))
+      else if (equation(2) > 0) then
+         c = d(2)**2/diagonal(before + equation(2))
+      end if
+   end function node_flexibility
+
+   !> Takes the applied forces, and those less the forces of the prescribed displacements.
+   subroutine set_scene_load(fem, f, free_load, scene)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: f(:, :), free_load(:, :) !< (2, n_nodes) [F]
+      class(scene_system_t), intent(inout) :: scene
+      integer(ip) :: node, dof, b, k, mode, motion
+      real(wp) :: part
+
+      if (allocated(scene%load)) deallocate (scene%load, scene%size_of_load)
+      allocate (scene%load(scene%n), scene%size_of_load(scene%n), source=0.0_wp)
+      do node = 1, fem%mesh%n_nodes
+         b = fem%bodies%of_node(node)
+         if (b == 0) cycle
+         do dof = 1, 2
+            if (fem%bodies%equation(dof, node) == 0) cycle
+            if (fem%bodies%equation(dof, node) > 0) then
+               k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
+               scene%load(k) = free_load(dof, node)
+               scene%size_of_load(k) = abs(free_load(dof, node))
+            end if
+            do mode = 1, scene%numbering%n_motions(b)
+               motion = scene%numbering%first_motion(b) + mode - 1
+               part = f(dof, node)*mode_at(fem%bodies%list(b), fem%bodies%list(b)%modes(:, mode), fem%mesh%x(:, node), dof)
+               scene%load(motion) = scene%load(motion) + part
+               scene%size_of_load(motion) = scene%size_of_load(motion) + abs(part)
+            end do
+         end do
+      end do
+      associate (motions => scene%load(scene%n - scene%k + 1:))
+         where (abs(motions) <= LOAD_ROUND_OFF*scene%size_of_load(scene%n - scene%k + 1:)) motions = 0.0_wp
+      end associate
+   end subroutine set_scene_load
+
+   !> Displacements without rigid motions at the free dofs, (2, n_nodes).
+   pure subroutine displacements_of(fem, scene, x, u)
+      type(fem_t), intent(in) :: fem
+      class(scene_system_t), intent(in) :: scene
+      real(wp), intent(in) :: x(:)               !< (n) [L]
+      real(wp), intent(inout) :: u(:, :)         !< (2, n_nodes) [L]: the free dofs are set
+      integer(ip) :: node, dof, b
+
+      do node = 1, fem%mesh%n_nodes
+         b = fem%bodies%of_node(node)
+         if (b == 0) cycle
+         do dof = 1, 2
+            if (fem%bodies%equation(dof, node) > 0) u(dof, node) = x(scene%numbering%before(b) + fem%bodies%equation(dof, node))
+         end do
+      end do
+   end subroutine displacements_of
+
+end module atrito_scene_system
