@@ -369,7 +369,7 @@ contains
       type(page_t), intent(inout) :: page
 
       if (sweep%n_left > 0) call add_above_rule(page, 'left alone', &
-                                                 plural(sweep%n_left, 'run', 'runs')//', made by an earlier sweep')
+                                                plural(sweep%n_left, 'run', 'runs')//', made by an earlier sweep')
       associate (times => sweep%times)
          if (times%n_ranks > 1) call add_above_rule(page, 'ranks', to_text(times%n_ranks)//', idle for '// &
                                                     number(times%longest_idle, 3)//' s at most; longest run '// &
