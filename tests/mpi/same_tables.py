@@ -68,7 +68,7 @@ def settings():
 
 
 def run(program, deck, output, environment, limit):
-    """Exit code, codes of errors and warnings, seconds."""
+    """Exit code, codes of errors and warnings, seconds, all that is said."""
     begin = time.time()
     process = subprocess.Popen(program + arguments(deck, output), env=environment, cwd=os.path.dirname(output), stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors='replace')
@@ -77,8 +77,8 @@ def run(program, deck, output, environment, limit):
     except subprocess.TimeoutExpired:
         process.terminate()
         process.communicate()
-        return None, [], time.time() - begin
-    return process.returncode, sorted(re.findall(r'(?:error|warning|note) \[([A-Z0-9-]+)\]', said)), time.time() - begin
+        return None, [], time.time() - begin, ''
+    return process.returncode, sorted(re.findall(r'(?:error|warning|note) \[([A-Z0-9-]+)\]', said)), time.time() - begin, said
 
 
 def is_count(column):
@@ -157,7 +157,7 @@ def try_deck(deck, options, exceptions, environment):
     excepted = {table: limit for pattern, table, limit, _ in exceptions if pattern.match(deck.name)}
     try:
         plain = os.path.join(work, 'plain')
-        code, said, seconds = run([options.plain], deck, plain, None, options.at_most)
+        code, said, seconds, _ = run([options.plain], deck, plain, None, options.at_most)
         if code is None:
             return [f'{deck.name}: left out, more than {options.at_most} s'], True, False
         drop_counts(plain)
@@ -168,7 +168,8 @@ def try_deck(deck, options, exceptions, environment):
             drop_counts(by_ranks)
             worst, worst_excepted, faults = compare(options.plain, plain, by_ranks, excepted)
             if found[0] != code:
-                faults.append(f'exit {found[0]}, not {code}')
+                faults.append(f'exit {found[0]}, not {code}' if found[0] is not None else 'does not end')
+                faults.append('says at last: ' + ' / '.join(found[3].splitlines()[-40:]))
             if found[1] != said:
                 faults.append(f'said {found[1]}, not {said}')
             right = right and not faults
