@@ -39,7 +39,8 @@ def find_decks(paths):
             if 'run.json' in files:
                 del folders[:]
                 run = json.load(open(os.path.join(folder, 'run.json')))
-                name = f'{run["test"].removeprefix("verify_")}/{os.path.basename(run["deck"])} {" ".join(run["options"])}'.strip() + f' [{os.path.basename(folder)[:6]}]'
+                test, mark = run['test'].removeprefix('verify_'), os.path.basename(os.path.normpath(folder))[:6]
+                name = ' '.join([f'{test}/{os.path.basename(run["deck"])}', *run['options'], f'[{mark}]'])
                 yield Deck(name, run['command'], os.path.join(folder, 'files', run['deck']), run['options'])
             else:
                 yield from find_decks(os.path.join(folder, file) for file in sorted(files) if file.endswith('.inp'))
