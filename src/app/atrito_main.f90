@@ -1,11 +1,12 @@
 !> atrito: contact with friction between elastic bodies by finite elements.
 program atrito_main
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use atrito_driver, only: begin_program, run_program
-   use atrito_mpi, only: begin_ranks, end_ranks, own_rank, rank_count
+   use atrito_mpi, only: begin_ranks, end_ranks, has_mpi, own_rank, rank_count
    use atrito_rank_services, only: dismiss_ranks
    use atrito_service, only: serve
    use atrito_status, only: STATUS_INTERNAL, STATUS_OK
-   use atrito_system, only: be_rank, guard_exit, release_exit
+   use atrito_system, only: be_rank, forgive_faults, guard_exit, release_exit
    implicit none (type, external)
    integer :: code
 
@@ -19,6 +20,11 @@ program atrito_main
    else
       call serve()
       code = STATUS_OK
+   end if
+   if (has_mpi()) then
+      flush (output_unit)
+      flush (error_unit)
+      call forgive_faults(code)
    end if
    call end_ranks()
    call release_exit()

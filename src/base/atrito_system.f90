@@ -9,7 +9,7 @@ module atrito_system
    public :: c_is_terminal, c_file_length, c_create_file, c_write_line, c_write_text, c_close_file, c_settle_file, c_append_line
    public :: c_open_folder, c_close_folder, c_is_same_folder, c_lock_folder
    public :: guard_interrupts, hold_interrupts, release_interrupts, note_path, forget_path, guard_exit, release_exit
-   public :: terminate, be_rank
+   public :: terminate, be_rank, forgive_faults
    public :: c_begin_worker, c_end_worker, await_workers, c_run_command, c_share_memory, find_routine
    public :: worker_end, end_with_maker, process_number, maker_number, pause_for, get_shared, set_shared, &
              swap_shared
@@ -57,6 +57,7 @@ module atrito_system
    procedure(take_number), bind(C, name='atrito_close_folder') :: c_close_folder
    procedure(take_number), bind(C, name='atrito_guard_interrupts') :: guard_interrupts
    procedure(take_number), bind(C, name='atrito_be_rank') :: be_rank
+   procedure(take_number), bind(C, name='atrito_forgive_faults') :: forgive_faults
    procedure(act), bind(C, name='atrito_hold_interrupts') :: hold_interrupts
    procedure(act), bind(C, name='atrito_release_interrupts') :: release_interrupts
    procedure(act_on_path), bind(C, name='atrito_note_path') :: c_note_path

@@ -5,7 +5,7 @@
 !>     S = sum_p A_p S_p A_p'        (border i, contact c)
 !>
 !> of which all ranks together eliminate the border (atrito_shared_system):  S_cc - S_ci S_ii^-1 S_ic  is the Schur complement of
-!> the body. A body that is whole on one rank has no border.
+!> the body. A body that is whole on one rank has no top; one in pieces has, even where these share contact dofs alone.
 !>
 !> A load that is reduced has the half-solved interior of the parts, then in the places of the border g_i, what the parts leave of
 !> it there: all of it linear in the load, so that reduced loads can be added up.
@@ -94,7 +94,7 @@ contains
       self%is_near = any(self%outcome%is_near)
       self%bytes = sum(self%outcome%bytes)
       self%order = self%outcome(1)%order
-      if (is_ok(status) .and. self%top%n > self%top%n_kept) call factor_top(self, status)
+      if (is_ok(status) .and. size(self%piece) > 1) call factor_top(self, status)
    end subroutine collect_outcomes
 
    !> The worst of all parts, and their sums.
@@ -141,11 +141,11 @@ contains
       real(wp), intent(out) :: schur(:, :)
       real(wp), allocatable :: found(:, :)
 
-      if (self%top%n > self%top%n_kept) then
+      if (size(self%piece) > 1) then
          call schur_of_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, schur)
          return
       end if
-      associate (whole => self%piece(1))         ! a border is what pieces have in common: there is one part
+      associate (whole => self%piece(1))         ! in one piece
          if (whole%rank == 0) then
             call get_part_schur(self%own%parts%list(find_part(self%own%parts, whole%ticket)), found)
          else
@@ -178,7 +178,7 @@ contains
          call receive_columns(self%piece(p)%rank, columns)
          call take_reduced(self%piece(p), columns, f, top)
       end do
-      if (self%top%n > self%top%n_kept) then
+      if (size(self%piece) > 1) then
          call ask_for_top(TOP_REDUCE, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
          call reduce_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, status)
       end if
@@ -213,7 +213,7 @@ contains
       type(status_t) :: status
       integer(ip) :: p
 
-      if (self%top%n > self%top%n_kept) then
+      if (size(self%piece) > 1) then
          top = x(self%top%equation, :)
          call ask_for_top(TOP_EXPAND, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
          call expand_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, own, status)
@@ -247,7 +247,7 @@ contains
       integer(ip) :: p
 
       if (.not. allocated(self%piece)) return
-      if (self%top%n > self%top%n_kept) then
+      if (size(self%piece) > 1) then
          call ask_for_top(TOP_FORGET, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
          call forget_top(self%own%tops, self%piece(1)%ticket)
       end if

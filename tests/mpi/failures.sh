@@ -1,10 +1,11 @@
 #!/bin/sh
 # What goes wrong with several ranks: one message, the exit code of the plain program, no half file, nobody waits for ever.
-#    failures.sh ATRITO-MPI ATRITO DECK DECK-WITHOUT-SOLUTION
+#    failures.sh ATRITO-MPI ATRITO DECK DECK-WITHOUT-SOLUTION FAULTY-END
 . "$(dirname "$0")/lib.sh"
 atrito=$2
 deck=$3
 loose=$4
+faulty_end=$5
 
 # --- errors of deck and command line: what the plain program says ------------------------------------------------------------------
 printf '*NODE\nx\n' >bad.inp
@@ -30,6 +31,18 @@ for n in 1 2; do
    expect_code $expected "a scene without a solution, $n ranks"
    cmp -s err err.plain || { fail "a scene without a solution, $n ranks: says something else"; diff err.plain err; }
 done
+
+# --- the end of MPI itself goes wrong: nobody need know -----------------------------------------------------------------------------------
+for words in "$deck --digits 17" bad.inp; do
+   "$atrito" $words -o plain >out.plain 2>err.plain
+   expected=$?
+   mpirun -n 2 -x LD_PRELOAD="$faulty_end" "$atrito_mpi" $words -o ended >out 2>err
+   code=$?
+   expect_code $expected "a fault in MPI_Finalize, $words"
+   [ "$(grep -c . out)" -eq "$(grep -c . out.plain)" ] || fail 'a fault in MPI_Finalize: the summary is not complete'
+   grep -q 'E-INTERNAL\|Backtrace' err && { fail 'a fault in MPI_Finalize: told'; cat err; }
+done
+"$atrito" compare plain ended --rtol 1e-10 --quiet || fail 'a fault in MPI_Finalize: other tables'
 
 # --- a full disk on rank 0 (a limit on the size of files comes as one does); the network of one machine needs files ---------------------
 "$atrito" "$deck" -o old --quiet || fail 'the deck itself fails'

@@ -39,7 +39,8 @@ def find_decks(paths):
             if 'run.json' in files:
                 del folders[:]
                 run = json.load(open(os.path.join(folder, 'run.json')))
-                name = f'{run["test"].removeprefix("verify_")}/{os.path.basename(run["deck"])} {" ".join(run["options"])}'.strip() + f' [{os.path.basename(folder)[:6]}]'
+                test, mark = run['test'].removeprefix('verify_'), os.path.basename(os.path.normpath(folder))[:6]
+                name = ' '.join([f'{test}/{os.path.basename(run["deck"])}', *run['options'], f'[{mark}]'])
                 yield Deck(name, run['command'], os.path.join(folder, 'files', run['deck']), run['options'])
             else:
                 yield from find_decks(os.path.join(folder, file) for file in sorted(files) if file.endswith('.inp'))
@@ -55,9 +56,10 @@ def without_digits(options):
     return kept
 
 
-def arguments(deck, output):
+def arguments(deck, output, over_ranks):
     command = [] if deck.command == 'run' else [deck.command]
-    return command + [deck.path, '-o', output] + without_digits(deck.options) + ['--digits', '17']
+    share = ['--share', 'all'] if over_ranks and deck.command == 'run' else []     # small scenes, too
+    return command + [deck.path, '-o', output] + without_digits(deck.options) + ['--digits', '17'] + share
 
 
 def settings():
@@ -68,17 +70,17 @@ def settings():
 
 
 def run(program, deck, output, environment, limit):
-    """Exit code, codes of errors and warnings, seconds."""
+    """Exit code, codes of errors and warnings, seconds, all that is said."""
     begin = time.time()
-    process = subprocess.Popen(program + arguments(deck, output), env=environment, cwd=os.path.dirname(output), stdin=subprocess.DEVNULL,
+    process = subprocess.Popen(program + arguments(deck, output, len(program) > 1), env=environment, cwd=os.path.dirname(output), stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors='replace')
     try:
         said = process.communicate(timeout=limit)[1]
     except subprocess.TimeoutExpired:
         process.terminate()
         process.communicate()
-        return None, [], time.time() - begin
-    return process.returncode, sorted(re.findall(r'(?:error|warning|note) \[([A-Z0-9-]+)\]', said)), time.time() - begin
+        return None, [], time.time() - begin, ''
+    return process.returncode, sorted(re.findall(r'(?:error|warning|note) \[([A-Z0-9-]+)\]', said)), time.time() - begin, said
 
 
 def is_count(column):
@@ -157,7 +159,7 @@ def try_deck(deck, options, exceptions, environment):
     excepted = {table: limit for pattern, table, limit, _ in exceptions if pattern.match(deck.name)}
     try:
         plain = os.path.join(work, 'plain')
-        code, said, seconds = run([options.plain], deck, plain, None, options.at_most)
+        code, said, seconds, _ = run([options.plain], deck, plain, None, options.at_most)
         if code is None:
             return [f'{deck.name}: left out, more than {options.at_most} s'], True, False
         drop_counts(plain)
@@ -168,7 +170,8 @@ def try_deck(deck, options, exceptions, environment):
             drop_counts(by_ranks)
             worst, worst_excepted, faults = compare(options.plain, plain, by_ranks, excepted)
             if found[0] != code:
-                faults.append(f'exit {found[0]}, not {code}')
+                faults.append(f'exit {found[0]}, not {code}' if found[0] is not None else 'does not end')
+                faults.append('says at last: ' + ' / '.join(found[3].splitlines()[-40:]))
             if found[1] != said:
                 faults.append(f'said {found[1]}, not {said}')
             right = right and not faults
