@@ -2,8 +2,8 @@
 !>
 !> Rank 0 hands them out and does some itself. Each rank does its tasks in a process of its own (atrito_task_process), so that a
 !> crash is the end of one task and not of all ranks, and so that rank 0 can hand out while it works. While there are tasks enough,
-!> a rank has its next one before the last is done, and does not wait for it. Where others have nothing left to do it gives back what
-!> it has not begun: nobody is without a task but at the end, no longer than the longest one.
+!> a rank has its next one before the last is done, and does not wait for it. Where others have nothing left to do it gives back
+!> what it has not begun: nobody is without a task but at the end, no longer than the longest one.
 module atrito_rank_tasks
    use, intrinsic :: iso_c_binding, only: c_double
    use atrito_kinds, only: ip, lp, wp

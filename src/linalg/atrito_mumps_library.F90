@@ -5,8 +5,8 @@
 !> the header has whose dmumps_struc is compiled in (ATRITO_MUMPS_VERSION).
 !>
 !> There are two such files of one version: the sequential one, with an MPI of its own that does nothing, for the plain program, and
-!> that for ranks (ATRITO_MUMPS_RANKS_LIBRARY). A process may never have both, whose MPI would be that of the first: the program with
-!> ranks takes the second one for the bodies of a single rank as well.
+!> that for ranks (ATRITO_MUMPS_RANKS_LIBRARY). A process may never have both, whose MPI would be that of the first: the program
+!> with ranks takes the second one for the bodies of a single rank as well.
 module atrito_mumps_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
    use atrito_mpi, only: has_mpi, own_communicator

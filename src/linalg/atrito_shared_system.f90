@@ -4,8 +4,8 @@
 !>
 !>     K = sum over ranks, sum over their matrices of  B_m' S_m B_m,   B_m picks the unknowns of matrix m
 !>
-!> The last n_kept unknowns (index c) are kept, the others (interior, index i) eliminated. Rank 0 gets what is left of the kept ones,
-!> and has all right-hand sides and solutions; every rank gets the values of the unknowns of its matrices.
+!> The last n_kept unknowns (index c) are kept, the others (interior, index i) eliminated. Rank 0 gets what is left of the kept
+!> ones, and has all right-hand sides and solutions; every rank gets the values of the unknowns of its matrices.
 !>
 !>     S = K_cc - K_ci K_ii^-1 K_ic
 !>
@@ -59,8 +59,8 @@ module atrito_shared_system
    integer, parameter :: NO_ROOM(*) = [-8, -9, -14, -15, -17, -20]
    !> More room than predicted, in per cent, at first and when that was too little.
    integer, parameter :: ROOM(*) = [30, 100, 400]
-   !> Digits lost from which the place is worth two solves; what is added to a matrix that could not be factored, of its diagonal, to
-   !> find the motion that it leaves free. As in atrito_mumps.
+   !> Digits lost from which the place is worth two solves; what is added to a matrix that could not be factored, of its diagonal,
+   !> to find the motion that it leaves free. As in atrito_mumps.
    real(wp), parameter :: MANY_DIGITS = 9.0_wp, SHIFT = 1.0e-13_wp
 
 contains

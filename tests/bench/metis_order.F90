@@ -1,5 +1,5 @@
-!> Nested dissection by METIS of the graph of the glued nodes: two nodes are neighbours where they share an element, and weigh as much as
-!> they have equations. (Debian's MUMPS has no METIS of its own; the order is given to it.)
+!> Nested dissection by METIS of the graph of the glued nodes: two nodes are neighbours where they share an element, and weigh as much
+!> as they have equations. (Debian's MUMPS has no METIS of its own; the order is given to it.)
 !>
 !> The library is loaded when it is asked for. CMake says which file that is (BENCH_METIS_LIBRARY); without METIS there is no such name.
 module metis_order

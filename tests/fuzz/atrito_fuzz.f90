@@ -1,7 +1,7 @@
 !> Reads mutated decks, many in one process, and checks what must hold of every reading. docs/verification/fuzzing.md
 !>
-!>     atrito_fuzz [--seed S] [--count N] [--first K] [--one K] [--solve] [--keep] [--write FILE] [--seconds T] DECK... [MESH.msh...]
-!>
+!>     atrito_fuzz [--seed S] [--count N] [--first K] [--one K] [--solve] [--keep] [--write FILE] [--seconds T] DECK...
+!>[MESH.msh...]
 !> Mutation K of seed S is the same on every machine. `--one K` does it alone, tells its messages and leaves the deck in FILE.
 !> With meshes it is they that are mutated, the deck that includes them less often; the mesh is left in FILE.msh.
 !> `--keep` only writes all mutated decks, to FILE.K, for run-program.sh.

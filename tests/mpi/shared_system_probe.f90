@@ -1,5 +1,5 @@
-!> A system that several ranks share, against LAPACK: run by mpirun with any number of ranks. All of them make the same random matrices
-!> and know whose each of them is, so rank 0 has the sum as well. Exit 1 and lines of what is wrong where anything is.
+!> A system that several ranks share, against LAPACK: run by mpirun with any number of ranks. All of them make the same random
+!> matrices and know whose each of them is, so rank 0 has the sum as well. Exit 1 and lines of what is wrong where anything is.
 !>
 !>     mpirun -n N shared_system_probe
 program shared_system_probe
@@ -53,7 +53,7 @@ program shared_system_probe
    call try_free_block()
    failures = largest_of_ranks(failures)
    call end_ranks()
-   if (failures > 0) stop 1, quiet=.true.
+   if (failures > 0) stop 1, quiet = .true.
 
 contains
 

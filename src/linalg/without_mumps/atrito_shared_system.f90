@@ -1,5 +1,5 @@
-!> The twin of src/linalg/atrito_shared_system.f90 in a build without MUMPS, which has one rank: nothing is shared then. begin_shared
-!> fails all the same.
+!> The twin of src/linalg/atrito_shared_system.f90 in a build without MUMPS, which has one rank: nothing is shared then.
+!> begin_shared fails all the same.
 module atrito_shared_system
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: factor_report_t

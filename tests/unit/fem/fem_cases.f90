@@ -30,8 +30,8 @@ contains
       if (CORNERS_OF(n_nodes) == 3) xi = TABLE(n_nodes)%place(:, :n_nodes)
    end function node_places
 
-   !> A quadrilateral or triangle of no symmetry, straight-sided, its corners far from the origin by `shift`; nodes between the corners are
-   !> where the bilinear map puts them.
+   !> A quadrilateral or triangle of no symmetry, straight-sided, its corners far from the origin by `shift`; nodes between the corners
+   !> are where the bilinear map puts them.
    pure function distorted(n_nodes, shift) result(x)
       integer(ip), intent(in) :: n_nodes
       real(wp), intent(in) :: shift
