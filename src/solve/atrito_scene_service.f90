@@ -127,18 +127,17 @@ contains
       real(wp), intent(in) :: stiffness(:), pull(:)  !< of the rows and amplitudes of the part [F/L]
       type(part_outcome_t), intent(out) :: outcome
       real(wp), allocatable :: s(:, :)
-      integer(ip) :: no_names(0)
+      type(packed_matrices_t) :: packed
 
       call part%scene%factor(stiffness, pull, outcome%status)
       outcome%failed = part%scene%failed
       if (.not. is_ok(outcome%status)) return    ! it will be factored again
       outcome%is_changed = part%scene%matrix%n_refactored > 0
       if (.not. outcome%is_changed) return
-      associate (packed => packed_matrices_t([1_ip, part%n_kept + 1_ip], no_names))
-         allocate (s(part%n_kept, part%n_kept), outcome%left(packed_length(packed)))
-         call part_matrix(part, s)
-         call put_packed(packed, 1_ip, s, outcome%left)
-      end associate
+      packed%start = [1_ip, part%n_kept + 1_ip]
+      allocate (s(part%n_kept, part%n_kept), outcome%left(packed_length(packed)))
+      call part_matrix(part, s)
+      call put_packed(packed, 1_ip, s, outcome%left)
    end subroutine factor_scene_part
 
    subroutine begin_request(wanted, request)
