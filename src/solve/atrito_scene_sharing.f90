@@ -35,8 +35,8 @@ contains
       call share_scene(fem, rows, line, value, part_of_element, n_parts, parts, scene, status)
    end subroutine share_over_ranks
 
-   !> One part for each rank that has elements, in the order of the ranks; elements of rigid bodies, which have no stiffness, go with
-   !> the first one.
+   !> One part for each rank that has elements, in the order of the ranks; elements of rigid bodies, which have no stiffness, go
+   !> with the first one.
    pure subroutine list_parts(shares, part_of_element, rank)
       type(shares_t), intent(in) :: shares
       integer(ip), intent(out) :: part_of_element(:) !< (n_elements)
