@@ -2,15 +2,18 @@
 !>
 !> Questions go to all ranks before the first one does its own part, and answers are taken in the order of the parts: all work at
 !> the same time, and sums do not depend on who is first. What is left of a part comes when something in it has changed, and stays
-!> here; their sum, the top, is a full matrix on the first rank.
+!> here; their sum, the top, is a full matrix on the first rank. Where that would be large, it stays where it is, and all ranks have
+!> the top together (atrito_scene_top).
 module atrito_ranked_parts
    use atrito_dense_top, only: dense_top_t, begin_top, add_packed_to_top, factor_top, solve_top, top_bytes, expected_top_bytes
    use atrito_kinds, only: ip, lp, wp
    use atrito_scene_part, only: scene_part_t, assemble_scene_part, reduce_part, expand_part
    use atrito_scene_parts, only: scene_parts_t, part_lists_t
+   use atrito_mumps_library, only: has_mumps
    use atrito_scene_service, only: part_outcome_t, factor_scene_part, give_scene_part, ask_to_assemble, hear_assembled, &
                                    ask_to_factor, hear_factored, ask_to_multiply, ask_to_reduce_scene, ask_to_expand_scene, &
                                    hear_values, ask_to_release
+   use atrito_scene_top, only: begin_scene_top, factor_scene_top, solve_scene_top, end_scene_top, scene_top_bytes
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -26,6 +29,7 @@ module atrito_ranked_parts
       type(part_lists_t), private :: lists
       type(scene_part_t), private :: own         !< that of the first rank, where it has one
       type(left_t), allocatable, private :: left(:) !< (parts)
+      logical, private :: has_full_top = .true.  !< the top is a full matrix here
       logical, private :: is_stale = .true.      !< the top is not the sum of what is left
       type(dense_top_t), private :: top
    contains
@@ -39,6 +43,9 @@ module atrito_ranked_parts
       procedure :: memory_bytes => ranked_bytes
       procedure :: solving_bytes => ranked_solving_bytes
    end type ranked_parts_t
+
+   !> Unknowns of a top that is a full matrix, at most: factored in half a second by one process.
+   integer(ip), parameter :: MOST_FULL = 3000_ip
 
 contains
 
@@ -89,6 +96,9 @@ contains
          is_near = is_near .or. outcome%is_near
          if (p == 1) call move_alloc(outcome%order, order)
       end do
+      self%has_full_top = lists%n_top <= MOST_FULL .or. .not. has_mumps()
+      if (self%has_full_top .or. .not. is_ok(status)) return
+      call begin_scene_top(lists%n_top, self%rank, lists%first_top, lists%top, status)
    end subroutine assemble_ranked
 
    subroutine multiply_ranked(self, x, y)
@@ -123,19 +133,25 @@ contains
       failed_top = 0
       associate (row => self%lists%first_row, motion => self%lists%first_pull)
          do p = 1, self%lists%n_parts
-            if (self%rank(p) > 0) call ask_to_factor(self%rank(p), stiffness(row(p):row(p + 1) - 1), &
+            if (self%rank(p) > 0) call ask_to_factor(self%rank(p), self%has_full_top, stiffness(row(p):row(p + 1) - 1), &
                                                      pull(motion(p):motion(p + 1) - 1))
          end do
          do p = 1, self%lists%n_parts
             if (self%rank(p) > 0) then
-               call hear_factored(self%rank(p), outcome)
+               call hear_factored(self%rank(p), self%has_full_top, outcome)
             else
                call factor_scene_part(self%own, stiffness(row(p):row(p + 1) - 1), pull(motion(p):motion(p + 1) - 1), outcome)
             end if
             call note_outcome(self, p, outcome, failed, status)
          end do
       end associate
-      if (is_ok(status) .and. self%is_stale) call factor_sum(self, failed_top, status)
+      if (.not. (is_ok(status) .and. self%is_stale)) return
+      if (self%has_full_top) then
+         call factor_sum(self, failed_top, status)
+      else
+         call factor_over_ranks(self, failed_top, status)
+      end if
+      self%is_stale = .not. is_ok(status)
    end subroutine factor_ranked
 
    !> What became of a part; the first failure counts.
@@ -147,7 +163,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (outcome%is_changed) then
-         call move_alloc(outcome%left, self%left(p)%values)
+         if (allocated(outcome%left)) call move_alloc(outcome%left, self%left(p)%values)
          self%is_stale = .true.
       end if
       if (is_ok(outcome%status) .or. .not. is_ok(status)) return
@@ -172,8 +188,20 @@ contains
       end do
       call factor_top(self%top, status)
       failed_top = self%top%failed
-      self%is_stale = .not. is_ok(status)
    end subroutine factor_sum
+
+   subroutine factor_over_ranks(self, failed_top, status)
+      class(ranked_parts_t), intent(in) :: self
+      integer(ip), intent(out) :: failed_top
+      type(status_t), intent(out) :: status
+      real(wp), allocatable :: nothing(:)
+
+      if (self%rank(1) == 0) then
+         call factor_scene_top(self%left(1)%values, failed_top, status)
+      else
+         call factor_scene_top(nothing, failed_top, status)
+      end if
+   end subroutine factor_over_ranks
 
    subroutine solve_ranked(self, x, top)
       class(ranked_parts_t), intent(in) :: self
@@ -194,7 +222,11 @@ contains
                top(own) = top(own) + x(last - self%lists%n_kept(p) + 1:last)
             end associate
          end do
-         call solve_top(self%top, top)
+         if (self%has_full_top) then
+            call solve_top(self%top, top)
+         else
+            call solve_scene_top(top)
+         end if
          call expand_parts(self, top, x)
       end associate
    end subroutine solve_ranked
@@ -232,6 +264,7 @@ contains
       do p = 1, size(self%rank, kind=ip)
          if (self%rank(p) > 0) call ask_to_release(self%rank(p))
       end do
+      if (.not. self%has_full_top) call end_scene_top()
    end subroutine release_ranked
 
    pure integer(lp) function ranked_bytes(self) result(bytes)
@@ -239,6 +272,7 @@ contains
       integer(ip) :: p
 
       bytes = top_bytes(self%top)
+      if (.not. self%has_full_top) bytes = bytes + scene_top_bytes()
       if (any(self%rank == 0)) bytes = bytes + self%own%scene%memory_bytes()
       do p = 1, size(self%left, kind=ip)
          if (allocated(self%left(p)%values)) bytes = bytes + size(self%left(p)%values, kind=lp)*(storage_size(1.0_wp)/8)

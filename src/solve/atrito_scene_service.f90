@@ -24,6 +24,7 @@ module atrito_scene_service
    type :: scene_store_t
       type(scene_part_t) :: part
       real(wp), allocatable :: x(:)              !< loads that were reduced
+      real(wp), allocatable :: left(:)           !< of the part, the lower triangle by columns, where it stays here
    end type scene_store_t
 
    !> What became of a part.
@@ -82,14 +83,22 @@ contains
       real(wp), allocatable :: stiffness(:), pull(:)
       type(part_outcome_t) :: outcome
       type(parcel_t) :: answer
+      logical :: is_wanted
 
+      call take(request, is_wanted)
       call take(request, stiffness)
       call take(request, pull)
       call factor_scene_part(store%part, stiffness, pull, outcome)
       call put_status(outcome%status, answer)
       call put(answer, outcome%failed)
       call put(answer, outcome%is_changed)
-      if (outcome%is_changed) call put(answer, outcome%left)
+      if (outcome%is_changed) then
+         if (is_wanted) then
+            call put(answer, outcome%left)
+         else
+            call move_alloc(outcome%left, store%left)
+         end if
+      end if
       call send_parcel(answer, 0_ip)
    end subroutine answer_factored
 
@@ -178,19 +187,22 @@ contains
    end subroutine hear_assembled
 
    !> The rank begins; hear_factored waits for its end.
-   subroutine ask_to_factor(rank, stiffness, pull)
+   subroutine ask_to_factor(rank, is_wanted, stiffness, pull)
       integer(ip), intent(in) :: rank
+      logical, intent(in) :: is_wanted           !< what is left comes to the first rank
       real(wp), intent(in), contiguous :: stiffness(:), pull(:)  !< of the rows and amplitudes of its part [F/L]
       type(parcel_t) :: request
 
       call begin_request(FACTOR, request)
+      call put(request, is_wanted)
       call put(request, stiffness)
       call put(request, pull)
       call send_parcel(request, rank)
    end subroutine ask_to_factor
 
-   subroutine hear_factored(rank, outcome)
+   subroutine hear_factored(rank, is_wanted, outcome)
       integer(ip), intent(in) :: rank
+      logical, intent(in) :: is_wanted           !< as it was asked
       type(part_outcome_t), intent(out) :: outcome
       type(parcel_t) :: answer
 
@@ -198,7 +210,7 @@ contains
       call take_status(answer, outcome%status)
       call take(answer, outcome%failed)
       call take(answer, outcome%is_changed)
-      if (outcome%is_changed) call take(answer, outcome%left)
+      if (outcome%is_changed .and. is_wanted) call take(answer, outcome%left)
    end subroutine hear_factored
 
    !> The rank multiplies; hear_values has the product.
