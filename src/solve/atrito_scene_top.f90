@@ -1,8 +1,9 @@
-!> What the parts of a scene share (atrito_scene_parts), when it is too large to be one full matrix: factored and solved by all ranks
-!> together (atrito_shared_system).
+!> What the parts of a scene share (atrito_scene_parts), when it is too large to be one full matrix: factored and solved by all
+!> ranks together (atrito_shared_system).
 !>
-!> The first rank tells the others what is to be done, with SERVICE_SCENE_TOP, and joins in; `serve_scene_top` is the other end. There
-!> is one such system at a time. All ranks must end it together, so each has it here, whatever becomes of the scene that it is of.
+!> The first rank tells the others what is to be done, with SERVICE_SCENE_TOP, and joins in; `serve_scene_top` is the other end.
+!> There is one such system at a time. All ranks must end it together, so each has it here, whatever becomes of the scene that it
+!> is of.
 module atrito_scene_top
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: rank_count, send_parcel
@@ -17,7 +18,7 @@ module atrito_scene_top
    ! What is wanted.
    integer(ip), parameter :: MAKE = 1, FACTOR = 2, SOLVE = 3, FINISH = 4
 
-   type(shared_system_t), save :: system
+   type(shared_system_t) :: system
 
 contains
 
