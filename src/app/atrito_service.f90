@@ -7,7 +7,10 @@ module atrito_service
    use atrito_part_service, only: serve_parts
    use atrito_part_store, only: part_store_t
    use atrito_part_tops, only: serve_tops, top_store_t
-   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_PARTS, SERVICE_RUNS, SERVICE_TOPS
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_PARTS, SERVICE_RUNS, &
+                                   SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP, SERVICE_TOPS
+   use atrito_scene_service, only: scene_store_t, serve_scene_parts
+   use atrito_scene_top, only: serve_scene_top
    use atrito_shared_fields, only: serve_fields
    use atrito_run_request, only: take_request
    use atrito_study, only: serve_study
@@ -23,6 +26,7 @@ contains
       type(parcel_t) :: request
       type(part_store_t) :: parts
       type(top_store_t) :: tops
+      type(scene_store_t) :: scene
       integer(ip) :: service
 
       do
@@ -36,6 +40,10 @@ contains
             call serve_parts(parts, request)
          case (SERVICE_TOPS)
             call serve_tops(parts, tops, request)
+         case (SERVICE_SCENE_PARTS)
+            call serve_scene_parts(scene, request)
+         case (SERVICE_SCENE_TOP)
+            call serve_scene_top(scene%left, request)
          case (SERVICE_FIELDS)
             call serve_fields(request)
          case (SERVICE_RUNS)

@@ -25,8 +25,6 @@ module atrito_assembled_scene
 
    type, extends(scene_system_t) :: assembled_scene_t
       type(variable_matrix_t) :: matrix
-      logical :: is_near = .false.                          !< fronts have one matrix for elements that are near, and not equal
-      character(len=:), allocatable :: order                !< how the order of elimination was found
       integer(ip), allocatable, private :: point_row(:, :)  !< (ROWS_A_POINT, points with a row) normal, tangential; 0: none
       integer(lp), allocatable, private :: start(:)         !< (variable elements + 1) their unknowns
       integer(ip), allocatable, private :: unknown(:)

@@ -16,7 +16,7 @@ module atrito_dense_form
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
    use atrito_scene_data, only: scene_data_t, free_load
-   use atrito_shares, only: is_worth_sharing, make_shares
+   use atrito_shares, only: share_out
    use atrito_solve_history, only: restart_history
    use atrito_shared_points, only: has_dependent_points, solve_shared_points
    use atrito_solver_choice, only: SOLVER_SPARSE
@@ -122,7 +122,7 @@ contains
       else
          if (allocated(problem)) deallocate (problem)
          call forget_reduced(data%bases)
-         call share_out(data, store)
+         call share_bodies_out(data, store)
          call provide_bodies(store, data%fem, data%held, data%points, free_load(data), data%solver_kind, results%scene%bodies, &
                              status, data%model%bilateral)
          results%factorisations = store%factorisations
@@ -137,24 +137,17 @@ contains
    end subroutine provide_loaded_bodies
 
    !> Over the ranks, where there are others and it is worth it.
-   subroutine share_out(data, store)
+   subroutine share_bodies_out(data, store)
       type(scene_data_t), intent(inout) :: data
       type(body_cache_t), intent(inout) :: store
-      integer(ip) :: p
 
       if (allocated(store%shares)) deallocate (store%shares)
       if (allocated(data%rank_of)) deallocate (data%rank_of)
       if (.not. any(data%solver_kind == [0, SOLVER_SPARSE])) return
-      if (.not. is_worth_sharing(data%fem, rank_count(), data%share)) return
       call start_phase('order')
-      allocate (store%shares)
-      call make_shares(data%fem, data%rows, rank_count(), store%shares)
-      allocate (data%rank_of(data%fem%mesh%n_elements), source=0_ip)
-      do p = 1, store%shares%n
-         data%rank_of(store%shares%list(p)%elements) = store%shares%list(p)%rank
-      end do
+      call share_out(data%fem, data%rows, rank_count(), data%share, store%shares, data%rank_of)
       call stop_phase('order')
-   end subroutine share_out
+   end subroutine share_bodies_out
 
    !> Solves the contact line: from the increment before, where that leads to a solution, else from the usual start.
    subroutine solve_line(data, controls, problem, solution, status)

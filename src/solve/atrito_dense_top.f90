@@ -6,7 +6,7 @@ module atrito_dense_top
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL, STATUS_SINGULAR
    implicit none (type, external)
    private
-   public :: dense_top_t, begin_top, add_to_top, factor_top, solve_top, top_bytes
+   public :: dense_top_t, begin_top, add_to_top, add_packed_to_top, factor_top, solve_top, top_bytes, expected_top_bytes
 
    type :: dense_top_t
       integer(ip) :: n = 0
@@ -46,6 +46,25 @@ contains
       end do
    end subroutine add_to_top
 
+   !> The same of a lower triangle by columns (atrito_packed_matrices).
+   pure subroutine add_packed_to_top(unknown, values, top)
+      integer(ip), intent(in) :: unknown(:)      !< number of each of its kept unknowns
+      real(wp), intent(in) :: values(:)
+      type(dense_top_t), intent(inout) :: top
+      integer(ip) :: i, j
+      integer(lp) :: k
+
+      k = 0
+      do j = 1, size(unknown, kind=ip)
+         do i = j, size(unknown, kind=ip)
+            k = k + 1
+            associate (row => max(unknown(i), unknown(j)), column => min(unknown(i), unknown(j)))
+               top%matrix(row, column) = top%matrix(row, column) + values(k)
+            end associate
+         end do
+      end do
+   end subroutine add_packed_to_top
+
    !> status: STATUS_SINGULAR when a pivot is not positive.
    subroutine factor_top(top, status)
       type(dense_top_t), intent(inout) :: top
@@ -69,5 +88,12 @@ contains
       bytes = 0
       if (allocated(top%matrix)) bytes = size(top%matrix, kind=lp)*(storage_size(1.0_wp)/8)
    end function top_bytes
+
+   !> What a top of n unknowns will take.
+   pure integer(lp) function expected_top_bytes(n) result(bytes)
+      integer(ip), intent(in) :: n
+
+      bytes = int(n, lp)**2*(storage_size(1.0_wp)/8)
+   end function expected_top_bytes
 
 end module atrito_dense_top

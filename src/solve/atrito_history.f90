@@ -21,7 +21,7 @@ module atrito_history
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_rigid_steps, only: begin_motions_from, released_forces
    use atrito_scene_builder, only: list_held
-   use atrito_scene_data, only: check_known_points, scene_data_t, set_time
+   use atrito_scene_data, only: check_known_points, drop_assembled, scene_data_t, set_time
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
    use atrito_solution_warnings, only: warn
@@ -101,6 +101,7 @@ contains
       end do
       call finish(run, history)
       if (store%factorisations > 0) store%factorisations = history%factorisations
+      call drop_assembled(run%data)
       call release_bodies(store)
    end subroutine solve_history
 

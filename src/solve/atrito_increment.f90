@@ -23,7 +23,7 @@ module atrito_increment
    use atrito_results, only: results_t, scene_t, pair_scene_t
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
-   use atrito_scene_data, only: scene_data_t
+   use atrito_scene_data, only: scene_data_t, drop_assembled
    use atrito_section_forces, only: sum_cuts
    use atrito_sparse_form, only: solve_sparse_form
    use atrito_shared_fields, only: estimate_on_ranks
@@ -75,7 +75,7 @@ contains
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
          call solve_without_near(data, controls, store, results, solution, status)
       end if
-      if (asked_form == CONTACT_AUTO .and. data%assembled%failed > 0 .and. .not. is_ok(status)) then
+      if (asked_form == CONTACT_AUTO .and. has_failed(data) .and. .not. is_ok(status)) then
          ! what is singular for the one form need not be so for the other
          if (can_be_dense(size(data%line%point, kind=ip))) then
             call solve_one_form(data, CONTACT_DENSE, controls, store, results, solution, status)
@@ -85,6 +85,14 @@ contains
          call try_others(data, controls, store, results, solution)
       end if
    end subroutine solve_increment
+
+   !> Whether the matrix of the sparse form had no factor the last time.
+   pure logical function has_failed(data)
+      type(scene_data_t), intent(in) :: data
+
+      has_failed = allocated(data%assembled)
+      if (has_failed) has_failed = data%assembled%failed > 0
+   end function has_failed
 
    pure logical function is_solved(results, status)
       type(results_t), intent(in) :: results
@@ -109,7 +117,7 @@ contains
       again%scene%near_elements = .false.
       results = again
       data%fem%grain = 0.0_wp
-      data%is_assembled = .false.
+      call drop_assembled(data)
       if (allocated(data%flexibility)) deallocate (data%flexibility)
       if (allocated(data%last)) deallocate (data%last)
       call solve_one_form(data, data%contact_form, controls, store, results, solution, status)

@@ -1,7 +1,8 @@
 !> The parts of a scene in one process, one after the other, with a full matrix for what they share: what parts on several ranks are
 !> measured by.
 module atrito_local_parts
-   use atrito_dense_top, only: dense_top_t, begin_top, add_to_top, factor_top, solve_top, top_bytes
+   use atrito_dense_top, only: dense_top_t, begin_top, add_to_top, factor_top, solve_top, top_bytes, &
+                               expected_top_bytes
    use atrito_kinds, only: ip, lp, wp
    use atrito_scene_part, only: scene_part_t, assemble_scene_part, part_matrix, reduce_part, expand_part
    use atrito_scene_parts, only: scene_parts_t, part_lists_t
@@ -21,7 +22,9 @@ module atrito_local_parts
       procedure :: multiply => multiply_local
       procedure :: factor => factor_local
       procedure :: solve => solve_local
+      procedure :: release => release_local
       procedure :: memory_bytes => local_bytes
+      procedure :: solving_bytes => local_solving_bytes
    end type local_parts_t
 
 contains
@@ -44,17 +47,22 @@ contains
       part = nothing
    end subroutine take_local
 
-   subroutine assemble_local(self, lists, status)
+   subroutine assemble_local(self, lists, is_near, order, status)
       class(local_parts_t), intent(inout) :: self
       type(part_lists_t), intent(in) :: lists
+      logical, intent(out) :: is_near
+      character(len=:), allocatable, intent(out) :: order
       type(status_t), intent(out) :: status
       integer(ip) :: p
 
       self%lists = lists
+      is_near = .false.
       do p = 1, lists%n_parts
          call assemble_scene_part(self%parts(p), status)
          if (.not. is_ok(status)) return
+         is_near = is_near .or. self%parts(p)%scene%is_near
       end do
+      order = self%parts(1)%scene%order
    end subroutine assemble_local
 
    subroutine multiply_local(self, x, y)
@@ -145,5 +153,21 @@ contains
          bytes = bytes + self%parts(p)%scene%memory_bytes()
       end do
    end function local_bytes
+
+   pure integer(lp) function local_solving_bytes(self) result(bytes)
+      class(local_parts_t), intent(in) :: self
+      integer(ip) :: p
+
+      bytes = expected_top_bytes(self%lists%n_top)
+      do p = 1, self%lists%n_parts
+         bytes = bytes + self%parts(p)%scene%solving_bytes()
+      end do
+   end function local_solving_bytes
+
+   subroutine release_local(self)
+      class(local_parts_t), intent(inout) :: self
+
+      if (allocated(self%parts)) deallocate (self%parts)
+   end subroutine release_local
 
 end module atrito_local_parts

@@ -14,14 +14,17 @@ module atrito_scene_data
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
    use atrito_model, only: model_t, nodal_values_t, step_t, METHOD_ANDERSON
+   use atrito_mpi, only: rank_count
    use atrito_nodal_loads, only: nodal_loads
    use atrito_points, only: contact_points_t
    use atrito_reporter, only: reporter_t
    use atrito_rigid_bodies, only: add_rigid_loads, has_moving_surfaces, set_rigid_motions
    use atrito_scene_builder, only: build_scene, build_bodies, list_held
-   use atrito_scene_system, only: set_scene_gaps, set_scene_load
+   use atrito_scene_sharing, only: share_over_ranks
+   use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
    use atrito_scene_memory, only: check_average_memory, most_average_entries
-   use atrito_shares, only: SHARE_NONE
+   use atrito_shared_scene, only: shared_scene_t
+   use atrito_shares, only: shares_t, share_out, SHARE_NONE
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
@@ -29,7 +32,7 @@ module atrito_scene_data
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, set_time, assemble, free_load, check_known_points
+   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
@@ -48,7 +51,7 @@ module atrito_scene_data
       character(len=:), allocatable :: reason               !< why this form
       integer :: solver_kind = 0                           !< that the bodies are numbered for
       integer :: share = SHARE_NONE                        !< whether the scene goes over the ranks, SHARE_*
-      type(assembled_scene_t) :: assembled                  !< the sparse form
+      class(scene_system_t), allocatable :: assembled       !< the sparse form, in one matrix or over the ranks
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
@@ -202,17 +205,69 @@ contains
                                min(asked%memory, available_memory()), data%contact_form, data%reason)
    end subroutine choose_form
 
-   !> All bodies in one matrix, and its fronts; nothing is factored. status: STATUS_INTERNAL when the memory does not suffice.
+   !> All bodies in one matrix, or its parts on the ranks where that is worth it, and their fronts; nothing is factored. status:
+   !> STATUS_INTERNAL when the memory does not suffice.
    subroutine assemble(data, status)
       type(scene_data_t), intent(inout) :: data
       type(status_t), intent(inout) :: status
 
+      type(shares_t), allocatable :: shares
+
       if (data%is_assembled) return
-      call assemble_scene(data%fem, data%rows, data%line, data%value, data%assembled, status)
+      call drop_assembled(data)
+      call share_out(data%fem, data%rows, rank_count(), data%share, shares, data%rank_of)
+      if (is_over_ranks(shares)) then
+         call assemble_on_ranks(data, shares, status)
+      else
+         call assemble_here(data, status)
+      end if
       if (.not. is_ok(status)) return
       call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
       data%is_assembled = .true.
    end subroutine assemble
+
+   !> Whether several ranks have a part.
+   pure logical function is_over_ranks(shares)
+      type(shares_t), allocatable, intent(in) :: shares
+
+      is_over_ranks = allocated(shares)
+      if (is_over_ranks) is_over_ranks = shares%n > 0
+      if (is_over_ranks) is_over_ranks = any(shares%list%rank /= shares%list(1)%rank)
+   end function is_over_ranks
+
+   subroutine assemble_here(data, status)
+      type(scene_data_t), intent(inout) :: data
+      type(status_t), intent(inout) :: status
+      type(assembled_scene_t), allocatable :: scene
+
+      allocate (scene)
+      call assemble_scene(data%fem, data%rows, data%line, data%value, scene, status)
+      call move_alloc(scene, data%assembled)
+   end subroutine assemble_here
+
+   subroutine assemble_on_ranks(data, shares, status)
+      type(scene_data_t), intent(inout) :: data
+      type(shares_t), intent(in) :: shares
+      type(status_t), intent(inout) :: status
+      type(shared_scene_t), allocatable :: scene
+
+      allocate (scene)
+      call share_over_ranks(data%fem, data%rows, data%line, data%value, shares, scene, status)
+      call move_alloc(scene, data%assembled)
+   end subroutine assemble_on_ranks
+
+   !> The matrices are not needed any more: the ranks give back what they have of them.
+   subroutine drop_assembled(data)
+      type(scene_data_t), intent(inout) :: data
+
+      data%is_assembled = .false.
+      if (.not. allocated(data%assembled)) return
+      select type (scene => data%assembled)
+      type is (shared_scene_t)
+         call scene%parts%release()
+      end select
+      deallocate (data%assembled)
+   end subroutine drop_assembled
 
    !> Hard contact cannot take an overlap of prescribed dofs, nor a bilateral row without compliance a difference of them.
    pure subroutine check_known_points(data, status)

@@ -29,7 +29,9 @@ module atrito_scene_parts
       procedure(multiply_parts), deferred :: multiply
       procedure(factor_parts), deferred :: factor
       procedure(solve_parts), deferred :: solve
+      procedure(release_parts), deferred :: release
       procedure(parts_bytes), deferred :: memory_bytes
+      procedure(parts_bytes), deferred :: solving_bytes
    end type scene_parts_t
 
    abstract interface
@@ -50,10 +52,12 @@ module atrito_scene_parts
       end subroutine take_part
 
       !> Assembles all parts. status: STATUS_INTERNAL when the memory does not suffice.
-      subroutine assemble_parts(self, lists, status)
+      subroutine assemble_parts(self, lists, is_near, order, status)
          import :: scene_parts_t, part_lists_t, status_t
          class(scene_parts_t), intent(inout) :: self
          type(part_lists_t), intent(in) :: lists
+         logical, intent(out) :: is_near         !< a part has fronts of elements that are near, and not equal
+         character(len=:), allocatable, intent(out) :: order !< of elimination: how that of the first part was found
          type(status_t), intent(out) :: status
       end subroutine assemble_parts
 
@@ -85,7 +89,13 @@ module atrito_scene_parts
          real(wp), intent(inout) :: top(:)       !< (n_top) loads on the shared unknowns in, their solution out
       end subroutine solve_parts
 
-      !> Memory held by this process [bytes].
+      !> Gives back what other processes hold; what is here goes with the parts.
+      subroutine release_parts(self)
+         import :: scene_parts_t
+         class(scene_parts_t), intent(inout) :: self
+      end subroutine release_parts
+
+      !> Memory held by this process; what solving will take of it beyond what is held before the first factorisation [bytes].
       pure integer(lp) function parts_bytes(self)
          import :: scene_parts_t, lp
          class(scene_parts_t), intent(in) :: self

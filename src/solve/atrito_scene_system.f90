@@ -6,7 +6,7 @@ module atrito_scene_system
    use atrito_contact_line, only: contact_line_t, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
    use atrito_contact_system, only: contact_system_t
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_row_entries, only: direction_of
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
@@ -15,7 +15,21 @@ module atrito_scene_system
 
    type, extends(contact_system_t), abstract :: scene_system_t
       type(scene_numbering_t) :: numbering
+      logical :: is_near = .false.               !< fronts have one matrix for elements that are near, and not equal
+      character(len=:), allocatable :: order     !< how the order of elimination was found
+   contains
+      procedure(count_solving_bytes), deferred :: solving_bytes
    end type scene_system_t
+
+   abstract interface
+
+      !> What solving will take beyond what the scene holds before its first factorisation [bytes].
+      pure integer(lp) function count_solving_bytes(self)
+         import :: scene_system_t, lp
+         class(scene_system_t), intent(in) :: self
+      end function count_solving_bytes
+
+   end interface
 
    !> A load on a motion of at most this share of what it is the sum of is none.
    real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp

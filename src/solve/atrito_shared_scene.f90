@@ -33,6 +33,7 @@ module atrito_shared_scene
       procedure :: factor => factor_shared
       procedure :: solve => solve_shared
       procedure :: memory_bytes => shared_bytes
+      procedure :: solving_bytes => shared_solving_bytes
    end type shared_scene_t
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INDEX_BYTES = storage_size(1_ip)/8
@@ -73,7 +74,7 @@ contains
       call set_flexibility(fem, rows, line, diagonal, coupling, scene)
       call move_alloc(parts, scene%parts)
       call hand_over(fem, rows, line, cut, scene)
-      call scene%parts%assemble(scene%lists, status)
+      call scene%parts%assemble(scene%lists, scene%is_near, scene%order, status)
    end subroutine share_scene
 
    !> Makes the parts one after the other: there is never more than one of them here.
@@ -158,5 +159,14 @@ contains
       bytes = self%parts%memory_bytes() + (REAL_BYTES + INDEX_BYTES)*size(self%rows%value, kind=lp) &
               + 2*INDEX_BYTES*size(self%unknown, kind=lp) + INDEX_BYTES*(size(self%row, kind=lp) + size(self%pull, kind=lp))
    end function shared_bytes
+
+   !> That of the parts in this process, and the vectors of the iteration, over the scene and over the parts.
+   pure integer(lp) function shared_solving_bytes(self) result(bytes)
+      class(shared_scene_t), intent(in) :: self
+      integer(lp), parameter :: OF_UNKNOWNS = 12_lp, OF_ROWS = 40_lp
+
+      bytes = self%parts%solving_bytes() &
+              + REAL_BYTES*(OF_UNKNOWNS*size(self%unknown, kind=lp) + OF_ROWS*int(self%rows%n, lp))
+   end function shared_solving_bytes
 
 end module atrito_shared_scene

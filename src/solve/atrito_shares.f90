@@ -17,7 +17,7 @@ module atrito_shares
    use atrito_profile, only: profile_t
    implicit none (type, external)
    private
-   public :: shares_t, share_t, top_t, make_shares, predict_work, is_worth_sharing, LEAST_WORK
+   public :: shares_t, share_t, top_t, make_shares, share_out, predict_work, is_worth_sharing, LEAST_WORK
    public :: SHARE_NONE, SHARE_AUTO, SHARE_ALL
 
    !> A part of the scene: a body, or a piece of one.
@@ -84,6 +84,25 @@ contains
       is_worth_sharing = n_ranks > 1 .and. asked /= SHARE_NONE
       if (is_worth_sharing .and. asked == SHARE_AUTO) is_worth_sharing = sum(predict_work(fem)) >= LEAST_WORK
    end function is_worth_sharing
+
+   !> Shares out the elements of all bodies over the ranks where it is worth it; else there is nothing on return.
+   subroutine share_out(fem, rows, n_ranks, asked, shares, rank_of)
+      type(fem_t), intent(in) :: fem             !< its equations are numbered
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: n_ranks         !< >= 1
+      integer, intent(in) :: asked               !< SHARE_*
+      type(shares_t), allocatable, intent(out) :: shares
+      integer(ip), allocatable, intent(out) :: rank_of(:) !< (n_elements)
+      integer(ip) :: p
+
+      if (.not. is_worth_sharing(fem, n_ranks, asked)) return
+      allocate (shares)
+      call make_shares(fem, rows, n_ranks, shares)
+      allocate (rank_of(fem%mesh%n_elements), source=0_ip)
+      do p = 1, shares%n
+         rank_of(shares%list(p)%elements) = shares%list(p)%rank
+      end do
+   end subroutine share_out
 
    !> Shares out the elements of all bodies.
    subroutine make_shares(fem, rows, n_ranks, shares)

@@ -8,7 +8,7 @@ module atrito_solve
    use atrito_model, only: model_t, step_t, METHOD_ANDERSON
    use atrito_reporter, only: reporter_t
    use atrito_results, only: results_t, scene_t
-   use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, check_known_points
+   use atrito_scene_data, only: scene_data_t, asked_t, prepare, assemble, drop_assembled, check_known_points
    use atrito_scene_forecast, only: forecast_memory
    use atrito_shares, only: SHARE_AUTO, SHARE_ALL, SHARE_NONE
    use atrito_scene_survey, only: describe_scene, count_fronts, check_scene
@@ -77,10 +77,12 @@ contains
       type(contact_solution_t) :: solution
 
       call begin_scene(model, options, store, .false., data, results%scene, status)
-      if (.not. is_ok(status)) return
-      data%reporter = reporter
-      call note_method(data, model%steps(1:1))
-      call solve_increment(data, options%contact_form, store, results, solution, status)
+      if (is_ok(status)) then
+         data%reporter = reporter
+         call note_method(data, model%steps(1:1))
+         call solve_increment(data, options%contact_form, store, results, solution, status)
+      end if
+      call drop_assembled(data)
       if (.not. is_ok(status)) return
       ! with the fronts that the bodies have in place of those that were expected
       results%scene%memory = forecast_memory(model, data, results%scene)

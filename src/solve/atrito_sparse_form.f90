@@ -1,6 +1,5 @@
 !> Solving with the sparse form: all bodies in one matrix, the contact points as elements that change.
 module atrito_sparse_form
-   use atrito_assembled_scene, only: assembled_scene_t
    use atrito_assembly, only: fem_t
    use atrito_condensed_body, only: check_held
    use atrito_constraint_rows, only: constraint_rows_t
@@ -11,7 +10,7 @@ module atrito_sparse_form
    use atrito_model, only: controls_t
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
-   use atrito_scene_data, only: scene_data_t, assemble
+   use atrito_scene_data, only: scene_data_t, assemble, drop_assembled
    use atrito_row_entries, only: build_constraint_rows
    use atrito_scene_system, only: displacements_of
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
@@ -32,7 +31,6 @@ contains
       real(wp), allocatable, intent(out) :: u(:, :)
       type(status_t), intent(out) :: status
       type(constraint_rows_t) :: rows
-      type(assembled_scene_t) :: nothing
       real(wp), allocatable :: x(:)
       integer(ip) :: b
 
@@ -49,13 +47,12 @@ contains
       call solve_rows(data, rows, controls, solution, x, status)
       results%factorisations = solution%factorisations
       call stop_phase('iterate')
-      if (data%assembled%matrix%failed > 0) call name_failure(data, status)
+      if (data%assembled%failed > 0) call name_failure(data, status)
       if (.not. allocated(x)) return
       u = data%value
       call displacements_of(data%fem, data%assembled, x, u)
       if (data%keeps) return
-      data%assembled = nothing                     ! the stresses want the memory of the factors
-      data%is_assembled = .false.
+      call drop_assembled(data)                    ! the stresses want the memory of the factors
    end subroutine solve_sparse_form
 
    !> From the increment before, where that leads to a solution, else from the usual start.
@@ -88,7 +85,7 @@ contains
       type(status_t), intent(inout) :: status
       integer(ip) :: b, node, dof
 
-      associate (failed => data%assembled%matrix%failed, bodies => data%fem%bodies)
+      associate (failed => data%assembled%failed, bodies => data%fem%bodies)
          do node = 1, data%fem%mesh%n_nodes
             b = bodies%of_node(node)
             if (b == 0) cycle

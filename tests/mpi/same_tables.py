@@ -8,6 +8,7 @@
    --exceptions FILE   what may differ, and why (exceptions.txt beside this file)
    --only TEXT    decks whose name has the text
    --at-most S    leaves out what takes the plain program longer [s]
+   --options TEXT of atrito besides, for both: '--share all --contact sparse'
    --keep DIR     the results stay there
    --quiet        only what differs, and the sum
 
@@ -206,10 +207,12 @@ def main():
     parser.add_argument('--exceptions', default=os.path.join(HERE, 'exceptions.txt'))
     parser.add_argument('--only', default='')
     parser.add_argument('--at-most', type=float, default=None)
+    parser.add_argument('--options', default='')
     parser.add_argument('--keep')
     parser.add_argument('--quiet', action='store_true')
     options = parser.parse_args()
-    decks = sorted((deck for deck in find_decks(options.paths) if options.only in deck.name), key=lambda deck: deck.name)
+    more = options.options.split()
+    decks = sorted((Deck(deck.name, deck.command, deck.path, deck.options + more) for deck in find_decks(options.paths) if options.only in deck.name), key=lambda deck: deck.name)
     if options.keep:
         options.keep = os.path.abspath(options.keep)
         os.makedirs(options.keep, exist_ok=True)
