@@ -3,7 +3,7 @@
 module atrito_mesh_cut
    use atrito_faces, only: face_list_t, node_elements_t
    use atrito_kinds, only: ip
-   use atrito_mesh, only: mesh_t, add_nodes, face_end, middle_node, side_count
+   use atrito_mesh, only: mesh_t, add_nodes, face_end, middle_node, side_count, trim_mesh
    use atrito_sorting, only: each_once
    implicit none (type, external)
    private
@@ -140,6 +140,7 @@ contains
       do k = 1, size(cut%change, 2, kind=ip)
          mesh%nodes(cut%change(3, k), cut%change(2, k)) = before + cut%change(1, k)
       end do
+      call trim_mesh(mesh)                         ! whoever asks for the largest coordinate takes all that there are
    end subroutine cut_mesh
 
 end module atrito_mesh_cut

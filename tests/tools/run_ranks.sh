@@ -4,6 +4,8 @@
 #    run_ranks.sh SOURCES
 . "$(dirname "$0")/lib.sh"
 sources=$1
+# what the user has set for mpirun stays, and would hide what ./run sets
+for setting in $(env | sed -n 's/^\(OMPI_[A-Za-z0-9_]*\)=.*/\1/p'); do unset "$setting"; done
 top=$work/top
 mkdir -p "$top/tools" "$work/bin" "$work/commands"
 cp "$sources/run" "$sources/CMakePresets.json" "$top"
