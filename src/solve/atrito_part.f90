@@ -12,15 +12,15 @@
 module atrito_part
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t
+   use atrito_fem_piece, only: take_piece
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
+   use atrito_mesh_parcel, only: put_mesh, put_sections, take_mesh, take_sections
    use atrito_parcel, only: parcel_t, put, take
-   use atrito_plane_state, only: elastic_t
    use atrito_shares, only: shares_t, share_t, top_t
    implicit none (type, external)
    private
    public :: part_t, make_part, release_part, put_part, take_part, load_of_part
-   public :: put_mesh, put_sections, unpack_mesh, unpack_sections
 
    !> Assigned, it has the same mesh: release_part is for the last that has it.
    type :: part_t
@@ -52,8 +52,7 @@ contains
          part%n_top = top%n
          part%element = share%elements
          call order_nodes(fem, share, top, part%node)
-         call take_mesh(fem%mesh, part)
-         call take_sections(fem, part)
+         call take_piece(fem, part%node, part%element, part%fem)
          call number_part(fem, top, part)
          call describe_body(fem%bodies%list(share%body), part%fem%mesh, share%is_whole, part%fem%bodies%list(1))
       end associate
@@ -108,54 +107,6 @@ contains
       if (low > size(list)) return
       if (list(low) == number) place = low
    end function place_in
-
-   subroutine take_mesh(mesh, part)
-      type(mesh_t), intent(in) :: mesh           !< of the scene
-      type(part_t), intent(inout) :: part
-      integer(ip), allocatable :: local(:)
-      integer(ip) :: i, n
-
-      allocate (part%fem%mesh)
-      associate (own => part%fem%mesh)
-         own%n_nodes = size(part%node, kind=ip)
-         own%n_elements = size(part%element, kind=ip)
-         own%node_id = mesh%node_id(part%node)
-         own%x = mesh%x(:, part%node)
-         own%element_id = mesh%element_id(part%element)
-         own%shape = mesh%shape(part%element)
-         own%state = mesh%state(part%element)
-         own%nodes = mesh%nodes(:, part%element)
-         if (allocated(mesh%thickness)) own%thickness = mesh%thickness(part%node)
-         call invert(part%node, local, n)
-         do i = 1, own%n_elements
-            own%nodes(:own%shape(i), i) = local(own%nodes(:own%shape(i), i) - n)
-         end do
-      end associate
-   end subroutine take_mesh
-
-   !> Where each number stands in a list: number i at place(i - before).
-   pure subroutine invert(list, place, before)
-      integer(ip), intent(in) :: list(:)
-      integer(ip), allocatable, intent(out) :: place(:)
-      integer(ip), intent(out) :: before         !< less than all numbers
-      integer(ip) :: i
-
-      before = minval(list) - 1
-      allocate (place(maxval(list) - before))
-      do i = 1, size(list, kind=ip)
-         place(list(i) - before) = i
-      end do
-   end subroutine invert
-
-   subroutine take_sections(fem, part)
-      type(fem_t), intent(in) :: fem
-      type(part_t), intent(inout) :: part
-
-      part%fem%sections = fem%sections
-      part%fem%section_of = fem%section_of(part%element)
-      part%fem%grain = fem%grain
-      if (allocated(fem%heating)) part%fem%heating = fem%heating(part%node)
-   end subroutine take_sections
 
    !> The equations in the order of the nodes, the retained ones last.
    subroutine number_part(fem, top, part)
@@ -261,38 +212,11 @@ contains
       call put(parcel, part%node)
       call put(parcel, part%equation)
       call put(parcel, part%top)
-      call put_mesh(part%fem%mesh, parcel)
-      call put_sections(part%fem, parcel)
+      call put_mesh(parcel, part%fem%mesh)
+      call put_sections(parcel, part%fem)
       call put(parcel, part%fem%bodies%equation)
       call put_body(part%fem%bodies%list(1), parcel)
    end subroutine put_part
-
-   subroutine put_mesh(mesh, parcel)
-      type(mesh_t), intent(in) :: mesh
-      type(parcel_t), intent(inout) :: parcel
-
-      call put(parcel, mesh%node_id)
-      call put(parcel, mesh%x)
-      call put(parcel, mesh%element_id)
-      call put(parcel, mesh%shape)
-      call put(parcel, mesh%state)
-      call put(parcel, mesh%nodes)
-      call put(parcel, allocated(mesh%thickness))
-      if (allocated(mesh%thickness)) call put(parcel, mesh%thickness)
-   end subroutine put_mesh
-
-   !> Sections go as they lie in memory, so that none of their components is forgotten.
-   subroutine put_sections(fem, parcel)
-      type(fem_t), intent(in) :: fem
-      type(parcel_t), intent(inout) :: parcel
-
-      call put(parcel, size(fem%sections, kind=ip))
-      call put(parcel, transfer(fem%sections, [0_ip]))
-      call put(parcel, fem%section_of)
-      call put(parcel, fem%grain)
-      call put(parcel, allocated(fem%heating))
-      if (allocated(fem%heating)) call put(parcel, fem%heating)
-   end subroutine put_sections
 
    subroutine put_body(body, parcel)
       type(body_t), intent(in) :: body
@@ -324,48 +248,14 @@ contains
       call take(parcel, part%equation)
       call take(parcel, part%top)
       allocate (part%fem%mesh)
-      call unpack_mesh(parcel, part%fem%mesh)
-      call unpack_sections(parcel, part%fem)
+      call take_mesh(parcel, part%fem%mesh)
+      call take_sections(parcel, part%fem)
       part%fem%bodies%n = 1
       allocate (part%fem%bodies%list(1))
       allocate (part%fem%bodies%of_node(size(part%node)), part%fem%bodies%of_element(size(part%element)), source=1_ip)
       call take(parcel, part%fem%bodies%equation)
       call unpack_body(parcel, part%fem%bodies%list(1))
    end subroutine take_part
-
-   subroutine unpack_mesh(parcel, mesh)
-      type(parcel_t), intent(inout) :: parcel
-      type(mesh_t), intent(inout) :: mesh
-      logical :: is_there
-
-      call take(parcel, mesh%node_id)
-      call take(parcel, mesh%x)
-      call take(parcel, mesh%element_id)
-      call take(parcel, mesh%shape)
-      call take(parcel, mesh%state)
-      call take(parcel, mesh%nodes)
-      call take(parcel, is_there)
-      if (is_there) call take(parcel, mesh%thickness)
-      mesh%n_nodes = size(mesh%node_id, kind=ip)
-      mesh%n_elements = size(mesh%element_id, kind=ip)
-   end subroutine unpack_mesh
-
-   subroutine unpack_sections(parcel, fem)
-      type(parcel_t), intent(inout) :: parcel
-      type(fem_t), intent(inout) :: fem
-      type(elastic_t) :: mold(1)
-      integer(ip), allocatable :: numbers(:)
-      integer(ip) :: n
-      logical :: is_there
-
-      call take(parcel, n)
-      call take(parcel, numbers)
-      fem%sections = transfer(numbers, mold, n)
-      call take(parcel, fem%section_of)
-      call take(parcel, fem%grain)
-      call take(parcel, is_there)
-      if (is_there) call take(parcel, fem%heating)
-   end subroutine unpack_sections
 
    subroutine unpack_body(parcel, body)
       type(parcel_t), intent(inout) :: parcel

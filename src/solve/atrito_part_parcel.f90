@@ -1,19 +1,15 @@
 !> A part of a scene (atrito_scene_part) as a parcel, before it is assembled.
 module atrito_part_parcel
-   use atrito_assembly, only: fem_t
    use atrito_bodies, only: bodies_t
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_kinds, only: ip, wp
-   use atrito_mesh, only: mesh_t
+   use atrito_mesh_parcel, only: put_mesh, put_sections, take_mesh, take_sections
    use atrito_parcel, only: parcel_t, put, take
-   use atrito_orthotropy, only: SPATIAL
    use atrito_scene_elimination, only: scene_numbering_t
    use atrito_scene_part, only: scene_part_t
    implicit none (type, external)
    private
    public :: put_scene_part, take_scene_part
-
-   integer(ip), parameter :: CONSTANTS = 5_ip     !< real ones of a section beside its matrices
 
 contains
 
@@ -112,85 +108,6 @@ contains
       call take(parcel, rows%value)
       call take(parcel, rows%point)
    end subroutine take_constraints
-
-   subroutine put_mesh(parcel, mesh)
-      type(parcel_t), intent(inout) :: parcel
-      type(mesh_t), intent(in) :: mesh
-
-      call put(parcel, mesh%x)
-      call put(parcel, mesh%shape)
-      call put(parcel, mesh%state)
-      call put(parcel, mesh%nodes)
-      call put(parcel, allocated(mesh%thickness))
-      if (allocated(mesh%thickness)) call put(parcel, mesh%thickness)
-   end subroutine put_mesh
-
-   subroutine take_mesh(parcel, mesh)
-      type(parcel_t), intent(inout) :: parcel
-      type(mesh_t), intent(out) :: mesh
-      logical :: is_tapered
-
-      call take(parcel, mesh%x)
-      call take(parcel, mesh%shape)
-      call take(parcel, mesh%state)
-      call take(parcel, mesh%nodes)
-      call take(parcel, is_tapered)
-      if (is_tapered) call take(parcel, mesh%thickness)
-      mesh%n_nodes = size(mesh%x, 2, kind=ip)
-      mesh%n_elements = size(mesh%shape, kind=ip)
-   end subroutine take_mesh
-
-   !> What stiffness depends on; loads are not the parts' affair.
-   subroutine put_sections(parcel, fem)
-      type(parcel_t), intent(inout) :: parcel
-      type(fem_t), intent(in) :: fem
-      real(wp) :: constants(CONSTANTS, size(fem%sections))
-      real(wp) :: matrices(2*SPATIAL**2, size(fem%sections))
-      integer(ip) :: i
-
-      do i = 1, size(fem%sections, kind=ip)
-         associate (section => fem%sections(i))
-            constants(:, i) = [section%young, section%poisson, section%thickness, section%density, section%expansion]
-            matrices(:, i) = [section%stiffness, section%compliance]
-         end associate
-      end do
-      call put(parcel, constants)
-      call put(parcel, matrices)
-      call put(parcel, fem%sections%formulation)
-      call put(parcel, fem%sections%is_orthotropic)
-      call put(parcel, fem%section_of)
-      call put(parcel, fem%grain)
-   end subroutine put_sections
-
-   subroutine take_sections(parcel, fem)
-      type(parcel_t), intent(inout) :: parcel
-      type(fem_t), intent(inout) :: fem
-      real(wp), allocatable :: constants(:, :), matrices(:, :)
-      integer(ip), allocatable :: formulation(:)
-      logical, allocatable :: is_orthotropic(:)
-      integer(ip) :: i
-
-      call take(parcel, constants)
-      call take(parcel, matrices)
-      call take(parcel, formulation)
-      call take(parcel, is_orthotropic)
-      call take(parcel, fem%section_of)
-      call take(parcel, fem%grain)
-      allocate (fem%sections(size(formulation)))
-      do i = 1, size(formulation, kind=ip)
-         associate (section => fem%sections(i))
-            section%young = constants(1, i)
-            section%poisson = constants(2, i)
-            section%thickness = constants(3, i)
-            section%density = constants(4, i)
-            section%expansion = constants(5, i)
-            section%stiffness = reshape(matrices(:SPATIAL**2, i), shape(section%stiffness))
-            section%compliance = reshape(matrices(SPATIAL**2 + 1:, i), shape(section%compliance))
-            section%formulation = formulation(i)
-            section%is_orthotropic = is_orthotropic(i)
-         end associate
-      end do
-   end subroutine take_sections
 
    !> Of the bodies one element each, where there is any, and the nodes of rigid ones.
    subroutine put_bodies(parcel, bodies)

@@ -9,6 +9,7 @@ module atrito_part_service
    use atrito_part, only: part_t, put_part, take_part
    use atrito_part_store, only: part_store_t, outcome_t, hold_part, find_part, factor_part, get_part_schur, forget_part
    use atrito_rank_services, only: SERVICE_PARTS
+   use atrito_status_parcel, only: put_status, put_text, take_status
    implicit none (type, external)
    private
    public :: serve_parts, give_part, ask_for_factors, receive_outcome, fetch_schur, ask_to_reduce, ask_to_expand, receive_columns, &
@@ -155,15 +156,14 @@ contains
       type(outcome_t), intent(in) :: outcome
       type(parcel_t), intent(inout) :: parcel
 
-      call put(parcel, int(outcome%status%code, ip))
-      call put(parcel, text_or_none(outcome%status%text))
+      call put_status(parcel, outcome%status)
       associate (report => outcome%report)
          call put(parcel, [report%digits_lost, report%smallest_pivot, report%largest_pivot])
          call put(parcel, [report%worst_equation, report%sign_changes, report%n_fronts, report%n_different])
          call put(parcel, [report%entries, report%most_bytes, outcome%bytes])
       end associate
       call put(parcel, outcome%is_near)
-      call put(parcel, text_or_none(outcome%order))
+      call put_text(parcel, outcome%order)
    end subroutine put_outcome
 
    subroutine take_outcome(parcel, outcome)
@@ -172,11 +172,8 @@ contains
       real(wp), allocatable :: reals(:)
       integer(ip), allocatable :: numbers(:)
       integer(lp), allocatable :: longs(:)
-      integer(ip) :: code
 
-      call take(parcel, code)
-      outcome%status%code = int(code)
-      call take(parcel, outcome%status%text)
+      call take_status(parcel, outcome%status)
       call take(parcel, reals)
       call take(parcel, numbers)
       call take(parcel, longs)
@@ -195,13 +192,5 @@ contains
       call take(parcel, outcome%is_near)
       call take(parcel, outcome%order)
    end subroutine take_outcome
-
-   pure function text_or_none(text) result(some)
-      character(len=:), allocatable, intent(in) :: text
-      character(len=:), allocatable :: some
-
-      some = ''
-      if (allocated(text)) some = text
-   end function text_or_none
 
 end module atrito_part_service

@@ -13,6 +13,7 @@ module atrito_scene_service
    use atrito_part_parcel, only: put_scene_part, take_scene_part
    use atrito_rank_services, only: SERVICE_SCENE_PARTS
    use atrito_scene_part, only: scene_part_t, assemble_scene_part, part_matrix, reduce_part, expand_part
+   use atrito_status_parcel, only: put_status, put_text, take_status
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -71,9 +72,9 @@ contains
       type(parcel_t) :: answer
 
       call assemble_scene_part(store%part, status)
-      call put_status(status, answer)
+      call put_status(answer, status)
       call put(answer, store%part%scene%is_near)
-      call put(answer, text_or_none(store%part%scene%order))
+      call put_text(answer, store%part%scene%order)
       call send_parcel(answer, 0_ip)
    end subroutine answer_assembled
 
@@ -89,7 +90,7 @@ contains
       call take(request, stiffness)
       call take(request, pull)
       call factor_scene_part(store%part, stiffness, pull, outcome)
-      call put_status(outcome%status, answer)
+      call put_status(answer, outcome%status)
       call put(answer, outcome%failed)
       call put(answer, outcome%is_changed)
       if (outcome%is_changed) then
@@ -271,31 +272,5 @@ contains
       call begin_request(wanted, request)
       call send_parcel(request, rank)
    end subroutine ask_alone
-
-   subroutine put_status(status, parcel)
-      type(status_t), intent(in) :: status
-      type(parcel_t), intent(inout) :: parcel
-
-      call put(parcel, int(status%code, ip))
-      call put(parcel, text_or_none(status%text))
-   end subroutine put_status
-
-   subroutine take_status(parcel, status)
-      type(parcel_t), intent(inout) :: parcel
-      type(status_t), intent(out) :: status
-      integer(ip) :: code
-
-      call take(parcel, code)
-      status%code = int(code)
-      call take(parcel, status%text)
-   end subroutine take_status
-
-   pure function text_or_none(text) result(some)
-      character(len=:), allocatable, intent(in) :: text
-      character(len=:), allocatable :: some
-
-      some = ''
-      if (allocated(text)) some = text
-   end function text_or_none
 
 end module atrito_scene_service

@@ -7,11 +7,12 @@
 module atrito_shared_fields
    use atrito_assembly, only: fem_t
    use atrito_error_estimate, only: energies_t, integrate_error, relative_error, share_errors
+   use atrito_fem_piece, only: take_piece
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
+   use atrito_mesh_parcel, only: put_mesh, put_sections, take_mesh, take_sections
    use atrito_mpi, only: rank_count, receive_parcel, send_parcel
    use atrito_parcel, only: parcel_t, put, take
-   use atrito_part, only: put_mesh, put_sections, unpack_mesh, unpack_sections
    use atrito_plane_state, only: STRESS_NAMES
    use atrito_range, only: unit_of
    use atrito_rank_services, only: SERVICE_FIELDS
@@ -61,7 +62,7 @@ contains
       unit = unit_of(results%u)
       do rank = rank_count() - 1, 0, -1
          call find_region(fem%mesh, rank_of, rank, regions(rank))
-         call make_region(fem, regions(rank))
+         call take_piece(fem, regions(rank)%node, regions(rank)%element, regions(rank)%fem)
          if (rank == 0) cycle
          call give_region(regions(rank), results%u(:, regions(rank)%node), unit, by_element, rank)
          deallocate (regions(rank)%fem%mesh)
@@ -94,8 +95,8 @@ contains
       call take(request, by_element)
       call take(request, u)
       allocate (region%fem%mesh)
-      call unpack_mesh(request, region%fem%mesh)
-      call unpack_sections(request, region%fem)
+      call take_mesh(request, region%fem%mesh)
+      call take_sections(request, region%fem)
       call measure_region(region, u, unit, by_element, found)
       deallocate (region%fem%mesh)
       call put(answer, found%stress)
@@ -120,8 +121,8 @@ contains
       call put(request, unit)
       call put(request, by_element)
       call put(request, u)
-      call put_mesh(region%fem%mesh, request)
-      call put_sections(region%fem, request)
+      call put_mesh(request, region%fem%mesh)
+      call put_sections(request, region%fem)
       call send_parcel(request, rank)
    end subroutine give_region
 
@@ -221,34 +222,5 @@ contains
          list(n) = nodes(k)
       end do
    end subroutine add_nodes_of
-
-   !> Mesh and sections of a region.
-   subroutine make_region(fem, region)
-      type(fem_t), intent(in) :: fem
-      type(region_t), intent(inout) :: region
-      integer(ip), allocatable :: local(:)
-      integer(ip) :: i
-
-      allocate (local(fem%mesh%n_nodes), region%fem%mesh)
-      local(region%node) = [(i, i=1, size(region%node, kind=ip))]
-      associate (own => region%fem%mesh, mesh => fem%mesh)
-         own%n_nodes = size(region%node, kind=ip)
-         own%n_elements = size(region%element, kind=ip)
-         own%node_id = mesh%node_id(region%node)
-         own%x = mesh%x(:, region%node)
-         own%element_id = mesh%element_id(region%element)
-         own%shape = mesh%shape(region%element)
-         own%state = mesh%state(region%element)
-         own%nodes = mesh%nodes(:, region%element)
-         if (allocated(mesh%thickness)) own%thickness = mesh%thickness(region%node)
-         do i = 1, own%n_elements
-            own%nodes(:own%shape(i), i) = local(own%nodes(:own%shape(i), i))
-         end do
-      end associate
-      region%fem%sections = fem%sections
-      region%fem%section_of = fem%section_of(region%element)
-      region%fem%grain = fem%grain
-      if (allocated(fem%heating)) region%fem%heating = fem%heating(region%node)
-   end subroutine make_region
 
 end module atrito_shared_fields
