@@ -14,7 +14,7 @@ module atrito_deck
    public :: token_text, is_empty_token, is_quoted, is_id_token, same_token, written_length, keyword_name, line_item, last_item, &
              reading_order, take_source_line, scope_shift, scope_text, model_number
    public :: after_byte_order_mark
-   public :: allocate_deck, append_source, append_token, append_line, append_card, append_parameter, append_mesh
+   public :: allocate_deck, make_room, append_source, append_token, append_line, append_card, append_parameter, append_mesh
 
    !> A card whose keyword is not in the table, is not built or has no effect here; already reported.
    integer, parameter :: KEYWORD_UNKNOWN = 0
@@ -296,6 +296,24 @@ contains
 
       allocate (deck%sources(4), deck%cards(64), deck%lines(256), deck%tokens(1024), deck%parameters(16), deck%meshes(0))
    end subroutine allocate_deck
+
+   !> Room for more items and lines, made once: a list that doubles is there three times while it does.
+   subroutine make_room(deck, items, lines)
+      type(deck_t), intent(inout) :: deck
+      integer(ip), intent(in) :: items, lines
+      type(token_t), allocatable :: tokens(:)
+      type(data_line_t), allocatable :: longer(:)
+
+      if (deck%n_tokens + items > size(deck%tokens)) then
+         allocate (tokens(deck%n_tokens + items))
+         tokens(:deck%n_tokens) = deck%tokens(:deck%n_tokens)
+         call move_alloc(tokens, deck%tokens)
+      end if
+      if (deck%n_lines + lines <= size(deck%lines)) return
+      allocate (longer(deck%n_lines + lines))
+      longer(:deck%n_lines) = deck%lines(:deck%n_lines)
+      call move_alloc(longer, deck%lines)
+   end subroutine make_room
 
    subroutine append_source(deck, name, text)
       type(deck_t), intent(inout) :: deck

@@ -4,8 +4,8 @@ module atrito_reader
    use atrito_card_data, only: check_data
    use atrito_card_order, only: order_t, check_order, check_end, meant_keyword
    use atrito_cards, only: make_card, check_options
-   use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, append_source, after_byte_order_mark, &
-                          append_token, append_line, append_card, append_mesh, reading_order
+   use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, make_room, append_source, &
+                          after_byte_order_mark, append_token, append_line, append_card, append_mesh, reading_order
    use atrito_diagnostics, only: report_error, report_deck_error
    use atrito_files, only: read_file
    use atrito_gmsh_file, only: read_gmsh_text
@@ -33,8 +33,8 @@ module atrito_reader
    integer, parameter :: MODE_TEXT = 3             !< the whole line is one item
    integer, parameter :: MODE_PARAMETER = 4        !< `name = expression`
 
-   !> What an item or a line takes at the most, the lists of them being copied as they double.
-   integer(lp), parameter :: ITEM_BYTES = 100_lp
+   !> What an item or a line takes at the most.
+   integer(lp), parameter :: ITEM_BYTES = 40_lp
    !> A smaller file is not worth the question.
    integer(ip), parameter :: SMALL_FILE = 1000000
 
@@ -448,21 +448,25 @@ contains
       call append_mesh(deck, mesh)
    end subroutine read_mesh_file
 
-   !> False, and an error, when the items of a file need more memory than there is.
+   !> Makes room for the items of a large file. False, and an error, when they need more memory than there is.
    logical function fits_memory(deck, source) result(fits)
-      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(inout) :: deck
       integer(ip), intent(in) :: source
-      integer(lp) :: items, memory
+      integer(lp) :: items, lines, memory
 
       fits = len(deck%sources(source)%text) <= SMALL_FILE
       if (fits) return
-      items = count_symbol(deck%sources(source)%text, ',') + count_symbol(deck%sources(source)%text, achar(10))
+      lines = count_symbol(deck%sources(source)%text, achar(10)) + 1
+      items = count_symbol(deck%sources(source)%text, ',') + lines
       memory = available_memory()
       fits = ITEM_BYTES*items <= memory
-      if (.not. fits) call report_deck_error(deck, 'E-MEMORY', 'a file of '//to_text(items)//' items and lines needs about '// &
-                                             memory_text(ITEM_BYTES*items)//' of memory, there are '//memory_text(memory), &
-                                             expected='a smaller deck, or a larger machine; *BLOCK, *NGEN and *ELGEN save lines', &
-                                             source=source)
+      if (fits) then
+         call make_room(deck, int(items, ip), int(lines, ip))
+      else
+         call report_deck_error(deck, 'E-MEMORY', 'a file of '//to_text(items)//' items and lines needs about '// &
+                                memory_text(ITEM_BYTES*items)//' of memory, there are '//memory_text(memory), &
+                                expected='a smaller deck, or a larger machine; *BLOCK, *NGEN and *ELGEN save lines', source=source)
+      end if
    end function fits_memory
 
 end module atrito_reader
