@@ -24,7 +24,7 @@ module atrito_scene_data
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_shared_scene, only: shared_scene_t
-   use atrito_shares, only: shares_t, share_out, SHARE_NONE
+   use atrito_shares, only: is_worth_sharing, SHARE_NONE
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
@@ -211,13 +211,10 @@ contains
       type(scene_data_t), intent(inout) :: data
       type(status_t), intent(inout) :: status
 
-      type(shares_t), allocatable :: shares
-
       if (data%is_assembled) return
       call drop_assembled(data)
-      call share_out(data%fem, data%rows, rank_count(), data%share, shares, data%rank_of)
-      if (is_over_ranks(shares)) then
-         call assemble_on_ranks(data, shares, status)
+      if (is_worth_sharing(data%fem, rank_count(), data%share)) then
+         call assemble_on_ranks(data, status)
       else
          call assemble_here(data, status)
       end if
@@ -225,15 +222,6 @@ contains
       call set_scene_load(data%fem, data%f, free_load(data), data%assembled)
       data%is_assembled = .true.
    end subroutine assemble
-
-   !> Whether several ranks have a part.
-   pure logical function is_over_ranks(shares)
-      type(shares_t), allocatable, intent(in) :: shares
-
-      is_over_ranks = allocated(shares)
-      if (is_over_ranks) is_over_ranks = shares%n > 0
-      if (is_over_ranks) is_over_ranks = any(shares%list%rank /= shares%list(1)%rank)
-   end function is_over_ranks
 
    subroutine assemble_here(data, status)
       type(scene_data_t), intent(inout) :: data
@@ -245,14 +233,13 @@ contains
       call move_alloc(scene, data%assembled)
    end subroutine assemble_here
 
-   subroutine assemble_on_ranks(data, shares, status)
+   subroutine assemble_on_ranks(data, status)
       type(scene_data_t), intent(inout) :: data
-      type(shares_t), intent(in) :: shares
       type(status_t), intent(inout) :: status
       type(shared_scene_t), allocatable :: scene
 
       allocate (scene)
-      call share_over_ranks(data%fem, data%rows, data%line, data%value, shares, scene, status)
+      call share_over_ranks(data%fem, data%rows, data%line, data%value, rank_count(), scene, data%rank_of, status)
       call move_alloc(scene, data%assembled)
    end subroutine assemble_on_ranks
 
@@ -261,6 +248,7 @@ contains
       type(scene_data_t), intent(inout) :: data
 
       data%is_assembled = .false.
+      if (allocated(data%rank_of)) deallocate (data%rank_of)
       if (.not. allocated(data%assembled)) return
       select type (scene => data%assembled)
       type is (shared_scene_t)
