@@ -9,7 +9,8 @@ module atrito_part_tops
    use atrito_parcel, only: parcel_t, put, take
    use atrito_part_store, only: part_store_t
    use atrito_rank_services, only: SERVICE_TOPS
-   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, reduce_shared, expand_shared
+   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, reduce_shared, expand_shared, &
+                                   MOST_ORDER
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -33,13 +34,12 @@ contains
 
    !> Joins in what the first rank does; what is left of the parcel comes behind SERVICE_TOPS.
    subroutine serve_tops(parts, tops, request)
-      type(part_store_t), intent(in) :: parts
+      type(part_store_t), intent(inout) :: parts
       type(top_store_t), intent(inout) :: tops
       type(parcel_t), intent(inout) :: request
       integer(ip), allocatable :: told(:)        ! what is wanted, group, unknowns, kept ones
       type(status_t) :: status
       real(wp) :: nothing(0, 0)
-      real(wp), allocatable :: own(:, :)
 
       call take(request, told)
       select case (told(1))
@@ -48,7 +48,7 @@ contains
       case (TOP_REDUCE)
          call reduce_shared(tops%list(find_top(tops, told(2)))%system, nothing, status)
       case (TOP_EXPAND)
-         call expand_shared(tops%list(find_top(tops, told(2)))%system, nothing, own, status)
+         call expand_shared(tops%list(find_top(tops, told(2)))%system, nothing, status)
       case (TOP_FORGET)
          call forget_top(tops, told(2))
       end select
@@ -82,7 +82,7 @@ contains
 
    !> Puts the Schur complements of the parts of a group together and eliminates the border. status: the same on all ranks.
    subroutine make_top(parts, tops, group, sizes, status)
-      type(part_store_t), intent(in) :: parts
+      type(part_store_t), intent(inout) :: parts !< what is left of the parts is given back
       type(top_store_t), intent(inout) :: tops
       integer(ip), intent(in) :: group
       integer(ip), intent(in) :: sizes(2)        !< unknowns, and how many of them are kept
@@ -100,7 +100,7 @@ contains
          start = [start, size(unknown, kind=ip) + 1_ip]
       end do
       associate (system => tops%list(at)%system)
-         call begin_shared(system, sizes(1), sizes(2), start, unknown, status)
+         call begin_shared(system, sizes(1), sizes(2), start, unknown, status, MOST_ORDER)
          if (.not. is_ok(status)) return
          allocate (values(packed_length(system%own)))
          m = 0
@@ -108,6 +108,7 @@ contains
             if (parts%list(i)%group /= group) cycle
             m = m + 1
             call put_packed(system%own, m, parts%list(i)%schur, values)
+            deallocate (parts%list(i)%schur)
          end do
          call factor_shared(system, values, status)
       end associate

@@ -11,12 +11,13 @@ module atrito_scene_shares
    use atrito_kinds, only: ip, wp
    use atrito_multifrontal, only: elimination_t
    use atrito_scene_elimination, only: scene_numbering_t
+   use atrito_shares, only: fair_share
    implicit none (type, external)
    private
    public :: share_elements
 
-   !> The largest share of a rank over the mean for which nothing is cut any more, and subtrees of the fair share that are not.
-   real(wp), parameter :: EVEN_ENOUGH = 1.08_wp, LEAST_CUT = 0.02_wp
+   !> By how much of what is fair a rank may have more, and subtrees of it that are not cut any more.
+   real(wp), parameter :: MARGIN = 0.08_wp, LEAST_CUT = 0.02_wp
 
 contains
 
@@ -94,15 +95,16 @@ contains
       real(wp), intent(in) :: weight(:)
       logical, intent(in) :: is_root(:)
       integer(ip), intent(inout) :: rank_of(:)       !< at the roots
-      real(wp) :: before, total
+      real(wp) :: before, total, fair
       integer(ip) :: s
 
-      total = sum(weight, mask=is_root)
-      before = 0.0_wp
+      total = max(sum(weight, mask=is_root), 1.0_wp)
+      fair = fair_share(n_ranks)
+      before = fair*real(n_ranks, wp) - 1.0_wp       ! what the first rank has less than the others
       do s = 1, size(rank_of, kind=ip)
          if (.not. is_root(s)) cycle
-         rank_of(s) = min(int((before + 0.5_wp*weight(s))/max(total, 1.0_wp)*real(n_ranks, wp), ip), n_ranks - 1)
-         before = before + weight(s)
+         rank_of(s) = max(0, min(floor((before + 0.5_wp*weight(s)/total)/fair, ip), n_ranks - 1))
+         before = before + weight(s)/total
       end do
    end subroutine give_to_ranks
 
@@ -118,7 +120,7 @@ contains
       do s = 1, size(rank_of, kind=ip)
          if (is_root(s)) load(rank_of(s)) = load(rank_of(s)) + weight(s)
       end do
-      is_even = maxval(load)*real(n_ranks, wp) <= EVEN_ENOUGH*sum(load)
+      is_even = maxval(load) <= (1.0_wp + MARGIN)*fair_share(n_ranks)*sum(load)
    end function is_even
 
    !> That of the unknown of the element that is eliminated first; -1: all of them are above the subtrees, or there are none.

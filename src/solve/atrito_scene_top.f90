@@ -9,7 +9,8 @@ module atrito_scene_top
    use atrito_mpi, only: rank_count, send_parcel
    use atrito_parcel, only: parcel_t, put, take
    use atrito_rank_services, only: send_to_others, SERVICE_SCENE_TOP
-   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared
+   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared, &
+                                   MOST_ORDER
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
@@ -28,7 +29,6 @@ contains
       type(parcel_t), intent(inout) :: request
       integer(ip), allocatable :: unknown(:)
       real(wp) :: nothing(0, 0)
-      real(wp), allocatable :: own(:, :)
       type(status_t) :: status
       integer(ip) :: wanted, n
 
@@ -41,7 +41,7 @@ contains
       case (FACTOR)
          call factor_own(left, status)
       case (SOLVE)
-         call solve_shared(system, nothing, own, status)
+         call solve_shared(system, nothing, status)
       case (FINISH)
          call end_shared(system)
       end select
@@ -51,7 +51,7 @@ contains
       integer(ip), intent(in) :: n, unknown(:)
       type(status_t), intent(out) :: status
 
-      call begin_shared(system, n, 0_ip, [1_ip, size(unknown, kind=ip) + 1_ip], unknown, status)
+      call begin_shared(system, n, 0_ip, [1_ip, size(unknown, kind=ip) + 1_ip], unknown, status, MOST_ORDER)
    end subroutine begin_own
 
    !> The system scales what it gets.
@@ -123,12 +123,11 @@ contains
    subroutine solve_scene_top(x)
       real(wp), intent(inout) :: x(:)            !< (n)
       real(wp) :: column(size(x), 1)
-      real(wp), allocatable :: own(:, :)
       type(status_t) :: status
 
       call ask(SOLVE)
       column(:, 1) = x
-      call solve_shared(system, column, own, status)
+      call solve_shared(system, column, status)
       x = 0.0_wp
       if (is_ok(status)) x = column(:, 1)
    end subroutine solve_scene_top

@@ -209,14 +209,14 @@ contains
    subroutine expand_on_ranks(self, x)
       class(shared_body_t), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
-      real(wp), allocatable :: top(:, :), columns(:, :), own(:, :)
+      real(wp), allocatable :: top(:, :), columns(:, :)
       type(status_t) :: status
       integer(ip) :: p
 
       if (size(self%piece) > 1) then
          top = x(self%top%equation, :)
          call ask_for_top(TOP_EXPAND, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
-         call expand_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, own, status)
+         call expand_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, status)
          x(self%top%equation, :) = top
       end if
       do p = 1, size(self%piece, kind=ip)

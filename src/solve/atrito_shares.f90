@@ -1,6 +1,7 @@
 !> The shares of the ranks in one scene: whole bodies by their predicted work, and bodies with more of it than a fair share in
 !> pieces.
 !>
+!> Fair is the same work for all ranks, but less for the first where there are several others (fair_share).
 !> A body of work w where f is fair is cut into pieces of f and what is left of it. Pieces of a fair share have a rank of their own,
 !> all others are shared out over the contact graph. As long as one rank has far more than the mean, its heaviest piece is halved.
 !> The same scene and number of ranks give the same shares.
@@ -17,7 +18,7 @@ module atrito_shares
    use atrito_profile, only: profile_t
    implicit none (type, external)
    private
-   public :: shares_t, share_t, top_t, make_shares, share_out, predict_work, is_worth_sharing, LEAST_WORK
+   public :: shares_t, share_t, top_t, make_shares, share_out, predict_work, is_worth_sharing, fair_share, LEAST_WORK
    public :: SHARE_NONE, SHARE_AUTO, SHARE_ALL
 
    !> A part of the scene: a body, or a piece of one.
@@ -53,6 +54,8 @@ module atrito_shares
    real(wp), parameter :: LEAST_WORK = 2.0e9_wp
    !> A piece with this share of what is fair has a rank of its own; less than this, of what is fair, is no piece of its own.
    real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
+   !> The work of the ranks but the first over the mean.
+   real(wp), parameter :: OF_OTHERS = 1.15_wp
    !> The largest work of a rank over the mean for which nothing is cut any more, and pieces of the fair share that are not.
    real(wp), parameter :: EVEN_ENOUGH = 1.2_wp, LEAST_CUT = 0.05_wp
    !> For each rank, so that it ends.
@@ -116,7 +119,7 @@ contains
 
       shares%n_ranks = n_ranks
       work = predict_work(fem)
-      fair = sum(work)/real(n_ranks, wp)
+      fair = fair_share(n_ranks)*sum(work)
       allocate (none(0))
       call move_alloc(none, shares%list)
       do b = 1, fem%bodies%n
@@ -131,6 +134,17 @@ contains
       end do
       call arrange(fem, shares)
    end subroutine make_shares
+
+   !> That of each rank but the first, of all the work. With more than two ranks these have more of it than the mean: the first one
+   !> has the mesh and the results of the whole scene besides. With two the time counts that one waits for the other.
+   pure real(wp) function fair_share(n_ranks) result(share)
+      integer(ip), intent(in) :: n_ranks         !< >= 1
+      real(wp) :: n
+
+      n = real(n_ranks, wp)
+      share = 1.0_wp/n
+      if (n_ranks > 2) share = min(share*OF_OTHERS, 1.0_wp/(n - 1.0_wp))
+   end function fair_share
 
    !> The shares of a body's pieces in it; one piece: it stays whole.
    pure function pieces_of(work, fair) result(target)
@@ -224,8 +238,8 @@ contains
       rank_of = 0
       do p = 1, size(list, kind=ip)
          if (list(p)%work < NEARLY_FAIR*fair .or. n_full == n_ranks - 1) cycle
+         rank_of(p) = n_ranks - n_full           ! what is left over is for the first ones
          n_full = n_full + 1
-         rank_of(p) = n_full
       end do
       rest = pack([(p, p=1, size(list, kind=ip))], rank_of == 0)
       allocate (rank_of_rest(size(rest)))
@@ -233,7 +247,7 @@ contains
          call make_graph(fem, rows, list, rest, graph)
          call share_vertices(graph, list(rest)%work, n_ranks - n_full, rank_of_rest)
       end if
-      rank_of(rest) = n_full + rank_of_rest
+      rank_of(rest) = rank_of_rest
       load = 0.0_wp
       call add_greedily(list%work, load, greedy)
       if (unevenness(list%work, rank_of, n_ranks) > max(EVEN_ENOUGH, unevenness(list%work, greedy, n_ranks))) rank_of = greedy

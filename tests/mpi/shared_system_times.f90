@@ -8,7 +8,8 @@ program shared_system_times
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count
    use atrito_packed_matrices, only: packed_length, put_packed
-   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared
+   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared, &
+                                   MOST_ORDER
    use atrito_status, only: status_t, is_ok
    use atrito_system, only: peak_memory
    implicit none (type, external)
@@ -17,7 +18,7 @@ program shared_system_times
    type(status_t) :: status
    integer(ip) :: order, blocks, n_kept, n
    integer(ip), allocatable :: start(:), unknown(:)
-   real(wp), allocatable :: values(:), x(:, :), own(:, :)
+   real(wp), allocatable :: values(:), x(:, :)
    real(wp) :: times(4)
 
    call begin_ranks()
@@ -26,7 +27,7 @@ program shared_system_times
    n_kept = argument(3)
    call make_pattern()
    times(1) = clock()
-   call begin_shared(system, n, n_kept, start, unknown, status)
+   call begin_shared(system, n, n_kept, start, unknown, status, MOST_ORDER)
    times(2) = clock()
    if (is_ok(status)) then
       call make_values()
@@ -37,7 +38,7 @@ program shared_system_times
       times(3:4) = [clock() - times(3), clock()]
       deallocate (values)
       allocate (x(n, 1), source=1.0_wp)
-      call solve_shared(system, x, own, status)
+      call solve_shared(system, x, status)
       times(4) = clock() - times(4)
       call tell()
    else if (own_rank() == 0) then
