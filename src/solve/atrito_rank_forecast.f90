@@ -18,9 +18,9 @@
 !> retained matrices of all bodies, loads, displacements, reactions, stresses of the whole scene; and a part or a region of another
 !> rank while it is sent. In the sparse form what the parts share counts as theirs (solving_of_ranks).
 !>
-!> Measured peaks, two bodies with 80,000 and 1.0 million displacements (equal elements) and 1.2 million (no two elements equal)
-!> on 2 and 4 ranks, and a wall of 1,008 blocks in the sparse form on 4: the forecast, with the fronts counted, is 0.94 to 1.3 of
-!> them.
+!> Two bodies with 0.2 and 1.0 million displacements (equal elements) and 1.2 million (no two elements equal) on 2 and 4 ranks: the
+!> forecast, with the fronts counted, is 0.94 to 1.3 of the measured peaks. Of a wall of 1,008 blocks in the sparse form on 4 ranks
+!> it was 1.27 of the first rank's and 1.4 of the others' when what is left of parts was still counted twice.
 module atrito_rank_forecast
    use atrito_assembly, only: fem_t
    use atrito_contact_form, only: CONTACT_SPARSE
