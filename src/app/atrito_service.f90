@@ -7,7 +7,8 @@ module atrito_service
    use atrito_part_service, only: serve_parts
    use atrito_part_store, only: part_store_t
    use atrito_part_tops, only: serve_tops, top_store_t
-   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_PARTS, SERVICE_RUNS, &
+   use atrito_rank_memory, only: serve_memory
+   use atrito_rank_services, only: await_message, SERVICE_END, SERVICE_FIELDS, SERVICE_MEMORY, SERVICE_PARTS, SERVICE_RUNS, &
                                    SERVICE_SCENE_PARTS, SERVICE_SCENE_TOP, SERVICE_TOPS
    use atrito_scene_service, only: scene_store_t, serve_scene_parts
    use atrito_scene_top, only: serve_scene_top
@@ -46,6 +47,8 @@ contains
             call serve_scene_top(scene%left, request)
          case (SERVICE_FIELDS)
             call serve_fields(request)
+         case (SERVICE_MEMORY)
+            call serve_memory()
          case (SERVICE_RUNS)
             call serve_runs(request)
          case default

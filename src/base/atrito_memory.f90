@@ -4,28 +4,39 @@ module atrito_memory
    use atrito_files, only: read_system_line
    use atrito_kinds, only: ip, lp, wp
    use atrito_strings, only: to_text
-   use atrito_system, only: address_space_limit
+   use atrito_system, only: address_space_limit, reusable_memory
    implicit none (type, external)
    private
-   public :: available_memory, resident_memory, memory_text
+   public :: available_memory, address_space_left, shared_memory_left, resident_memory, held_memory, memory_text
 
    integer(lp), parameter :: KIB = 1024_lp
    integer(lp), parameter :: UNLIMITED = huge(1_lp)
+   !> Share of the memory that was given back before that will be taken again: the rest lies in pieces between what is held.
+   real(wp), parameter :: SERVES_AGAIN = 0.5_wp
 
 contains
 
    !> Memory that the program can still get [bytes]: the least of what is free (swap left out), what `ulimit -v` leaves and what
    !> a container allows. A very large number where the system does not tell.
    integer(lp) function available_memory() result(bytes)
-      bytes = min(count_of('/proc/meminfo', 'MemAvailable:', KIB), address_space_left(), &
-                  count_of('/sys/fs/cgroup/memory.max', '', 1_lp))
+      bytes = min(shared_memory_left(), address_space_left())
    end function available_memory
+
+   !> The same of all processes of the machine together [bytes]: what is free, and what a container allows.
+   integer(lp) function shared_memory_left() result(bytes)
+      bytes = min(count_of('/proc/meminfo', 'MemAvailable:', KIB), count_of('/sys/fs/cgroup/memory.max', '', 1_lp))
+   end function shared_memory_left
 
    !> Memory that the process holds now [bytes], libraries included; 0 where the system does not tell.
    integer(lp) function resident_memory() result(bytes)
       bytes = count_of('/proc/self/status', 'VmRSS:', KIB)
       if (bytes == UNLIMITED) bytes = 0_lp
    end function resident_memory
+
+   !> The same without what was given back and serves again [bytes].
+   integer(lp) function held_memory() result(bytes)
+      bytes = resident_memory() - int(SERVES_AGAIN*real(reusable_memory(), wp), lp)
+   end function held_memory
 
    !> Address space below the limit that `ulimit -v` sets [bytes].
    integer(lp) function address_space_left() result(bytes)

@@ -10,16 +10,13 @@ module atrito_dense_form
    use atrito_dense_refinement, only: refine_dense_solution
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t, METHOD_ANDERSON
-   use atrito_mpi, only: rank_count
    use atrito_outer_loop, only: solve_contact_line, continue_contact_line
    use atrito_recovery, only: contact_forces, elastic_displacements
    use atrito_reporter, only: report_progress
    use atrito_results, only: results_t
-   use atrito_scene_data, only: scene_data_t, free_load
-   use atrito_shares, only: share_out
+   use atrito_scene_data, only: scene_data_t, free_load, share_scene_out
    use atrito_solve_history, only: restart_history
    use atrito_shared_points, only: has_dependent_points, solve_shared_points
-   use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, set_status, is_ok, STATUS_SINGULAR
    use atrito_strings, only: to_text
    use atrito_timers, only: start_phase, stop_phase
@@ -142,11 +139,10 @@ contains
       type(body_cache_t), intent(inout) :: store
 
       if (allocated(store%shares)) deallocate (store%shares)
-      if (allocated(data%rank_of)) deallocate (data%rank_of)
-      if (.not. any(data%solver_kind == [0, SOLVER_SPARSE])) return
       call start_phase('order')
-      call share_out(data%fem, data%rows, rank_count(), data%share, store%shares, data%rank_of)
+      call share_scene_out(data)
       call stop_phase('order')
+      if (allocated(data%shares)) store%shares = data%shares
    end subroutine share_bodies_out
 
    !> Solves the contact line: from the increment before, where that leads to a solution, else from the usual start.

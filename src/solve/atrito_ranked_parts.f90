@@ -10,9 +10,9 @@ module atrito_ranked_parts
    use atrito_scene_part, only: scene_part_t, assemble_scene_part, reduce_part, expand_part
    use atrito_scene_parts, only: scene_parts_t, part_lists_t
    use atrito_mumps_library, only: has_mumps
-   use atrito_scene_service, only: part_outcome_t, factor_scene_part, give_scene_part, ask_to_assemble, hear_assembled, &
-                                   ask_to_factor, hear_factored, ask_to_multiply, ask_to_reduce_scene, ask_to_expand_scene, &
-                                   hear_values, ask_to_release
+   use atrito_scene_service, only: part_outcome_t, factor_scene_part, solving_of_part, give_scene_part, ask_to_assemble, &
+                                   hear_assembled, ask_to_factor, hear_factored, ask_to_multiply, ask_to_reduce_scene, &
+                                   ask_to_expand_scene, hear_values, ask_to_release
    use atrito_scene_top, only: begin_scene_top, factor_scene_top, solve_scene_top, end_scene_top, scene_top_bytes
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
@@ -30,6 +30,7 @@ module atrito_ranked_parts
       type(scene_part_t), private :: own         !< that of the first rank, where it has one
       type(left_t), allocatable, private :: left(:) !< (parts)
       logical, private :: has_full_top = .true.  !< the top is a full matrix here
+      integer(lp), allocatable, private :: solving(:) !< (parts) bytes that factoring each will take, where it is
       logical, private :: is_stale = .true.      !< the top is not the sum of what is left
       type(dense_top_t), private :: top
    contains
@@ -42,6 +43,7 @@ module atrito_ranked_parts
       procedure :: release => release_ranked
       procedure :: memory_bytes => ranked_bytes
       procedure :: solving_bytes => ranked_solving_bytes
+      procedure :: solving_of_ranks
    end type ranked_parts_t
 
    !> Unknowns of a top that is a full matrix, at most: factored in half a second by one process.
@@ -53,7 +55,7 @@ contains
       class(ranked_parts_t), intent(inout) :: self
       integer(ip), intent(in) :: n_parts
 
-      allocate (self%left(n_parts))
+      allocate (self%left(n_parts), self%solving(n_parts))
    end subroutine begin_ranked
 
    subroutine take_ranked(self, p, part)
@@ -91,9 +93,11 @@ contains
             call assemble_scene_part(self%own, outcome%status)
             outcome%is_near = self%own%scene%is_near
             if (allocated(self%own%scene%order)) outcome%order = self%own%scene%order
+            outcome%solving = solving_of_part(self%own, outcome%status)
          end if
          if (is_ok(status)) status = outcome%status
          is_near = is_near .or. outcome%is_near
+         self%solving(p) = outcome%solving
          if (p == 1) call move_alloc(outcome%order, order)
       end do
       self%has_full_top = lists%n_top <= MOST_FULL .or. .not. has_mumps()
@@ -286,5 +290,32 @@ contains
       bytes = 2*expected_top_bytes(self%lists%n_top)
       if (any(self%rank == 0)) bytes = bytes + self%own%scene%solving_bytes()
    end function ranked_solving_bytes
+
+   !> What solving will take of each rank beyond what it holds when the parts are assembled [bytes]. A top that is a full matrix is
+   !> the first rank's, with what is left of the parts. Else each rank has a share in it, and what MUMPS makes of its own part.
+   pure function solving_of_ranks(self, n_ranks) result(bytes)
+      class(ranked_parts_t), intent(in) :: self
+      integer(ip), intent(in) :: n_ranks
+      integer(lp) :: bytes(0:n_ranks - 1)
+      integer(lp), parameter :: PACKED_BYTES = 4_lp, MUMPS_BYTES = 18_lp
+      integer(ip) :: p
+
+      bytes = 0
+      do p = 1, self%lists%n_parts
+         bytes(self%rank(p)) = self%solving(p)
+         associate (packed => int(self%lists%first_top(p + 1) - self%lists%first_top(p), lp)**2)
+            if (self%has_full_top) then
+               bytes(0) = bytes(0) + PACKED_BYTES*packed
+            else
+               bytes(self%rank(p)) = bytes(self%rank(p)) + MUMPS_BYTES*packed
+            end if
+         end associate
+      end do
+      if (self%has_full_top) then
+         bytes(0) = bytes(0) + expected_top_bytes(self%lists%n_top)
+      else
+         bytes = bytes + expected_top_bytes(self%lists%n_top)/2/n_ranks
+      end if
+   end function solving_of_ranks
 
 end module atrito_ranked_parts

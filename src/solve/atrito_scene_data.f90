@@ -24,7 +24,7 @@ module atrito_scene_data
    use atrito_scene_system, only: scene_system_t, set_scene_gaps, set_scene_load
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_shared_scene, only: shared_scene_t
-   use atrito_shares, only: is_worth_sharing, SHARE_NONE
+   use atrito_shares, only: shares_t, is_over_ranks, is_worth_sharing, share_out, SHARE_NONE
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
@@ -32,7 +32,8 @@ module atrito_scene_data
    use atrito_thermal_loads, only: add_thermal_loads
    implicit none (type, external)
    private
-   public :: scene_data_t, asked_t, prepare, set_time, assemble, drop_assembled, free_load, check_known_points
+   public :: scene_data_t, asked_t, prepare, may_share_out, share_scene_out, set_time, assemble, drop_assembled, free_load, &
+             check_known_points
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
@@ -55,6 +56,7 @@ module atrito_scene_data
       logical :: is_assembled = .false.
       logical :: wants_element_errors = .false.             !< of what is printed
       logical :: is_printed = .true.                        !< what is solved for is printed: it is worth stresses and estimates
+      type(shares_t), allocatable :: shares                 !< of the ranks; not allocated: the first one has all
       integer(ip), allocatable :: rank_of(:)                !< (n_elements) not allocated: the first rank has all
       ! Of a history:
       logical :: keeps = .false.                            !< what one increment leaves serves the next
@@ -72,7 +74,7 @@ module atrito_scene_data
       integer :: share = SHARE_NONE                        !< SHARE_*
       integer :: contact_form = CONTACT_AUTO
       logical :: element_errors = .false.                   !< the estimated error is kept element by element
-      integer(lp) :: memory = huge(1_lp)                    !< bytes; what the machine has counts where it is less
+      integer(lp) :: memory = huge(1_lp)                    !< bytes, of each rank; what the machine has counts where it is less
    end type asked_t
 
 contains
@@ -205,6 +207,24 @@ contains
                                min(asked%memory, available_memory()), data%contact_form, data%reason)
    end subroutine choose_form
 
+   !> Whether there are other ranks, and it is worth it.
+   logical function may_share_out(data)
+      type(scene_data_t), intent(in) :: data
+
+      may_share_out = any(data%solver_kind == [0, SOLVER_SPARSE])
+      if (may_share_out) may_share_out = is_worth_sharing(data%fem, rank_count(), data%share)
+   end function may_share_out
+
+   !> The shares of the ranks, where there are others and it is worth it; once. One matrix has others when it is assembled
+   !> (atrito_scene_sharing): as large, and of fewer shared unknowns.
+   subroutine share_scene_out(data)
+      type(scene_data_t), intent(inout) :: data
+
+      if (allocated(data%shares)) return
+      if (allocated(data%rank_of)) deallocate (data%rank_of)
+      if (may_share_out(data)) call share_out(data%fem, data%rows, rank_count(), data%share, data%shares, data%rank_of)
+   end subroutine share_scene_out
+
    !> All bodies in one matrix, or its parts on the ranks where that is worth it, and their fronts; nothing is factored. status:
    !> STATUS_INTERNAL when the memory does not suffice.
    subroutine assemble(data, status)
@@ -213,7 +233,8 @@ contains
 
       if (data%is_assembled) return
       call drop_assembled(data)
-      if (is_worth_sharing(data%fem, rank_count(), data%share)) then
+      call share_scene_out(data)
+      if (is_over_ranks(data%shares)) then
          call assemble_on_ranks(data, status)
       else
          call assemble_here(data, status)
@@ -248,7 +269,6 @@ contains
       type(scene_data_t), intent(inout) :: data
 
       data%is_assembled = .false.
-      if (allocated(data%rank_of)) deallocate (data%rank_of)
       if (.not. allocated(data%assembled)) return
       select type (scene => data%assembled)
       type is (shared_scene_t)

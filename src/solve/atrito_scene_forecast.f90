@@ -3,7 +3,7 @@
 !> What is there by then is not counted but asked of the system: libraries, mesh, model, points, averages. To that comes the
 !> largest of what the phases hold that follow: bodies and contact line, or factors of the sparse form; displacements, stresses
 !> and what their recovery works with. Left out are the certificate, a second form where the first finds no solution, and bodies
-!> kept for a next run.
+!> kept for a next run. Of a scene that is shared out it is asked elsewhere (atrito_rank_forecast): the first rank's was then told.
 module atrito_scene_forecast
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_element_table, only: BEST_OF, POINT_COUNT
@@ -11,14 +11,16 @@ module atrito_scene_forecast
    use atrito_model, only: model_t
    use atrito_results, only: scene_t
    use atrito_scene_data, only: scene_data_t
+   use atrito_shares, only: is_over_ranks
    use atrito_solver_choice, only: SOLVER_SPARSE
    implicit none (type, external)
    private
-   public :: forecast_memory, share_of
+   public :: forecast_memory, contact_bytes, field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, &
+             LATER_BYTES
 
    integer(lp), parameter :: REAL_BYTES = 8_lp
    !> Code and places for work that are first touched later; of BLAS with large matrices.
-   integer(lp), parameter :: LATER = 3100000_lp, MOST_OF_BLAS = 3000000_lp
+   integer(lp), parameter :: LATER_BYTES = 3100000_lp, MOST_OF_BLAS = 3000000_lp
    !> The library of field files, which is loaded when it is wanted.
    integer(lp), parameter :: FIELD_LIBRARY = 4500000_lp
    !> Measured shares: holes between the factors of fronts; what the bodies leave of themselves in the process, when they have been
@@ -34,41 +36,65 @@ contains
       type(scene_t), intent(in) :: scene             !< with its bodies, and what was held so far
       integer(lp) :: solving, recovering
 
-      recovering = recovery_bytes(model, data)
+      if (is_over_ranks(data%shares)) then
+         bytes = scene%memory
+         return
+      end if
+      recovering = recovery_bytes(model, int(model%mesh%n_nodes, lp), int(model%mesh%n_elements, lp)) + request_bytes(model, data)
       if (data%contact_form == CONTACT_SPARSE) then
          solving = max(scene%solving + load_bytes(model), recovering)
       else
          solving = dense_solving_bytes(scene) + load_bytes(model)
          solving = max(solving, recovering) + share_of(LEFT_BEHIND, min(solving, recovering))
       end if
-      bytes = scene%memory_before + LATER + solving
-      associate (fields => data%step%requests%fields)
-         if (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact) bytes = bytes + FIELD_LIBRARY
-      end associate
-      bytes = max(scene%peak_before, bytes)
+      bytes = max(scene%peak_before, scene%memory_before + LATER_BYTES + solving + field_library_bytes(data))
    end function forecast_memory
+
+   pure integer(lp) function field_library_bytes(data) result(bytes)
+      type(scene_data_t), intent(in) :: data
+
+      bytes = 0
+      associate (fields => data%step%requests%fields)
+         if (fields%nodes .or. fields%reactions .or. fields%stress .or. fields%contact) bytes = FIELD_LIBRARY
+      end associate
+   end function field_library_bytes
 
    !> Bodies one after the other, then the flexibility, its factor and a copy, and as many motions of each row.
    pure integer(lp) function dense_solving_bytes(scene) result(most)
       type(scene_t), intent(in) :: scene
-      integer(lp), parameter :: MATRICES = 3_lp, MOTIONS = 6_lp
-      integer(lp) :: held, m, rows
+      integer(lp) :: held
       integer(ip) :: b
 
-      m = scene%n_normal + scene%n_tangential
       held = 0
       most = 0
-      rows = 0
       do b = 1, size(scene%bodies, kind=ip)
          associate (body => scene%bodies(b))
             most = max(most, held + with_holes(body%solver_kind, body%most_memory))
             held = held + with_holes(body%solver_kind, body%memory) + REAL_BYTES*int(body%n_equations, lp)
-            rows = max(rows, body%n_contact_equations*min(m, 2*int(body%n_contact_equations, lp)))
          end associate
       end do
-      most = max(most, held + REAL_BYTES*max(m*(m + scene%n_rigid) + rows, m*(MATRICES*m + MOTIONS*scene%n_rigid)))
-      most = most + share_of(ROUNDING_UP, most) + min(MOST_OF_BLAS, REAL_BYTES*m**2)
+      most = max(most, held + contact_bytes(scene))
+      associate (m => int(scene%n_normal + scene%n_tangential, lp))
+         most = most + share_of(ROUNDING_UP, most) + min(MOST_OF_BLAS, REAL_BYTES*m**2)
+      end associate
    end function dense_solving_bytes
+
+   !> The contact system of the dense form: the flexibility, its factor and a copy, and as many motions of each row.
+   pure integer(lp) function contact_bytes(scene) result(bytes)
+      type(scene_t), intent(in) :: scene
+      integer(lp), parameter :: MATRICES = 3_lp, MOTIONS = 6_lp
+      integer(lp) :: m, rows
+      integer(ip) :: b
+
+      m = scene%n_normal + scene%n_tangential
+      rows = 0
+      do b = 1, size(scene%bodies, kind=ip)
+         associate (n => scene%bodies(b)%n_contact_equations)
+            rows = max(rows, n*min(m, 2*int(n, lp)))
+         end associate
+      end do
+      bytes = REAL_BYTES*max(m*(m + scene%n_rigid) + rows, m*(MATRICES*m + MOTIONS*scene%n_rigid))
+   end function contact_bytes
 
    !> With what the updates of fronts leave behind between the factors when they are given back: nothing else fits there.
    pure integer(lp) function with_holes(solver_kind, bytes)
@@ -94,18 +120,25 @@ contains
       bytes = VECTORS*2*REAL_BYTES*int(model%mesh%n_nodes, lp)
    end function load_bytes
 
-   !> Displacements, reactions, stresses at Gauss points and at nodes, and the patches of their recovery.
-   pure integer(lp) function recovery_bytes(model, data) result(bytes)
+   !> Displacements, reactions, stresses at Gauss points and at nodes, and the patches of their recovery, of some of the elements.
+   pure integer(lp) function recovery_bytes(model, nodes, elements) result(bytes)
       type(model_t), intent(in) :: model
-      type(scene_data_t), intent(in) :: data
-      integer(lp), parameter :: NODE_BYTES = 310_lp, ELEMENT_BYTES = 60_lp, SAMPLE_BYTES = 5*REAL_BYTES, ROW_BYTES = 64_lp, &
-                                POINT_BYTES = 250_lp
+      integer(lp), intent(in) :: nodes, elements
+      integer(lp), parameter :: NODE_BYTES = 310_lp, ELEMENT_BYTES = 60_lp, SAMPLE_BYTES = 5*REAL_BYTES
       integer(lp) :: samples
 
       samples = maxval(BEST_OF(model%mesh%shape))
-      bytes = NODE_BYTES*model%mesh%n_nodes + (ELEMENT_BYTES + samples*SAMPLE_BYTES)*model%mesh%n_elements &
-              + ROW_BYTES*stress_rows(model) + POINT_BYTES*data%line%n
+      bytes = NODE_BYTES*nodes + (ELEMENT_BYTES + samples*SAMPLE_BYTES)*elements
    end function recovery_bytes
+
+   !> What is asked for of it: stresses at Gauss points, and contact points.
+   pure integer(lp) function request_bytes(model, data) result(bytes)
+      type(model_t), intent(in) :: model
+      type(scene_data_t), intent(in) :: data
+      integer(lp), parameter :: ROW_BYTES = 64_lp, POINT_BYTES = 250_lp
+
+      bytes = ROW_BYTES*stress_rows(model) + POINT_BYTES*data%line%n
+   end function request_bytes
 
    !> Gauss points at which stresses are asked for.
    pure integer(lp) function stress_rows(model) result(rows)

@@ -6,7 +6,7 @@
 !> A solution takes two questions: of reduce_remote, behind which the rank keeps the reduced loads, and of expand_remote. So loads
 !> and solutions of what is not shared go to and fro once.
 module atrito_scene_service
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: receive_parcel, send_parcel
    use atrito_packed_matrices, only: packed_matrices_t, packed_length, put_packed
    use atrito_parcel, only: parcel_t, put, take
@@ -17,7 +17,7 @@ module atrito_scene_service
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: scene_store_t, part_outcome_t, serve_scene_parts, factor_scene_part
+   public :: scene_store_t, part_outcome_t, serve_scene_parts, factor_scene_part, solving_of_part
    public :: give_scene_part, ask_to_assemble, hear_assembled, ask_to_factor, hear_factored, ask_to_multiply, ask_to_reduce_scene, &
              ask_to_expand_scene, hear_values, ask_to_release
 
@@ -33,6 +33,7 @@ module atrito_scene_service
       type(status_t) :: status
       logical :: is_near = .false.               !< of assembling, as is the order
       character(len=:), allocatable :: order
+      integer(lp) :: solving = 0                 !< bytes that factoring will take
       integer(ip) :: failed = 0                  !< of factoring: unknown of the part whose pivot was not positive; 0: none
       logical :: is_changed = .false.            !< what is left of the part is another than before
       real(wp), allocatable :: left(:)           !< its lower triangle by columns, where it is another one
@@ -75,8 +76,19 @@ contains
       call put_status(answer, status)
       call put(answer, store%part%scene%is_near)
       call put_text(answer, store%part%scene%order)
+      call put(answer, solving_of_part(store%part, status))
       call send_parcel(answer, 0_ip)
    end subroutine answer_assembled
+
+   !> What factoring a part will take, and what is left of it as a full matrix and packed [bytes]; 0 where it was not assembled.
+   integer(lp) function solving_of_part(part, status) result(bytes)
+      type(scene_part_t), intent(in) :: part
+      type(status_t), intent(in) :: status           !< of assembling it
+      integer(lp), parameter :: LEFT_BYTES = 12_lp
+
+      bytes = 0
+      if (is_ok(status)) bytes = part%scene%solving_bytes() + LEFT_BYTES*int(part%n_kept, lp)**2
+   end function solving_of_part
 
    subroutine answer_factored(store, request)
       type(scene_store_t), intent(inout) :: store
@@ -185,6 +197,7 @@ contains
       call take_status(answer, outcome%status)
       call take(answer, outcome%is_near)
       call take(answer, outcome%order)
+      call take(answer, outcome%solving)
    end subroutine hear_assembled
 
    !> The rank begins; hear_factored waits for its end.

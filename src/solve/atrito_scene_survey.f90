@@ -5,24 +5,21 @@ module atrito_scene_survey
    use atrito_condensed_body, only: choose_solver
    use atrito_contact_form, only: contact_form_name, CONTACT_SPARSE
    use atrito_kinds, only: ip, lp, wp
-   use atrito_memory, only: available_memory, resident_memory
+   use atrito_memory, only: available_memory, held_memory, resident_memory
    use atrito_model, only: model_t
    use atrito_profile, only: profile_t
    use atrito_points, only: contact_points_t
    use atrito_results, only: scene_t, body_result_t, pair_scene_t
    use atrito_scene_data, only: scene_data_t
-   use atrito_scene_forecast, only: forecast_memory, share_of
+   use atrito_scene_forecast, only: forecast_memory
    use atrito_scene_memory, only: check_memory
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t
    use atrito_strings, only: to_text, append_string
-   use atrito_system, only: peak_memory, reusable_memory
+   use atrito_system, only: peak_memory
    implicit none (type, external)
    private
-   public :: describe_scene, count_fronts, check_scene
-
-   !> Share of the memory that was given back before that will be taken again: the rest lies in pieces between what is held.
-   real(wp), parameter :: SERVES_AGAIN = 0.5_wp
+   public :: describe_scene, describe_order, count_fronts, check_scene
 
 contains
 
@@ -45,15 +42,21 @@ contains
       scene%outer_loop = data%line%has_friction
       scene%contact_form = contact_form_name(data%contact_form)
       scene%contact_reason = data%reason
-      if (data%contact_form == CONTACT_SPARSE) then
-         scene%solving = data%assembled%solving_bytes()
-         scene%order = data%assembled%order
-      end if
+      if (data%is_assembled) call describe_order(data, scene)
       scene%peak_before = max(peak_memory(), resident_memory())
-      scene%memory_before = resident_memory() - share_of(SERVES_AGAIN, reusable_memory())
+      scene%memory_before = held_memory()
       scene%memory = forecast_memory(data%model, data, scene)
       call list_left_out(data, scene)
    end subroutine describe_scene
+
+   !> Of the sparse form, when it is assembled.
+   subroutine describe_order(data, scene)
+      type(scene_data_t), intent(in) :: data
+      type(scene_t), intent(inout) :: scene
+
+      scene%solving = data%assembled%solving_bytes()
+      scene%order = data%assembled%order
+   end subroutine describe_order
 
    !> A body, and the solver of its matrix where it has one of its own.
    subroutine describe_body(data, b, result)

@@ -18,7 +18,8 @@ module atrito_shares
    use atrito_profile, only: profile_t
    implicit none (type, external)
    private
-   public :: shares_t, share_t, top_t, make_shares, share_out, predict_work, is_worth_sharing, fair_share, LEAST_WORK
+   public :: shares_t, share_t, top_t, make_shares, share_out, predict_work, is_worth_sharing, is_over_ranks, fair_share
+   public :: LEAST_WORK
    public :: SHARE_NONE, SHARE_AUTO, SHARE_ALL
 
    !> A part of the scene: a body, or a piece of one.
@@ -87,6 +88,15 @@ contains
       is_worth_sharing = n_ranks > 1 .and. asked /= SHARE_NONE
       if (is_worth_sharing .and. asked == SHARE_AUTO) is_worth_sharing = sum(predict_work(fem)) >= LEAST_WORK
    end function is_worth_sharing
+
+   !> Whether several ranks have a part.
+   pure logical function is_over_ranks(shares)
+      type(shares_t), allocatable, intent(in) :: shares
+
+      is_over_ranks = allocated(shares)
+      if (is_over_ranks) is_over_ranks = shares%n > 0
+      if (is_over_ranks) is_over_ranks = any(shares%list%rank /= shares%list(1)%rank)
+   end function is_over_ranks
 
    !> Shares out the elements of all bodies over the ranks where it is worth it; else there is nothing on return.
    subroutine share_out(fem, rows, n_ranks, asked, shares, rank_of)

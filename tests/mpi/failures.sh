@@ -74,6 +74,40 @@ short_of_memory 0 1500000 "$deck" --refine 7 -o short
 expect_code 2 'too little memory on rank 0'
 said_once 'too little memory on rank 0' E-MEMORY
 [ ! -e short ] || fail 'too little memory on rank 0: a folder was made'
+short_of_memory 1 400000 "$deck" --refine 6 -o short
+expect_code 2 'too little memory on rank 1'
+said_once 'too little memory on rank 1' 'E-MEMORY. rank 1 of 2 needs'
+told err 'expected: [0-9]* ranks, for which it would do' || { fail 'too little memory on rank 1: not for how many ranks it would do'; cat err; }
+[ ! -e short ] || fail 'too little memory on rank 1: a folder was made'
+short_of_memory 0 500000 "$deck" --refine 6 -o short
+expect_code 2 'too little memory for any number of ranks'
+said_once 'too little memory for any number of ranks' E-MEMORY
+told err 'no number of ranks' || { fail 'too little memory for any number of ranks: not told'; cat err; }
+
+# so much address space for each rank that one alone does not have enough, and two have: 25 MiB less than what it says it needs
+limited() { # limited KBYTES RANKS WORDS
+   room=$1
+   n=$2
+   shift 2
+   mpirun -n "$n" sh -c 'ulimit -v "$1"; shift; exec "$0" "$@"' "$atrito_mpi" "$room" "$@" >out 2>err
+   code=$?
+}
+set -- "$deck" --refine 6 --quiet
+limited 700000 1 "$@" -o alone
+room=$(sed -n 's/.* needs about \([0-9.]*\) MiB of memory, there are \([0-9.]*\) MiB.*/\1 \2/p' err |
+   awk '{ printf "%.0f", 700000 + 1024*($1 - $2 - 25) }')
+case $room in
+'') fail 'memory that two ranks have together: the amounts are not told' ;;
+*)
+   limited "$room" 1 "$@" -o alone
+   expect_code 2 'too much for one rank'
+   limited "$room" 2 "$@" -o together
+   expect_code 0 'not too much for two ranks'
+   "$atrito" "$@" -o plain
+   # 600,000 displacements have round-off of 1e-9
+   "$atrito" compare plain together --rtol 1e-8 --quiet || { fail 'not too much for two ranks: other tables'; cat err; }
+   ;;
+esac
 
 # --- killed ranks -------------------------------------------------------------------------------------------------------------------------
 # mpirun lets the other ranks go on for a second: the mesh takes longer.
