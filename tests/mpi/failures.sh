@@ -1,11 +1,12 @@
 #!/bin/sh
 # What goes wrong with several ranks: one message, the exit code of the plain program, no half file, nobody waits for ever.
-#    failures.sh ATRITO-MPI ATRITO DECK DECK-WITHOUT-SOLUTION FAULTY-END
+#    failures.sh ATRITO-MPI ATRITO DECK DECK-WITHOUT-SOLUTION FAULTY-END FAILING-MUMPS
 . "$(dirname "$0")/lib.sh"
 atrito=$2
 deck=$3
 loose=$4
 faulty_end=$5
+failing_mumps=$6
 
 # --- errors of deck and command line: what the plain program says ------------------------------------------------------------------
 printf '*NODE\nx\n' >bad.inp
@@ -74,6 +75,22 @@ short_of_memory 0 1500000 "$deck" --refine 7 -o short
 expect_code 2 'too little memory on rank 0'
 said_once 'too little memory on rank 0' E-MEMORY
 [ ! -e short ] || fail 'too little memory on rank 0: a folder was made'
+
+# --- the ranks cannot solve for what they share: nothing that came of it is taken for a solution -------------------------------------------
+# failing_solve STAGE: 1, the loads are condensed; 2, the displacements expanded; 9: neither fails
+failing_solve() {
+   LD_LIBRARY_PATH=$(dirname "$failing_mumps")${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} FAILING_SOLVE=$1 mpirun -n 2 "$atrito_mpi" "$deck" --share all \
+      --contact dense -o "failing-$1" >out 2>err
+   code=$?
+}
+failing_solve 9
+expect_code 0 'no solve over the ranks fails'
+for stage in 1 2; do
+   failing_solve $stage
+   expect_code 9 "a solve over the ranks fails, $stage"
+   said_once "a solve over the ranks fails, $stage" 'E-INTERNAL\] the solver over the ranks failed: not enough memory'
+   [ ! -e failing-$stage ] || fail "a solve over the ranks fails, $stage: a folder was made"
+done
 
 # --- killed ranks -------------------------------------------------------------------------------------------------------------------------
 # mpirun lets the other ranks go on for a second: the mesh takes longer.
