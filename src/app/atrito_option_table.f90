@@ -28,7 +28,7 @@ module atrito_option_table
    type(option_t), parameter :: OPTIONS(*) = [ &
                                 option_t('-o', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], &
                                          'folder of the tables', &
-                                      default='./output/<deck>; of sweep, study, limit and check ./output/<deck>-sweep, ...', &
+                                         default='./output/<deck>; of sweep, study, limit and check ./output/<deck>-sweep, ...', &
                                          expected='a folder; it is made where it is missing'), &
                                 option_t('--set', 'NAME=VALUE', [Y, Y, N, N, Y, Y, Y], &
                                          'value of a *PARAMETER of the deck; may be repeated', &
