@@ -138,7 +138,7 @@ contains
 
       call claim_folder(output_folder(command), claim, status, silent=command%json)
       if (is_ok(status)) then
-         call write_check_plots(model, output_folder(command), pictures)
+         call write_check_plots(model, command%view, output_folder(command), pictures)
       else
          allocate (pictures(0))
          call add_warning('W-PLOT', 'no plots are written: '//status%text)

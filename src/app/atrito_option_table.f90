@@ -19,7 +19,7 @@ module atrito_option_table
       logical :: for_task(TASK_LIMIT)               !< run, check, compare, help, sweep, study, limit
       character(len=120) :: phrase                  !< what it is for
       character(len=84) :: expected = ''            !< what its value may be; behind `words`, where there are any
-      character(len=40) :: default = ''             !< what holds without it
+      character(len=80) :: default = ''             !< what holds without it
       character(len=40) :: words = ''               !< the words that its value may be, blanks between them
       character(len=2) :: short = ''                !< another name
    end type option_t
@@ -28,7 +28,8 @@ module atrito_option_table
    type(option_t), parameter :: OPTIONS(*) = [ &
                                 option_t('-o', VALUE_FOLDER, [Y, Y, N, N, Y, Y, Y], &
                                          'folder of the tables', &
-                                      default='./output/<name of the deck>', expected='a folder; it is made where it is missing'), &
+                                         default='./output/<deck>; of sweep, study, limit and check ./output/<deck>-sweep, ...', &
+                                         expected='a folder; it is made where it is missing'), &
                                 option_t('--set', 'NAME=VALUE', [Y, Y, N, N, Y, Y, Y], &
                                          'value of a *PARAMETER of the deck; may be repeated', &
                                          expected='NAME=VALUE, VALUE an expression of numbers'), &
@@ -62,7 +63,7 @@ module atrito_option_table
                                          'displacements are drawn S times as large', &
                                          default='chosen by their size', &
                                          expected='a number, 0 or more, by which displacements are drawn; with --plot'), &
-                                option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, N, N, N, N, N, Y], &
+                                option_t('--plot-box', 'X1,Y1,X2,Y2', [Y, Y, N, N, N, N, Y], &
                                          'what pictures of bodies show', default='all', &
                                          expected='x1,y1,x2,y2, two corners of what pictures show; with --plot'), &
                                 option_t('--report', '', [Y, N, N, N, Y, Y, Y], &

@@ -13,7 +13,7 @@
 module atrito_mumps
    use atrito_coordinate_matrix, only: coordinate_matrix_t, begin_matrix, add_element_matrix, finish_matrix, drop_matrix
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mumps_library, only: dmumps_struc, begin_mumps, run_mumps
+   use atrito_mumps_library, only: dmumps_struc, begin_mumps, mumps_failure, run_mumps
    use atrito_profile, only: profile_t
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
    use atrito_linear_solver, only: linear_solver_t, factor_report_t, ALL_DIGITS, smallest_ratio
@@ -50,7 +50,7 @@ module atrito_mumps
    ! ICNTL(26)
    integer, parameter :: INTERIOR_ALONE = 0, CONDENSE = 1, EXPAND = 2
    ! INFOG(1)
-   integer, parameter :: ZERO_PIVOT = -10, NO_ROOM = -9, NO_MEMORY = -13
+   integer, parameter :: ZERO_PIVOT = -10, NO_ROOM = -9
    !> Digits lost from which the place is worth two solves.
    real(wp), parameter :: MANY_DIGITS = 9.0_wp
    !> Added to the unit diagonal of a matrix that could not be factored, to find the motion that it leaves free; far below the
@@ -179,7 +179,7 @@ contains
 
       associate (mumps => self%instance%mumps, report => self%report)
          if (mumps%infog(1) < 0 .and. mumps%infog(1) /= ZERO_PIVOT) then
-            call set_status(status, STATUS_INTERNAL, 'the sparse solver failed: '//failure_text(mumps%infog(1), mumps%infog(2)))
+            call set_status(status, STATUS_INTERNAL, 'the sparse solver failed: '//mumps_failure(mumps))
             return
          end if
          singular = mumps%infog(1) == ZERO_PIVOT
@@ -208,14 +208,6 @@ contains
       if (report%sign_changes > 0) text = text//' or indefinite ('//to_text(report%sign_changes)//' negative pivots)'
       text = text//': its softest motion is largest at equation '//to_text(report%worst_equation)
    end function pivot_text
-
-   pure function failure_text(code, detail) result(text)
-      integer, intent(in) :: code, detail
-      character(len=:), allocatable :: text
-
-      text = 'INFOG(1:2) = '//to_text(int(code, ip))//', '//to_text(int(detail, ip))
-      if (code == NO_MEMORY) text = 'not enough memory ('//text//')'
-   end function failure_text
 
    !> Puts the equation that moves most in the softest motion of the interior into the report, by inverse iteration. With a
    !> shift the matrix is factored again and lost.

@@ -11,11 +11,13 @@ module atrito_mumps_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr
    use atrito_mpi, only: has_mpi, own_communicator
    use atrito_halting, only: halting_t, suspend_halting, restore_halting
+   use atrito_kinds, only: ip
    use atrito_status, only: status_t, set_status, STATUS_INTERNAL
+   use atrito_strings, only: to_text
    use atrito_system, only: find_routine
    implicit none (type, external)
    private
-   public :: dmumps_struc, begin_mumps, run_mumps, has_mumps, mumps_name, mumps_trouble
+   public :: dmumps_struc, begin_mumps, run_mumps, has_mumps, mumps_name, mumps_trouble, mumps_failure
 
    include 'dmumps_struc.h'
 
@@ -27,6 +29,7 @@ module atrito_mumps_library
    end interface
 
    integer, parameter :: BEGIN = -1              ! JOB
+   integer, parameter :: NO_MEMORY = -13         ! INFOG(1)
 
 contains
 
@@ -114,6 +117,17 @@ contains
       call mumps(instance)
       call restore_halting(halting)
    end subroutine run_mumps
+
+   !> Why the last call failed, in words where they are known.
+   pure function mumps_failure(instance) result(text)
+      type(dmumps_struc), intent(in) :: instance
+      character(len=:), allocatable :: text
+
+      associate (code => instance%infog(1:2))
+         text = 'INFOG(1:2) = '//to_text(int(code(1), ip))//', '//to_text(int(code(2), ip))
+         if (code(1) == NO_MEMORY) text = 'not enough memory ('//text//')'
+      end associate
+   end function mumps_failure
 
    !> Not associated where the library is not installed. Loading it again costs next to nothing.
    subroutine load_mumps(mumps)

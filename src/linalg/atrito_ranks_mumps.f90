@@ -20,7 +20,7 @@ module atrito_ranks_mumps
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: factor_report_t, smallest_ratio, ALL_DIGITS
    use atrito_mpi, only: all_ranks_communicator, largest_of_ranks, own_rank, spread_from_first, sum_to_first
-   use atrito_mumps_library, only: dmumps_struc, begin_mumps, has_mumps, mumps_trouble, run_mumps
+   use atrito_mumps_library, only: dmumps_struc, begin_mumps, has_mumps, mumps_failure, mumps_trouble, run_mumps
    use atrito_packed_matrices, only: packed_matrices_t, add_diagonals, add_packed_column, list_coordinates, packed_length, &
                                      raise_diagonals, scale_packed
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL, STATUS_SINGULAR
@@ -279,9 +279,9 @@ contains
       type(ranks_mumps_t), intent(in) :: system
       type(status_t), intent(inout) :: status
 
-      associate (code => system%instance%mumps%infog(1:2))
-         if (code(1) < 0) call set_status(status, STATUS_INTERNAL, 'the solver over the ranks failed: INFOG(1:2) = '// &
-                                          to_text(int(code(1), ip))//', '//to_text(int(code(2), ip)))
+      associate (mumps => system%instance%mumps)
+         if (mumps%infog(1) < 0) call set_status(status, STATUS_INTERNAL, &
+                                                 'the solver over the ranks failed: '//mumps_failure(mumps))
       end associate
    end subroutine judge_failure
 
@@ -379,6 +379,8 @@ contains
          if (told(2) > 0.0_wp) then
             copy = x
             call solve_with(system, CONDENSE, loads, copy)
+            call judge_failure(system, status)
+            if (.not. is_ok(status)) return       ! on all ranks: INFOG is the same
          end if
          call solve_with(system, mode, loads, x)
       end if

@@ -24,7 +24,7 @@ module atrito_shared_system
                                  reduce_by_mumps, expand_by_mumps, memory_by_mumps
    use atrito_shared_fronts, only: shared_fronts_t, plan_shared_fronts, factor_shared_fronts, get_kept_matrix, fronts_bytes
    use atrito_shared_loads, only: condense_load, solve_load
-   use atrito_status, only: status_t
+   use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL
    implicit none (type, external)
    private
    public :: shared_system_t, begin_shared, end_shared, factor_shared, schur_of_shared
@@ -38,6 +38,7 @@ module atrito_shared_system
       type(factor_report_t) :: report            !< of the last factorisation, the same on all ranks
       type(packed_matrices_t) :: own             !< unknowns of the matrices of this rank
       logical, private :: has_fronts = .true.    !< else MUMPS has it
+      logical, private :: is_factored = .false.
       type(shared_fronts_t), private :: fronts
       type(ranks_mumps_t), private :: mumps
    end type shared_system_t
@@ -83,6 +84,7 @@ contains
          call factor_by_mumps(system%mumps, values, status)
          system%report = system%mumps%report
       end if
+      system%is_factored = is_ok(status)
    end subroutine factor_shared
 
    !> S of the last factorisation, both triangles; rank 0 alone calls it, once: the room is given back.
@@ -103,6 +105,7 @@ contains
       real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f_i; on return x. Other ranks: of any size
       type(status_t), intent(out) :: status
 
+      if (lacks_factor(system, status)) return
       if (system%has_fronts) then
          if (size(x, 1) == system%n) x(system%n - system%n_kept + 1:, :) = 0.0_wp
          call solve_load(system%fronts, loads_of_first(x), x)
@@ -118,6 +121,7 @@ contains
       type(status_t), intent(out) :: status
 
       if (system%n_kept == 0) return
+      if (lacks_factor(system, status)) return
       if (system%has_fronts) then
          call condense_load(system%fronts, loads_of_first(f), f)
       else
@@ -131,12 +135,22 @@ contains
       real(wp), intent(inout) :: x(:, :)         !< (n, loads) on rank 0: f_i and x_c; on return x. Other ranks: of any size
       type(status_t), intent(out) :: status
 
+      if (lacks_factor(system, status)) return
       if (system%has_fronts) then
          call solve_load(system%fronts, loads_of_first(x), x)
       else
          call expand_by_mumps(system%mumps, x, status)
       end if
    end subroutine expand_shared
+
+   !> Fronts that have no factor solve nothing; MUMPS says so itself. status: STATUS_INTERNAL then, on all ranks.
+   logical function lacks_factor(system, status)
+      type(shared_system_t), intent(in) :: system
+      type(status_t), intent(inout) :: status
+
+      lacks_factor = system%has_fronts .and. .not. system%is_factored
+      if (lacks_factor) call set_status(status, STATUS_INTERNAL, 'the solver over the ranks failed: it has no factor')
+   end function lacks_factor
 
    !> Rank 0 knows how many there are.
    integer(ip) function loads_of_first(x) result(loads)

@@ -7,6 +7,7 @@ module atrito_check_plots
    use atrito_gnuplot, only: draw_written
    use atrito_model, only: model_t
    use atrito_plot_files, only: plot_folder, remove_plots, PLOTS_OF_CHECK, SCENE_PLOT, SET_PLOT, GAP_PLOT
+   use atrito_plot_view, only: plot_view_t
    use atrito_scene_plot, only: write_scene_plot
    use atrito_set_plot, only: write_set_plot, has_set_plot
    use atrito_status, only: status_t, is_ok
@@ -18,14 +19,15 @@ module atrito_check_plots
 contains
 
    !> Writes the scripts of all pictures into <folder>/plots and draws them.
-   subroutine write_check_plots(model, folder, drawn)
+   subroutine write_check_plots(model, view, folder, drawn)
       type(model_t), intent(in) :: model                    !< with the points of its pairs
+      type(plot_view_t), intent(in) :: view                 !< of which the box is heeded: nothing is displaced
       character(len=*), intent(in) :: folder
       type(string_t), allocatable, intent(out) :: drawn(:)  !< pictures, names without ending
       type(status_t) :: status
 
       call remove_plots(folder, PLOTS_OF_CHECK)
-      call write_check_scripts(model, plot_folder(folder), status)
+      call write_check_scripts(model, view, plot_folder(folder), status)
       call draw_written(folder, check_plot_names(model), status, drawn)
    end subroutine write_check_plots
 
@@ -41,16 +43,17 @@ contains
    !> Writes scripts and data, which appear together or not at all.
    !>
    !> status: STATUS_FILE
-   subroutine write_check_scripts(model, folder, status)
+   subroutine write_check_scripts(model, view, folder, status)
       type(model_t), intent(in) :: model
+      type(plot_view_t), intent(in) :: view
       character(len=*), intent(in) :: folder                !< of the plots
       type(status_t), intent(out) :: status
       type(file_set_t) :: set
 
       call begin_files(set, folder, status)
       if (.not. is_ok(status)) return
-      call write_scene_plot(set, model, status)
-      if (is_ok(status) .and. has_set_plot(model)) call write_set_plot(set, model, status)
+      call write_scene_plot(set, model, view, status)
+      if (is_ok(status) .and. has_set_plot(model)) call write_set_plot(set, model, view, status)
       if (is_ok(status) .and. has_gap_plot(model)) call write_gap_plot(set, model, status)
       call end_files(set, status)
    end subroutine write_check_scripts

@@ -12,11 +12,10 @@ module atrito_contour_plot
    use atrito_kinds, only: ip, wp
    use atrito_mesh_lines, only: drawing_t, add_lines, add_rigid_lines, LINE_INNER
    use atrito_mesh_plot, only: displacement_text, FEW_NODES
-   use atrito_messages, only: add_warning
    use atrito_model, only: model_t
    use atrito_plot_files, only: MESH_PLOT
    use atrito_plot_text, only: range_t, cover, span, quoted, picture_title, begin_script, end_script, put_plot
-   use atrito_plot_view, only: shown_window
+   use atrito_plot_view, only: shown_window, warn_of_box
    use atrito_results, only: results_t
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, append_string, to_text
@@ -50,7 +49,7 @@ contains
       if (size(list) == 0) return
       layout = make_layout(shown_window(drawing%view, drawing%window))
       call lay_raster(model%mesh, results%u, drawing%scale, layout%window, layout%n, raster)
-      if (all(raster%element == 0)) call warn_of_box(drawing)
+      if (all(raster%element == 0)) call warn_of_box(drawing%view, drawing%window)
       call node_places(model%mesh, results%u, drawing%scale, layout%window, nodes)
       call element_places(model%mesh, results%u, drawing%scale, layout%window, elements)
       do i = 1, size(list)
@@ -59,17 +58,6 @@ contains
          call write_contour(set, model, results, drawing, layout, raster, field, status)
       end do
    end subroutine write_contour_plots
-
-   !> A window without bodies is hardly meant.
-   subroutine warn_of_box(drawing)
-      type(drawing_t), intent(in) :: drawing
-
-      if (.not. allocated(drawing%view%box)) return
-      associate (w => drawing%window)
-         call add_warning('W-PLOT', '--plot-box shows no body; what there is lies in x = '//to_text(w(1)%low)//' to '// &
-                          to_text(w(1)%high)//', y = '//to_text(w(2)%low)//' to '//to_text(w(2)%high))
-      end associate
-   end subroutine warn_of_box
 
    !> The raster and the script of a field.
    subroutine write_contour(set, model, results, drawing, layout, raster, field, status)

@@ -1,11 +1,13 @@
 !> What a user asks of the pictures of bodies, `--plot-scale` and `--plot-box`.
 module atrito_plot_view
    use atrito_kinds, only: wp
+   use atrito_messages, only: add_warning
    use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_plot_text, only: range_t, padded
+   use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: plot_view_t, asked_scale, shown_window, read_box
+   public :: plot_view_t, asked_scale, shown_window, shows_none, warn_of_box, read_box
 
    type :: plot_view_t
       real(wp), allocatable :: scale                !< of the displacements, not negative; not allocated: by their size
@@ -32,6 +34,25 @@ contains
       shown = [padded(window(1)), padded(window(2))]
       if (allocated(view%box)) shown = [range_t(view%box(1), view%box(3)), range_t(view%box(2), view%box(4))]
    end function shown_window
+
+   !> Whether the box that is asked for lies beside all that is drawn.
+   pure logical function shows_none(view, window)
+      type(plot_view_t), intent(in) :: view
+      type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
+
+      shows_none = .false.
+      if (allocated(view%box)) shows_none = any(view%box(1:2) > window%high .or. view%box(3:4) < window%low)
+   end function shows_none
+
+   !> A box without bodies is hardly meant.
+   subroutine warn_of_box(view, window)
+      type(plot_view_t), intent(in) :: view
+      type(range_t), intent(in) :: window(2)        !< of all that is drawn [L]
+
+      if (.not. allocated(view%box)) return
+      call add_warning('W-PLOT', '--plot-box shows no body; what there is lies in x = '//to_text(window(1)%low)//' to '// &
+                       to_text(window(1)%high)//', y = '//to_text(window(2)%low)//' to '//to_text(window(2)%high))
+   end subroutine warn_of_box
 
    !> Reads a box from the text x1,y1,x2,y2: two corners of it that lie across from each other.
    pure subroutine read_box(text, box, ok)

@@ -10,6 +10,7 @@ module atrito_scene_plot
    use atrito_model, only: model_t, step_t, nodal_values_t
    use atrito_plot_files, only: SCENE_PLOT
    use atrito_plot_text, only: quoted, cleaned, scene_title, begin_script, end_script, COLOUR, N_COLOURS
+   use atrito_plot_view, only: plot_view_t, shows_none, warn_of_box
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text
    use atrito_write_symbols, only: write_symbols, legend_lines
@@ -25,9 +26,10 @@ contains
    !> Writes scene.dat, scene-symbols.dat and scene.gp into the set of the plots' folder.
    !>
    !> status: STATUS_FILE when one could not be written.
-   subroutine write_scene_plot(set, model, status)
+   subroutine write_scene_plot(set, model, view, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model
+      type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
       type(drawing_t) :: drawing
       type(string_t), allocatable :: symbols(:)
@@ -35,6 +37,8 @@ contains
 
       allocate (u(2, model%mesh%n_nodes), source=0.0_wp)
       call begin_drawing(model, model%mesh%n_nodes > MOST_NODES, drawing)
+      drawing%view = view
+      if (shows_none(view, drawing%window)) call warn_of_box(view, drawing%window)
       call write_lines(set, SCENE_PLOT, '# edges of the elements as polylines; columns: x [L]  y [L], and 0  0', &
                        [character(len=40) :: ', edges inside', ', outline and lines between sections'], model, u, drawing, status)
       if (is_ok(status)) call write_symbols(set, SCENE_PLOT, model, shown_step(model%steps), u, drawing, symbols, status)

@@ -6,8 +6,9 @@ module atrito_set_plot
    use atrito_mesh_lines, only: drawing_t, begin_drawing, put_lines, put_place
    use atrito_model, only: model_t
    use atrito_plot_files, only: SET_PLOT
-   use atrito_plot_text, only: range_t, padded, range_text, span, quoted, cleaned, scene_title, begin_script, end_script, &
+   use atrito_plot_text, only: range_t, range_text, span, quoted, cleaned, scene_title, begin_script, end_script, &
                                put_terminal, COLOUR
+   use atrito_plot_view, only: plot_view_t, shown_window
    use atrito_sets, only: set_count
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: to_text
@@ -55,9 +56,10 @@ contains
    !> Writes sets.dat and sets.gp into the set of the plots' folder.
    !>
    !> status: STATUS_FILE when one could not be written.
-   subroutine write_set_plot(set, model, status)
+   subroutine write_set_plot(set, model, view, status)
       type(file_set_t), intent(inout) :: set
       type(model_t), intent(in) :: model            !< with sets
+      type(plot_view_t), intent(in) :: view
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
       type(drawing_t) :: drawing
@@ -67,6 +69,8 @@ contains
 
       allocate (u(2, model%mesh%n_nodes), source=0.0_wp)
       call begin_drawing(model, .true., drawing)
+      drawing%view = view
+      if (allocated(view%box)) drawing%window = shown_window(view, drawing%window)
       shown = shown_sets(model)
       call open_text(set, SET_PLOT//'.dat', file)
       call put_line(file, '# outlines of the bodies, then the members of each set; columns: x [L]  y [L]')
@@ -185,6 +189,7 @@ contains
       type(shown_set_t), intent(in) :: shown(:)
       type(status_t), intent(out) :: status
       type(text_file_t) :: file
+      type(range_t) :: window(2)
       character(len=:), allocatable :: layout
       integer(ip) :: i, rows
 
@@ -193,8 +198,8 @@ contains
       call begin_script(set, SET_PLOT, 'the sets of nodes and elements', file)
       call put_line(file, '# Columns of sets.dat: 1 x [L], 2 y [L]; outlines of the bodies, then a block a set')
       call put_line(file, 'heading = '//quoted(scene_title(model%deck_path, model%heading)))
-      call put_line(file, 'set xrange '//range_text(padded(drawing%window(1)))//'; set yrange '// &
-                    range_text(padded(drawing%window(2))))
+      window = shown_window(drawing%view, drawing%window)
+      call put_line(file, 'set xrange '//range_text(window(1))//'; set yrange '//range_text(window(2)))
       call put_line(file, 'set size ratio -1; unset border; unset tics; unset key')
       call put_line(file, 'set lmargin 0.5; set rmargin 0.5; set bmargin 0.5; set tmargin 1.8')
       call put_terminal(file, SET_PLOT, to_text(int(WIDTH, ip))//','//to_text(HEADING + rows*height_of(drawing, shown)))

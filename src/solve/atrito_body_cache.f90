@@ -11,7 +11,7 @@ module atrito_body_cache
    use atrito_mesh, only: mesh_t
    use atrito_plane_state, only: elastic_t
    use atrito_points, only: contact_points_t
-   use atrito_shared_body, only: first_rank_t, shared_body_t
+   use atrito_shared_body, only: first_rank_t, shared_body_t, take_trouble
    use atrito_shares, only: shares_t
    use atrito_sharing, only: condense_shared_body, forget_shared, give_up, share_bodies
    use atrito_reporter, only: reporter_t, report_progress
@@ -21,7 +21,8 @@ module atrito_body_cache
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies, forget_loads
+   public :: body_cache_t, provide_bodies, reload_bodies, take_numbering, release_bodies, forget_bodies, forget_loads, &
+             take_trouble_of_bodies
 
    type :: body_cache_t
       type(reporter_t) :: reporter                     !< of factorisations
@@ -192,6 +193,15 @@ contains
       call forget_shared(store%bodies)
       deallocate (store%bodies)
    end subroutine drop_bodies
+
+   !> Whether the ranks have failed to solve for a body since this was asked last. status: STATUS_INTERNAL then, in place of what it
+   !> was; else it stays.
+   subroutine take_trouble_of_bodies(store, status)
+      type(body_cache_t), intent(inout) :: store
+      type(status_t), intent(inout) :: status
+
+      if (associated(store%first)) call take_trouble(store%first, status)
+   end subroutine take_trouble_of_bodies
 
    !> The bodies have other loads than those that they were asked for with.
    pure subroutine forget_loads(store)

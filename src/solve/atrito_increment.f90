@@ -1,7 +1,7 @@
 !> One increment: from what acts to displacements, contact and its checks. The form of the contact system, and what is tried where
 !> it finds no solution.
 module atrito_increment
-   use atrito_body_cache, only: body_cache_t
+   use atrito_body_cache, only: body_cache_t, take_trouble_of_bodies
    use atrito_body_sums, only: sum_bodies
    use atrito_condensed_body, only: body_text, how_it_moves
    use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
@@ -24,6 +24,7 @@ module atrito_increment
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
    use atrito_scene_data, only: scene_data_t, drop_assembled
+   use atrito_scene_top, only: take_trouble_of_top
    use atrito_section_forces, only: sum_cuts
    use atrito_sparse_form, only: solve_sparse_form
    use atrito_shared_fields, only: estimate_on_ranks
@@ -124,7 +125,7 @@ contains
    end subroutine solve_without_near
 
    !> Solves by one form of the contact system, and checks what it found. Without a solution it is judged whether there can be one:
-   !> status is STATUS_SINGULAR where there is none.
+   !> status is STATUS_SINGULAR where there is none, STATUS_INTERNAL where the ranks could not solve for what they share.
    subroutine solve_one_form(data, form, controls, store, results, solution, status)
       type(scene_data_t), intent(inout) :: data
       integer, intent(in) :: form                           !< CONTACT_DENSE or CONTACT_SPARSE
@@ -140,6 +141,8 @@ contains
       else
          call solve_dense_form(data, controls, store, results, solution, u, status)
       end if
+      call take_trouble_of_bodies(store, status)            ! whatever came of a solve that failed
+      call take_trouble_of_top(status)
       solution%form = form
       call start_phase('iterate')
       call judge_outcome(data, results%scene%pairs, solution, status)

@@ -14,12 +14,14 @@ module atrito_scene_top
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: serve_scene_top, begin_scene_top, factor_scene_top, solve_scene_top, end_scene_top, scene_top_bytes
+   public :: serve_scene_top, begin_scene_top, factor_scene_top, solve_scene_top, end_scene_top, scene_top_bytes, &
+             take_trouble_of_top
 
    ! What is wanted.
    integer(ip), parameter :: MAKE = 1, FACTOR = 2, SOLVE = 3, FINISH = 4
 
    type(shared_system_t) :: system
+   type(status_t) :: trouble                     !< of the first solve that failed, until it is taken
 
 contains
 
@@ -119,7 +121,7 @@ contains
       if (.not. is_ok(status)) failed = system%report%worst_equation
    end subroutine factor_scene_top
 
-   !> x <- A^-1 x; 0 where that failed.
+   !> x <- A^-1 x; 0 where that failed, which is noted: nothing that was found may be believed then (take_trouble_of_top).
    subroutine solve_scene_top(x)
       real(wp), intent(inout) :: x(:)            !< (n)
       real(wp) :: column(size(x), 1)
@@ -129,8 +131,22 @@ contains
       column(:, 1) = x
       call solve_shared(system, column, status)
       x = 0.0_wp
-      if (is_ok(status)) x = column(:, 1)
+      if (is_ok(status)) then
+         x = column(:, 1)
+      else if (is_ok(trouble)) then
+         trouble = status
+      end if
    end subroutine solve_scene_top
+
+   !> Whether a solve has failed since this was asked last. status: STATUS_INTERNAL then, in place of what it was; else it stays.
+   subroutine take_trouble_of_top(status)
+      type(status_t), intent(inout) :: status
+      type(status_t) :: fine
+
+      if (is_ok(trouble)) return
+      status = trouble
+      trouble = fine
+   end subroutine take_trouble_of_top
 
    !> Nothing of it is needed any more.
    subroutine end_scene_top()

@@ -9,6 +9,9 @@
 !>
 !> A load that is reduced has the half-solved interior of the parts, then in the places of the border g_i, what the parts leave of
 !> it there: all of it linear in the load, so that reduced loads can be added up.
+!>
+!> A solver has no status where it solves. The first solve of all ranks together that fails is noted, and told when somebody asks
+!> (take_trouble): until then nothing that was found may be believed.
 module atrito_shared_body
    use atrito_kinds, only: ip, lp, wp
    use atrito_linear_solver, only: linear_solver_t, factor_report_t
@@ -22,13 +25,14 @@ module atrito_shared_body
    use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL
    implicit none (type, external)
    private
-   public :: shared_body_t, piece_t, first_rank_t, forget_pieces
+   public :: shared_body_t, piece_t, first_rank_t, forget_pieces, take_trouble
 
    !> What the first rank has of the bodies that are shared out.
    type :: first_rank_t
       type(part_store_t) :: parts
       type(top_store_t) :: tops
       integer(ip) :: last_ticket = 0
+      type(status_t) :: trouble                  !< of the first solve of all ranks together that failed
    end type first_rank_t
 
    !> A part as the first rank knows it.
@@ -181,6 +185,7 @@ contains
       if (size(self%piece) > 1) then
          call ask_for_top(TOP_REDUCE, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
          call reduce_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, status)
+         call note_trouble(self%own, status)
       end if
       f(self%top%equation, :) = top
    end subroutine reduce_on_ranks
@@ -217,6 +222,7 @@ contains
          top = x(self%top%equation, :)
          call ask_for_top(TOP_EXPAND, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
          call expand_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, status)
+         call note_trouble(self%own, status)
          x(self%top%equation, :) = top
       end if
       do p = 1, size(self%piece, kind=ip)
@@ -234,6 +240,25 @@ contains
          x(self%piece(p)%equation(:self%piece(p)%n_interior), :) = columns(:self%piece(p)%n_interior, :)
       end do
    end subroutine expand_on_ranks
+
+   !> The first failure stays until it is taken.
+   pure subroutine note_trouble(first, status)
+      type(first_rank_t), intent(inout) :: first
+      type(status_t), intent(in) :: status
+
+      if (is_ok(first%trouble) .and. .not. is_ok(status)) first%trouble = status
+   end subroutine note_trouble
+
+   !> What has failed since it was asked last. status: STATUS_INTERNAL then, in place of what it was; else it stays.
+   pure subroutine take_trouble(first, status)
+      type(first_rank_t), intent(inout) :: first
+      type(status_t), intent(inout) :: status
+      type(status_t) :: fine
+
+      if (is_ok(first%trouble)) return
+      status = first%trouble
+      first%trouble = fine
+   end subroutine take_trouble
 
    pure integer(lp) function bytes_of_ranks(self) result(bytes)
       class(shared_body_t), intent(in) :: self

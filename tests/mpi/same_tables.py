@@ -14,12 +14,18 @@
 
 Both run each deck with --digits 17, the ranks with --share all; exit codes, the codes of messages and all tables are compared, these by
 `atrito compare --rtol 1e-10`, which knows the scale of each column. What differs as well when the plain program solves with --solver
-sparse or skyline is at the edge of double precision, and may differ by NOISE times as much. Left out are timing.tab and iterations.tab and,
-in other tables, how many iterations and solves it took, and times. `differs` tells the largest difference over what would be allowed."""
+sparse, skyline or mumps (of --contact sparse, which heeds none of them, with the dense form) is at the edge of double precision, and may
+differ by NOISE times as much. A component that is NOTHING beside the others of its kind (KINDS) in both is round-off. Left out are
+timing.tab and iterations.tab and, in other tables, how many iterations and solves it took, and times. `differs` tells the largest
+difference over what would be allowed."""
 import argparse, concurrent.futures, json, math, os, re, shutil, subprocess, sys, tempfile, time
 
 RTOL = 1e-10
 NOISE = 30.0                # two runs say little of how large differences may be
+NOTHING = 1e-9              # of the largest of its kind; below it a component is zero but for round-off
+KINDS = {'displacement': re.compile(r'u[12]?(_max|_min)?$|(max_abs_)?slip(_increment)?$'),
+         'stress': re.compile(r's\d\d$|s1_max$|s3_min$|mises$|(weighted_|contact_|max_)?pressure$|(max_abs_)?shear$'),
+         'force': re.compile(r'[rf][12xy]$|(normal|shear)_resultant$')}
 COUNTS = {'picard_iterations', 'linear_solves', 'iterations'}
 TABLE = re.compile(r'\.(tab|csv)$')
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -132,6 +138,42 @@ def differences(plain, a, b):
     return found
 
 
+def values_of(folder, name):
+    """Pairs of column, or in a table of quantities of quantity, and value."""
+    columns = []
+    for line in open(os.path.join(folder, name), errors='replace').read().splitlines():
+        words = line.split(',' if name.endswith('.csv') else None)
+        if line.startswith('# columns:'):
+            columns = words[2:]
+        elif not columns and name.endswith('.csv'):
+            columns = words
+        elif not line.startswith('#') and len(words) == len(columns):
+            quantity = words[columns.index('quantity')] if 'quantity' in columns else None
+            for column, word in zip(columns, words):
+                if quantity is None or column == 'value':
+                    try:
+                        yield quantity or column, float(word)
+                    except ValueError:
+                        pass
+
+
+def kind_of(column):
+    return next((kind for kind, pattern in KINDS.items() if pattern.match(column)), None)
+
+
+def nothings(folders):
+    """Table and column of what is NOTHING beside the largest of its kind, in all tables of both."""
+    largest, of_kind = {}, {}
+    for folder in folders:
+        for name in tables(folder):
+            for column, value in values_of(folder, name):
+                kind = kind_of(column)
+                if kind and math.isfinite(value):
+                    largest[name, column] = max(abs(value), largest.get((name, column), 0.0))
+                    of_kind[kind] = max(abs(value), of_kind.get(kind, 0.0))
+    return {key for key, size in largest.items() if size <= NOTHING*of_kind[kind_of(key[1])]}
+
+
 def compare(plain, a, b, again, excepted, between=None):
     """The largest difference over what is allowed, that of the excepted tables, and what is past it."""
     names_a, names_b = tables(a), tables(b)
@@ -140,8 +182,9 @@ def compare(plain, a, b, again, excepted, between=None):
     noise = [differences(plain, a, other) for other in again] if found else []
     noise.append(between or {})
     worst, worst_excepted = 0.0, 0.0
+    round_off = nothings([a, b]) if found else set()
     for key, (off, ratio) in sorted(found.items()):
-        if off <= NOISE*max([other.get(key, (0.0, 0.0))[0] for other in noise], default=0.0):
+        if off <= NOISE*max([other.get(key, (0.0, 0.0))[0] for other in noise], default=0.0) or key in round_off:
             continue
         limit = excepted.get(os.path.basename(key[0]), excepted.get('*'))
         if limit is not None:
@@ -163,6 +206,13 @@ def read_exceptions(path):
     return rows
 
 
+def others(options):
+    """What else the plain program can solve with; of two words the last counts. To the sparse form the solver of the bodies is nothing."""
+    if ('--contact', 'sparse') in zip(options, options[1:]):
+        return [['--contact', 'dense']]
+    return [['--solver', name] for name in ('sparse', 'skyline', 'mumps') if ('--solver', name) not in zip(options, options[1:])]
+
+
 def try_deck(deck, options, exceptions, environment):
     """Lines of the report, and whether all is as it should be."""
     work = tempfile.mkdtemp(dir=options.keep, prefix='same-')
@@ -174,9 +224,9 @@ def try_deck(deck, options, exceptions, environment):
             return [f'{deck.name}: left out, more than {options.at_most} s'], True, False
         drop_counts(plain)
         again = []
-        for solver in ('sparse', 'skyline') if '--solver' not in deck.options else ():
-            again.append(os.path.join(work, solver))
-            run([options.plain], deck, again[-1], None, options.at_most, ['--solver', solver])
+        for other in others(deck.options):
+            again.append(os.path.join(work, other[-1]))
+            run([options.plain], deck, again[-1], None, options.at_most, other)
             drop_counts(again[-1])
         right, words = True, []
         for n in options.ranks:

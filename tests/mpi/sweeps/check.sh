@@ -70,6 +70,15 @@ grep -q '^ranks  *4, idle' out || fail 'how ranks were occupied is not told'
 ranks 3 sweep "$deck" --vary eps=1e-4,2e-4,3e-4 --threads 2 --plot -o threads --quiet
 expect 0 'ranks with threads'
 
+# ---- MUMPS: that for ranks here, by which each rank solves alone
+"$plain" sweep "$deck" --vary eps=1e-4,2e-4,3e-4,4e-4 --digits 17 -o own --quiet || fail 'the plain sweep'
+ranks 3 sweep "$deck" --vary eps=1e-4,2e-4,3e-4,4e-4 --digits 17 --solver mumps -o mumps --quiet
+expect 0 'MUMPS on 3 ranks'
+for place in sweep.tab eps_1e-4 eps_2e-4 eps_3e-4 eps_4e-4; do
+   "$plain" compare "own/$place" "mumps/$place" --rtol 1e-10 >differences 2>&1 || { fail "MUMPS on 3 ranks: $place"; cat differences; }
+done
+grep -q ': mumps, asked for' mumps/eps_4e-4/*.lst || fail 'MUMPS on 3 ranks: another solver was taken'
+
 # ---- what is wrong with the command line is told once, and nothing is written
 ranks 3 sweep "$deck" --vary epss=1,2,3,4 -o wrong
 expect 1 'an unknown parameter'

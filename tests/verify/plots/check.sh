@@ -225,6 +225,16 @@ says 'sides' "$checked/plots/scene.gp" 'title "slaves, with normals"'
 says 'names of bodies' "$checked/plots/scene.gp" "title 'PLATE' noenhanced"
 says 'mesh of a run' told/plots/mesh.gp 'title "loads on faces, resultant (0, -1.5) [F]"'
 says 'the surface that moves' "$checked/plots/pairs.gp" "title 'OVER-BOTTOM'"
+# what is in a box, of scene and sets
+"$atrito" check "$ex1" --plot --quiet --plot-box 0.8,0.2,0.4,-0.2 -o boxed 2>check.err || complain 'check --plot-box failed'
+pictures boxed scene sets pairs
+for stem in scene sets; do
+   says "box of $stem" boxed/plots/$stem.gp 'set xrange [0.4:0.8]'
+   says "box of $stem" boxed/plots/$stem.gp 'set yrange [-0.2:0.2]'
+done
+[ ! -s check.err ] || complain 'check --plot-box warns'
+"$atrito" check "$ex1" --plot --quiet --plot-box 5,5,6,6 -o boxed 2>check.err || complain 'check --plot-box beside the scene failed'
+says 'box beside the scene' check.err '[W-PLOT] --plot-box shows no body'
 # beside a run, whose pictures stay; those of an earlier check go, with a scene that has no pair
 "$atrito" check "$ex1" --plot --quiet -o told 2>check.err || complain 'check into the folder of a run failed'
 pictures told mesh contact-1 scene sets pairs
