@@ -75,17 +75,19 @@ contains
    !>
    !> status: STATUS_SINGULAR when a pivot is not positive, report%worst_equation is its unknown; STATUS_INTERNAL when the memory is
    !> too small. The same on all ranks.
-   subroutine factor_shared_fronts(fronts, own, values, report, status)
+   subroutine factor_shared_fronts(fronts, own, values, original, n_before, report, status)
       type(shared_fronts_t), intent(inout) :: fronts
       type(packed_matrices_t), intent(in) :: own
       real(wp), intent(in), contiguous :: values(:)          !< (packed_length(own)) of the matrices of this rank
+      real(wp), intent(in) :: original(:)        !< (size(own%unknown)) diagonals, by which pivots are judged
+      integer(ip), intent(in) :: n_before        !< equations of which the system is what is left, itself included
       type(factor_report_t), intent(out) :: report
       type(status_t), intent(out) :: status
       integer(ip) :: f
 
       do f = 1, size(fronts%held, kind=ip)
          if (fronts%plan%front(f)%holder /= own_rank()) cycle
-         call factor_front(fronts, f, own, values, report, status)
+         call factor_front(fronts, f, own, values, original, n_before, report, status)
          call pass_on(fronts, f)
       end do
       call agree_on_report(report, status)
@@ -97,11 +99,13 @@ contains
    end subroutine factor_shared_fronts
 
    !> A front that fails leaves nothing; the first failure counts.
-   subroutine factor_front(fronts, f, own, values, report, status)
+   subroutine factor_front(fronts, f, own, values, original, n_before, report, status)
       type(shared_fronts_t), intent(inout) :: fronts
       integer(ip), intent(in) :: f
       type(packed_matrices_t), intent(in) :: own
       real(wp), intent(in), contiguous :: values(:)
+      integer(ip), intent(in) :: n_before
+      real(wp), intent(in) :: original(:)
       type(factor_report_t), intent(inout) :: report
       type(status_t), intent(inout) :: status
       type(status_t) :: fine
@@ -113,7 +117,7 @@ contains
       associate (plan => fronts%plan%front(f), held => fronts%held(f), order => size(fronts%plan%front(f)%position, kind=ip))
          call forget(held)
          if (is_as_it_is(fronts%plan, f, own)) then
-            call keep_own(fronts%plan, own, values, held)
+            call keep_own(fronts%plan, own, values, original, held)
             return
          end if
          allocate (held%update(0), held%position(0), held%diagonal(0), diagonal(order), front(order, order), stat=no_memory)
@@ -123,12 +127,12 @@ contains
          else
             call clear_front(order, front)
             diagonal = 0.0_wp
-            if (all(plan%child == 0)) call add_own(fronts%plan, f, own, values, front, diagonal)
+            if (all(plan%child == 0)) call add_own(fronts%plan, f, own, values, original, front, diagonal)
          end if
          call add_children(fronts, f, front, diagonal, complete)
          if (no_memory /= 0 .or. .not. complete) return
          call eliminate(order, plan%n_pivots, front, failed)
-         if (is_ok(status)) call note_pivots(plan%position, plan%n_pivots, fronts%plan%n, front, diagonal, failed, report, fine)
+         if (is_ok(status)) call note_pivots(plan%position, plan%n_pivots, n_before, front, diagonal, failed, report, fine)
          if (.not. is_ok(fine)) status = fine
          if (failed > 0 .or. .not. is_ok(status)) return
          held%columns = front(:, :plan%n_pivots)
@@ -149,23 +153,16 @@ contains
       is_as_it_is = all(plan%front(f)%child == 0) .and. plan%front(f)%n_pivots == 0 .and. size(own%start) == 2
    end function is_as_it_is
 
-   subroutine keep_own(plan, own, values, held)
+   subroutine keep_own(plan, own, values, original, held)
       type(front_plan_t), intent(in) :: plan
       type(packed_matrices_t), intent(in) :: own
       real(wp), intent(in), contiguous :: values(:)
+      real(wp), intent(in) :: original(:)
       type(held_front_t), intent(inout) :: held
-      integer(ip) :: j, n
-      integer(lp) :: k
 
-      n = size(own%unknown, kind=ip)
       held%update = values
       held%position = plan%position(own%unknown)
-      allocate (held%diagonal(n))
-      k = 1
-      do j = 1, n
-         held%diagonal(j) = values(k)
-         k = k + n - j + 1
-      end do
+      held%diagonal = original
    end subroutine keep_own
 
    subroutine forget(held)
@@ -176,11 +173,12 @@ contains
    end subroutine forget
 
    !> The matrices of this rank.
-   subroutine add_own(plan, f, own, values, front, diagonal)
+   subroutine add_own(plan, f, own, values, original, front, diagonal)
       type(front_plan_t), intent(in) :: plan
       integer(ip), intent(in) :: f
       type(packed_matrices_t), intent(in) :: own
       real(wp), intent(in), contiguous :: values(:)
+      real(wp), intent(in) :: original(:)
       real(wp), intent(inout), contiguous :: front(:, :)
       real(wp), intent(inout) :: diagonal(:)
       integer(ip) :: place(plan%n), m, i
@@ -192,10 +190,8 @@ contains
          associate (at => place(plan%position(own%unknown(own%start(m):own%start(m + 1) - 1))))
             call add_element(size(front, 1, kind=ip), front, size(at, kind=ip), at, values(k + 1:))
             k = k + packed_triangle(size(at, kind=ip), size(at, kind=ip))
+            diagonal(at) = diagonal(at) + original(own%start(m):own%start(m + 1) - 1)
          end associate
-      end do
-      do i = 1, size(diagonal, kind=ip)
-         diagonal(i) = diagonal(i) + front(i, i)
       end do
    end subroutine add_own
 

@@ -72,14 +72,18 @@ contains
    !>
    !> status: STATUS_SINGULAR when K_ii is singular or indefinite; `report` then names the unknown that has no pivot, or moves most
    !> in the softest motion. STATUS_INTERNAL when the memory is too small. The same on all ranks.
-   subroutine factor_shared(system, values, status)
+   subroutine factor_shared(system, values, original, n_before, status)
       type(shared_system_t), intent(inout) :: system
       !> (packed_length(system%own)) values of the matrices of this rank, as put_packed puts them; scaled on return
       real(wp), intent(inout), contiguous, target :: values(:)
+      !> (size(system%own%unknown)) diagonals of the matrices, or what they were before anything was eliminated from them: fronts
+      !> judge pivots by their sum, MUMPS by the diagonal of what it gets
+      real(wp), intent(in) :: original(:)
+      integer(ip), intent(in) :: n_before        !< equations of which the system is what is left: their round-off is in it; >= n
       type(status_t), intent(out) :: status
 
       if (system%has_fronts) then
-         call factor_shared_fronts(system%fronts, system%own, values, system%report, status)
+         call factor_shared_fronts(system%fronts, system%own, values, original, n_before, system%report, status)
       else
          call factor_by_mumps(system%mumps, values, status)
          system%report = system%mumps%report

@@ -1,8 +1,9 @@
 !> What the solvers of the parts of a scene will take on their ranks, before the parts are made.
 !>
 !> A part is expected to take of what its body would take by itself the share that it has in the body's elements; what it leaves of
-!> the equations that it keeps is a full matrix. That is an upper bound, some twice of what elements take that are equal, so where
-!> it does not fit the parts are made one after the other, on the first rank, and their fronts counted.
+!> the equations that it keeps is a full matrix. That is an upper bound, but for some hundredths of small parts that keep much, and
+!> some twice of what elements take that are equal, so where it does not fit the parts are made one after the other, on the first
+!> rank, and their fronts counted.
 module atrito_part_bytes
    use atrito_assembly, only: fem_t, body_profile, collect_elements
    use atrito_bodies, only: order_by_dissection
@@ -30,7 +31,7 @@ module atrito_part_bytes
 
 contains
 
-   !> An upper bound.
+   !> An upper bound, nearly.
    subroutine estimate_parts(fem, shares, parts)
       type(fem_t), intent(in) :: fem
       type(shares_t), intent(in) :: shares

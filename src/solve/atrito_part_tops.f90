@@ -37,14 +37,14 @@ contains
       type(part_store_t), intent(inout) :: parts
       type(top_store_t), intent(inout) :: tops
       type(parcel_t), intent(inout) :: request
-      integer(ip), allocatable :: told(:)        ! what is wanted, group, unknowns, kept ones
+      integer(ip), allocatable :: told(:)        ! what is wanted, group, unknowns, kept ones, equations
       type(status_t) :: status
       real(wp) :: nothing(0, 0)
 
       call take(request, told)
       select case (told(1))
       case (TOP_MAKE)
-         call make_top(parts, tops, told(2), told(3:4), status)
+         call make_top(parts, tops, told(2), told(3:5), status)
       case (TOP_REDUCE)
          call reduce_shared(tops%list(find_top(tops, told(2)))%system, nothing, status)
       case (TOP_EXPAND)
@@ -57,7 +57,7 @@ contains
    !> The first rank tells the others what they are to join in.
    subroutine ask_for_top(wanted, group, sizes)
       integer(ip), intent(in) :: wanted, group
-      integer(ip), intent(in) :: sizes(2)        !< unknowns, and how many of them are kept
+      integer(ip), intent(in) :: sizes(3)        !< unknowns, how many of them are kept, equations of the body
       type(parcel_t) :: request
       integer(ip) :: rank
 
@@ -85,18 +85,19 @@ contains
       type(part_store_t), intent(inout) :: parts !< what is left of the parts is given back
       type(top_store_t), intent(inout) :: tops
       integer(ip), intent(in) :: group
-      integer(ip), intent(in) :: sizes(2)        !< unknowns, and how many of them are kept
+      integer(ip), intent(in) :: sizes(3)        !< unknowns, how many of them are kept, equations of the body
       type(status_t), intent(out) :: status
       integer(ip), allocatable :: start(:), unknown(:)
-      real(wp), allocatable :: values(:)
+      real(wp), allocatable :: values(:), diagonal(:)
       integer(ip) :: i, m, at
 
       at = place_for(tops, group)
       start = [1_ip]
-      allocate (unknown(0))
+      allocate (unknown(0), diagonal(0))
       do i = 1, parts%n
          if (parts%list(i)%group /= group) cycle
          unknown = [unknown, parts%list(i)%part%top]
+         diagonal = [diagonal, parts%list(i)%solver%retained_diagonal]
          start = [start, size(unknown, kind=ip) + 1_ip]
       end do
       associate (system => tops%list(at)%system)
@@ -110,7 +111,7 @@ contains
             call put_packed(system%own, m, parts%list(i)%schur, values)
             deallocate (parts%list(i)%schur)
          end do
-         call factor_shared(system, values, status)
+         call factor_shared(system, values, diagonal, sizes(3), status)
       end associate
    end subroutine make_top
 

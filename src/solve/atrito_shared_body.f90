@@ -127,7 +127,7 @@ contains
       class(shared_body_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
 
-      associate (group => self%piece(1)%ticket, sizes => [self%top%n, self%top%n_kept])
+      associate (group => self%piece(1)%ticket, sizes => [self%top%n, self%top%n_kept, self%n])
          call ask_for_top(TOP_MAKE, group, sizes)
          call make_top(self%own%parts, self%own%tops, group, sizes, status)
          if (status%code == STATUS_INTERNAL) return
@@ -183,7 +183,7 @@ contains
          call take_reduced(self%piece(p), columns, f, top)
       end do
       if (size(self%piece) > 1) then
-         call ask_for_top(TOP_REDUCE, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
+         call ask_for_top(TOP_REDUCE, self%piece(1)%ticket, [self%top%n, self%top%n_kept, self%n])
          call reduce_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, status)
          call note_trouble(self%own, status)
       end if
@@ -220,7 +220,7 @@ contains
 
       if (size(self%piece) > 1) then
          top = x(self%top%equation, :)
-         call ask_for_top(TOP_EXPAND, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
+         call ask_for_top(TOP_EXPAND, self%piece(1)%ticket, [self%top%n, self%top%n_kept, self%n])
          call expand_shared(self%own%tops%list(find_top(self%own%tops, self%piece(1)%ticket))%system, top, status)
          call note_trouble(self%own, status)
          x(self%top%equation, :) = top
@@ -273,7 +273,7 @@ contains
 
       if (.not. allocated(self%piece)) return
       if (size(self%piece) > 1) then
-         call ask_for_top(TOP_FORGET, self%piece(1)%ticket, [self%top%n, self%top%n_kept])
+         call ask_for_top(TOP_FORGET, self%piece(1)%ticket, [self%top%n, self%top%n_kept, self%n])
          call forget_top(self%own%tops, self%piece(1)%ticket)
       end if
       do p = 1, size(self%piece, kind=ip)

@@ -1,7 +1,7 @@
 !> The shares of the ranks in one scene: whole bodies by their predicted work, and bodies with more of it than a fair share in
 !> pieces.
 !>
-!> Fair is the same work for all ranks, but less for the first where there are several others (fair_share).
+!> Fair is the same work for all ranks, but less for the first (fair_share).
 !> A body of work w where f is fair is cut into pieces of f and what is left of it. Pieces of a fair share have a rank of their own,
 !> all others are shared out over the contact graph. As long as one rank has far more than the mean, its heaviest piece is halved.
 !> The same scene and number of ranks give the same shares.
@@ -55,8 +55,8 @@ module atrito_shares
    real(wp), parameter :: LEAST_WORK = 2.0e9_wp
    !> A piece with this share of what is fair has a rank of its own; less than this, of what is fair, is no piece of its own.
    real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
-   !> The work of the ranks but the first over the mean.
-   real(wp), parameter :: OF_OTHERS = 1.15_wp
+   !> What the first rank has besides, over the work of all: of time and of memory, some of each.
+   real(wp), parameter :: BESIDES = 0.2_wp
    !> The largest work of a rank over the mean for which nothing is cut any more, and pieces of the fair share that are not.
    real(wp), parameter :: EVEN_ENOUGH = 1.2_wp, LEAST_CUT = 0.05_wp
    !> For each rank, so that it ends.
@@ -145,15 +145,15 @@ contains
       call arrange(fem, shares)
    end subroutine make_shares
 
-   !> That of each rank but the first, of all the work. With more than two ranks these have more of it than the mean: the first one
-   !> has the mesh and the results of the whole scene besides. With two the time counts that one waits for the other.
+   !> That of each rank but the first, of all the work; the first one has less: it has the mesh and the results of the whole scene
+   !> besides, and does what is not shared out.
    pure real(wp) function fair_share(n_ranks) result(share)
       integer(ip), intent(in) :: n_ranks         !< >= 1
       real(wp) :: n
 
       n = real(n_ranks, wp)
-      share = 1.0_wp/n
-      if (n_ranks > 2) share = min(share*OF_OTHERS, 1.0_wp/(n - 1.0_wp))
+      share = 1.0_wp
+      if (n_ranks > 1) share = min((1.0_wp + BESIDES*(n - 1.0_wp)/n)/n, 1.0_wp/(n - 1.0_wp))
    end function fair_share
 
    !> The shares of a body's pieces in it; one piece: it stays whole.

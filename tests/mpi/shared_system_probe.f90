@@ -7,7 +7,7 @@ program shared_system_probe
    use atrito_dense, only: solve_lu
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count, spread_from_first
-   use atrito_packed_matrices, only: packed_length, put_packed
+   use atrito_packed_matrices, only: packed_diagonals, packed_length, put_packed
    use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, expand_shared, factor_shared, &
                                    memory_of_shared, reduce_shared, schur_of_shared, solve_shared, MOST_ORDER
    use atrito_status, only: status_t, is_ok, STATUS_SINGULAR
@@ -145,7 +145,7 @@ contains
          order = scene%start(m + 1) - scene%start(m)
          call put_packed(system%own, k, scene%matrices(:order, :order, m), values)
       end do
-      call factor_shared(system, values, status)
+      call factor_shared(system, values, packed_diagonals(system%own, values), system%n, status)
    end subroutine factor_own
 
    subroutine try_system(what, n, n_kept, count, shift, size_of)

@@ -7,7 +7,7 @@ program shared_system_times
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count
-   use atrito_packed_matrices, only: packed_length, put_packed
+   use atrito_packed_matrices, only: packed_diagonals, packed_length, put_packed
    use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared, &
                                    MOST_ORDER
    use atrito_status, only: status_t, is_ok
@@ -32,7 +32,7 @@ program shared_system_times
    if (is_ok(status)) then
       call make_values()
       times(2:3) = [times(2) - times(1), clock()]
-      call factor_shared(system, values, status)
+      call factor_shared(system, values, packed_diagonals(system%own, values), system%n, status)
    end if
    if (is_ok(status)) then
       times(3:4) = [clock() - times(3), clock()]
