@@ -5,8 +5,9 @@
 !>
 !>     solving      mesh of the parts                                72 n + 64 e
 !>                  and the largest of: the parcel of a part; its solvers while they are made; the factors and
-!>                  what is left of parts, packed, and MUMPS         LEFT_BYTES k^2
-!>                  tops: a share of the factor; the last front      8 (i (i/2 + c)/ranks + 2 c^2)
+!>                  what is left of parts, packed                    LEFT_BYTES k^2
+!>                  fronts of tops, i' = 2 i/ranks: the first rank   8 ((i' + c)^2 + c^2)
+!>                  others, with more than two ranks                 8 (i' + (i' + c)/2)^2
 !>     recovering   mesh of its region, and the parcel               2 (72 n + 64 e)
 !>                  stresses and patches                             recovery_bytes(n, e)
 !>
@@ -39,10 +40,10 @@ module atrito_rank_forecast
 
    integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
    integer(lp), parameter :: MESH_NODE = 72_lp, MESH_ELEMENT = 64_lp
-   !> Of what is left of a part with k unknowns, for k^2: full, packed, coordinates, what MUMPS makes of both.
-   integer(lp), parameter :: LEFT_BYTES = 27_lp
-   !> Buffers of MPI; the library of MUMPS, which is loaded for tops.
-   integer(lp), parameter :: BUFFERS = 4000000_lp, MUMPS_LIBRARY = 12000000_lp
+   !> Of what is left of a part with k unknowns, for k^2: packed, by its solver, by itself and as a front that goes on.
+   integer(lp), parameter :: LEFT_BYTES = 12_lp
+   !> Buffers of MPI.
+   integer(lp), parameter :: BUFFERS = 4000000_lp
    !> Elements in the rings of a region, for each node of a border.
    integer(lp), parameter :: RINGS = 5_lp
    !> On the first rank, for each node and element of the scene: loads, displacements, reactions and stresses as a whole, lists of
@@ -71,23 +72,22 @@ contains
       logical, intent(in) :: are_there               !< the ranks have their parts already
       integer(lp), allocatable :: bytes(:)           !< (ranks) from 0
       type(rank_size_t) :: ranks(0:shares%n_ranks - 1)
-      integer(lp) :: top, later, sent
+      integer(lp) :: top(2), later, sent         ! top: of the first rank and of others
       integer(ip) :: r
 
       call measure_ranks(data%fem, shares, parts, ranks)
       top = 0
-      if (data%contact_form /= CONTACT_SPARSE) top = top_bytes(shares)
+      if (data%contact_form /= CONTACT_SPARSE) top = [top_bytes(shares, .true.), top_bytes(shares, .false.)]
       later = LATER_BYTES + BUFFERS
-      if (top > 0) later = later + MUMPS_LIBRARY
       sent = 2*maxval(ranks(1:)%largest)
       allocate (bytes(0:shares%n_ranks - 1))
       do r = 1, shares%n_ranks - 1
-         bytes(r) = later + overlap(solving_bytes(ranks(r), are_there, top, ranks(r)%largest), &
+         bytes(r) = later + overlap(solving_bytes(ranks(r), are_there, top(2), ranks(r)%largest), &
                                     region_bytes(data%model, ranks(r)), LEFT_BEHIND(2))
       end do
       bytes(0) = later + field_library_bytes(data) &
                  + overlap(load_bytes(data%model) + list_bytes(data%fem) &
-                           + solving_bytes(ranks(0), are_there, top + contact_system(data, scene), sent), &
+                           + solving_bytes(ranks(0), are_there, top(1) + contact_system(data, scene), sent), &
                            whole_bytes(data) + region_bytes(data%model, ranks(0)) + sent, LEFT_BEHIND(1))
    end function forecast_ranks
 
@@ -143,18 +143,24 @@ contains
       bytes = max(rank%most, rank%held + LEFT_BYTES*rank%left + beside, parcels) + MESH_NODE*rank%nodes + MESH_ELEMENT*rank%elements
    end function solving_bytes
 
-   !> A rank's share in the factors of what the parts of bodies have in common, and the last front, which any may have.
-   pure integer(lp) function top_bytes(shares) result(bytes)
+   !> Fronts of what the parts of bodies have in common: that of the first rank has the last border and all contact dofs, and what is
+   !> left of these is a full matrix; another rank may have one of half as much that is kept, and a border more.
+   pure integer(lp) function top_bytes(shares, is_first) result(bytes)
       type(shares_t), intent(in) :: shares
+      logical, intent(in) :: is_first
       integer(ip) :: b
-      integer(lp) :: interior, kept
+      integer(lp) :: border, kept
 
       bytes = 0
       do b = 1, size(shares%tops, kind=ip)
          if (shares%first(b + 1) - shares%first(b) < 2) cycle
          kept = int(shares%tops(b)%n_kept, lp)
-         interior = int(shares%tops(b)%n, lp) - kept
-         bytes = bytes + REAL_BYTES*(interior*(interior/2 + kept)/shares%n_ranks + 2*kept**2)
+         border = 2*(int(shares%tops(b)%n, lp) - kept)/shares%n_ranks
+         if (is_first) then
+            bytes = bytes + REAL_BYTES*((border + kept)**2 + kept**2)
+         else if (shares%n_ranks > 2) then
+            bytes = bytes + REAL_BYTES*(border + (border + kept)/2)**2
+         end if
       end do
    end function top_bytes
 
