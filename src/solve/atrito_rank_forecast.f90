@@ -143,8 +143,8 @@ contains
       bytes = max(rank%most, rank%held + LEFT_BYTES*rank%left + beside, parcels) + MESH_NODE*rank%nodes + MESH_ELEMENT*rank%elements
    end function solving_bytes
 
-   !> Fronts of what the parts of bodies have in common: that of the first rank has the last border and all contact dofs, and what is
-   !> left of these is a full matrix; another rank may have one of half as much that is kept, and a border more.
+   !> Fronts of what the parts of bodies have in common: that of the first rank has the last border and all contact dofs, and what
+   !> is left of these is a full matrix; another rank may have one of half as much that is kept, and a border more.
    pure integer(lp) function top_bytes(shares, is_first) result(bytes)
       type(shares_t), intent(in) :: shares
       logical, intent(in) :: is_first
