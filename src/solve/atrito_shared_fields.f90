@@ -57,7 +57,9 @@ contains
       integer(ip) :: rank
 
       allocate (results%nodal_stress(size(STRESS_NAMES), fem%mesh%n_nodes), source=0.0_wp)
-      if (by_element .and. .not. allocated(results%element_error)) allocate (results%element_error(fem%mesh%n_elements))
+      if (by_element .and. .not. allocated(results%element_error)) then
+         allocate (results%element_error(fem%mesh%n_elements), source=0.0_wp)
+      end if
       allocate (regions(0:rank_count() - 1))
       unit = unit_of(results%u)
       do rank = rank_count() - 1, 0, -1

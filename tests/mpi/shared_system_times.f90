@@ -1,15 +1,15 @@
-!> How long MUMPS takes for dense blocks that ranks share [s of the clock]; asserts nothing (docs/developer/solvers.md, Over ranks).
+!> How long fronts and MUMPS take for dense blocks that ranks share [s of the clock]; asserts nothing (docs/developer/solvers.md, Over ranks).
 !>
-!>     mpirun -n N shared_system_times ORDER BLOCKS KEPT
+!>     mpirun -n N shared_system_times ORDER BLOCKS KEPT MOST
 !>
-!> BLOCKS matrices of that order, dealt out to the ranks; each shares a quarter of its unknowns with the one before it.
+!> BLOCKS matrices of that order, dealt out to the ranks; each shares a quarter of its unknowns with the one before it. MOST: order of
+!> the largest front; 0: by MUMPS.
 program shared_system_times
    use, intrinsic :: iso_fortran_env, only: output_unit
    use atrito_kinds, only: ip, lp, wp
    use atrito_mpi, only: begin_ranks, end_ranks, largest_of_ranks, own_rank, rank_count
    use atrito_packed_matrices, only: packed_diagonals, packed_length, put_packed
-   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared, &
-                                   MOST_ORDER
+   use atrito_shared_system, only: shared_system_t, begin_shared, end_shared, factor_shared, memory_of_shared, solve_shared
    use atrito_status, only: status_t, is_ok
    use atrito_system, only: peak_memory
    implicit none (type, external)
@@ -27,7 +27,7 @@ program shared_system_times
    n_kept = argument(3)
    call make_pattern()
    times(1) = clock()
-   call begin_shared(system, n, n_kept, start, unknown, status, MOST_ORDER)
+   call begin_shared(system, n, n_kept, start, unknown, status, argument(4))
    times(2) = clock()
    if (is_ok(status)) then
       call make_values()
