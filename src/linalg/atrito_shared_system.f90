@@ -10,7 +10,7 @@
 !>     S = K_cc - K_ci K_ii^-1 K_ic
 !>
 !> A tree of dense fronts over the ranks solves it (atrito_shared_fronts) as long as each of them fits well into one rank; larger
-!> systems go to MUMPS over all ranks (atrito_ranks_mumps), which shares out its fronts, too, and takes three to five times as
+!> systems go to MUMPS over all ranks (atrito_ranks_mumps), which shares out its fronts, too, and takes two to four times as
 !> long where both can (docs/developer/solvers.md).
 !>
 !> All ranks call every procedure in the same order (but memory_of_shared, schur_of_shared). With one rank it works as well.
