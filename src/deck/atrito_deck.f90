@@ -353,7 +353,7 @@ contains
       type(deck_t), intent(inout) :: deck
       type(token_t), intent(in) :: token
 
-      if (deck%n_tokens == size(deck%tokens)) deck%tokens = [deck%tokens, deck%tokens]
+      if (deck%n_tokens == size(deck%tokens)) call make_room(deck, deck%n_tokens/2 + 1_ip, 0_ip)
       deck%n_tokens = deck%n_tokens + 1
       deck%tokens(deck%n_tokens) = token
    end subroutine append_token
@@ -362,7 +362,7 @@ contains
    subroutine append_line(deck)
       type(deck_t), intent(inout) :: deck
 
-      if (deck%n_lines == size(deck%lines)) deck%lines = [deck%lines, deck%lines]
+      if (deck%n_lines == size(deck%lines)) call make_room(deck, 0_ip, deck%n_lines/2 + 1_ip)
       deck%n_lines = deck%n_lines + 1
       deck%lines(deck%n_lines) = data_line_t(first_token=deck%n_tokens + 1)
    end subroutine append_line

@@ -35,6 +35,8 @@ module atrito_reader
 
    !> What an item or a line takes at the most.
    integer(lp), parameter :: ITEM_BYTES = 40_lp
+   !> Room for items and lines that stand behind a large file, so that the lists of all need not become longer.
+   integer(ip), parameter :: BEHIND = 4096_ip
    !> A smaller file is not worth the question.
    integer(ip), parameter :: SMALL_FILE = 1000000
 
@@ -461,7 +463,7 @@ contains
       memory = available_memory()
       fits = ITEM_BYTES*items <= memory
       if (fits) then
-         call make_room(deck, int(items, ip), int(lines, ip))
+         call make_room(deck, int(items, ip) + BEHIND, int(lines, ip) + BEHIND)
       else
          call report_deck_error(deck, 'E-MEMORY', 'a file of '//to_text(items)//' items and lines needs about '// &
                                 memory_text(ITEM_BYTES*items)//' of memory, there are '//memory_text(memory), &
