@@ -1,14 +1,15 @@
-!> Cuts of a mesh into parts that are solved side by side: METIS_PartMeshDual, or by the places of the elements where there is
-!> no METIS.
+!> Cuts of a mesh into parts that are solved side by side: by the places of the elements where that is about as short as on a
+!> regular mesh, else by METIS_PartMeshDual where there is METIS, and its cut has fewer nodes.
 !>
 !> METIS takes most of its time to find numbers in memory where neighbours are far apart, as they are in meshes of most
 !> generators. So the elements are sorted into squares first and their nodes numbered as they come (docs/developer/solvers.md).
 module atrito_element_cuts
    use atrito_kinds, only: ip, wp
    use atrito_metis, only: cut_mesh
+   use atrito_place_cuts, only: cut_by_places
    implicit none (type, external)
    private
-   public :: cut_elements, cut_by_places
+   public :: cut_elements, cut_by_metis, sort_by_squares
 
    !> Elements of a mesh in the order of the squares that they lie in.
    type :: sorted_mesh_t
@@ -22,8 +23,6 @@ module atrito_element_cuts
    integer(ip), parameter :: CORNERS = 4_ip
    !> Elements of a square, nearly.
    real(wp), parameter :: OF_A_SQUARE = 64.0_wp
-   !> Halvings of the length along which a place of a cut is looked for.
-   integer, parameter :: MOST_HALVINGS = 50
 
 contains
 
@@ -36,21 +35,50 @@ contains
       real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
       real(wp), intent(in) :: target(:)          !< (parts) shares of the weight; their sum is 1
       integer(ip), intent(out) :: part(:)        !< (elements) 1..size(target)
-      type(sorted_mesh_t) :: mesh
-      integer(ip), allocatable :: sorted(:)
-      logical :: done
+      integer(ip), allocatable :: other(:)
+      logical :: is_short, done
 
       part = 1
       if (size(target) < 2 .or. size(elements) < size(target)) return
+      call cut_by_places(elements, nodes, n_nodes_of, x, target, part, is_short)
+      if (is_short) return
+      allocate (other(size(elements)))
+      call cut_by_metis(elements, nodes, n_nodes_of, x, target, other, done)
+      if (.not. done) return
+      if (count_border(elements, nodes, n_nodes_of, other) < count_border(elements, nodes, n_nodes_of, part)) part = other
+   end subroutine cut_elements
+
+   subroutine cut_by_metis(elements, nodes, n_nodes_of, x, target, part, done)
+      integer(ip), intent(in) :: elements(:), nodes(:, :), n_nodes_of(:)
+      real(wp), intent(in) :: x(:, :), target(:)
+      integer(ip), intent(out) :: part(:)
+      logical, intent(out) :: done               !< there is METIS, and it had enough memory
+      type(sorted_mesh_t) :: mesh
+      integer(ip), allocatable :: sorted(:)
+
       call sort_elements(elements, nodes, n_nodes_of, x, mesh)
       allocate (sorted(size(elements)))
       call cut_mesh(mesh%first, mesh%corner, mesh%n_nodes, n_nodes_of(elements(mesh%order)), target, sorted, done)
-      if (done) then
-         part(mesh%order) = sorted
-      else
-         call cut_by_places(elements, nodes, n_nodes_of, x, target, part)
-      end if
-   end subroutine cut_elements
+      if (done) part(mesh%order) = sorted
+   end subroutine cut_by_metis
+
+   !> Nodes that more than one part has.
+   pure integer(ip) function count_border(elements, nodes, n_nodes_of, part) result(n)
+      integer(ip), intent(in) :: elements(:), nodes(:, :), n_nodes_of(:), part(:)
+      integer(ip) :: first_of(maxval(nodes(:, elements))), i, k, node
+
+      n = 0
+      first_of = 0                               ! part that has a node; less than 0: others have it, too
+      do i = 1, size(elements, kind=ip)
+         do k = 1, n_nodes_of(elements(i))
+            node = nodes(k, elements(i))
+            if (first_of(node) == 0) first_of(node) = part(i)
+            if (first_of(node) < 0 .or. first_of(node) == part(i)) cycle
+            first_of(node) = -part(i)
+            n = n + 1
+         end do
+      end do
+   end function count_border
 
    subroutine sort_elements(elements, nodes, n_nodes_of, x, mesh)
       integer(ip), intent(in) :: elements(:), nodes(:, :), n_nodes_of(:)
@@ -81,7 +109,7 @@ contains
       mesh%corner = mesh%corner(:n)
    end subroutine sort_elements
 
-   !> The places in a list of nodes, square by square.
+   !> The places in a list of nodes, square by square: what is near in the plane is near in the list.
    pure subroutine sort_by_squares(x, nodes, order)
       real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
       integer(ip), intent(in) :: nodes(:)
@@ -122,65 +150,5 @@ contains
       end function square_of
 
    end subroutine sort_by_squares
-
-   !> The same by the places of the elements: across the longer side, as far along it as half of the parts have their share.
-   subroutine cut_by_places(elements, nodes, n_nodes_of, x, target, part)
-      integer(ip), intent(in) :: elements(:), nodes(:, :), n_nodes_of(:)
-      real(wp), intent(in) :: x(:, :), target(:)
-      integer(ip), intent(out) :: part(:)
-      integer(ip), allocatable :: list(:)
-      integer(ip) :: i
-
-      part = 1
-      list = [(i, i=1, size(elements, kind=ip))]
-      call cut_list(1_ip, size(target, kind=ip), list)
-
-   contains
-
-      recursive subroutine cut_list(first, last, list)
-         integer(ip), intent(in) :: first, last  !< parts
-         integer(ip), intent(in) :: list(:)      !< places in `elements`
-         logical :: is_lower(size(list))
-         integer(ip) :: middle
-
-         if (first == last) then
-            part(list) = first
-            return
-         end if
-         middle = (first + last - 1)/2
-         associate (of_list => elements(list))
-            call find_lower(x(:, nodes(1, of_list)), n_nodes_of(of_list), sum(target(first:middle))/sum(target(first:last)), &
-                            is_lower)
-         end associate
-         call cut_list(first, middle, pack(list, is_lower))
-         call cut_list(middle + 1, last, pack(list,.not. is_lower))
-      end subroutine cut_list
-
-   end subroutine cut_by_places
-
-   !> Finds what lies below a place along the longer side, so that it has a share of the weight.
-   pure subroutine find_lower(at, weight, share, is_lower)
-      real(wp), intent(in) :: at(:, :)           !< (2, n) [L]
-      integer(ip), intent(in) :: weight(:)       !< (n)
-      real(wp), intent(in) :: share              !< 0 to 1
-      logical, intent(out) :: is_lower(:)        !< (n)
-      real(wp) :: low, high, place
-      integer :: along, halving
-
-      is_lower = .true.
-      if (size(at, 2) == 0) return
-      along = maxloc([(maxval(at(along, :)) - minval(at(along, :)), along=1, 2)], dim=1)
-      low = minval(at(along, :))
-      high = maxval(at(along, :))
-      do halving = 1, MOST_HALVINGS
-         place = 0.5_wp*low + 0.5_wp*high
-         if (sum(real(weight, wp), mask=at(along, :) < place) < share*sum(real(weight, wp))) then
-            low = place
-         else
-            high = place
-         end if
-      end do
-      is_lower = at(along, :) < high
-   end subroutine find_lower
 
 end module atrito_element_cuts

@@ -5,6 +5,7 @@
 !> METIS in place of their places: graded meshes, and flat elements that lie in no direction in particular. Where the mesh is
 !> irregular and large, elements at the cuts change sides (atrito_cut_refinement).
 module atrito_element_order
+   use atrito_compact_mesh, only: compact_mesh_t, compact
    use atrito_cut_refinement, only: list_corners
    use atrito_dissection, only: dissect, dissection_t, dissection_guide_t, sample_place
    use atrito_element_clusters, only: cluster_t, join_elements, link_clusters
@@ -15,24 +16,14 @@ module atrito_element_order
    private
    public :: order_elements
 
-   !> Some elements with numbers of their own for them and their nodes, in the order of a dissection: what lies together is near
-   !> in memory.
-   type :: compact_mesh_t
-      integer(ip), allocatable :: list(:)        !< (elements) 1, 2, ...
-      integer(ip), allocatable :: nodes(:, :)    !< (most nodes, elements)
-      integer(ip), allocatable :: n_nodes_of(:)  !< (elements)
-      integer(ip), allocatable :: node(:)        !< (n) of all
-      real(wp), allocatable :: x(:, :)           !< (2, n) [L]
-      logical, allocatable :: wanted(:)          !< (n)
-   end type compact_mesh_t
-
-   integer, parameter :: BY_PLACES = 0, BY_PLACES_REFINED = 1, BY_METIS = 2
    !> Fewer elements are cut by their places.
    integer(ip), parameter :: LEAST = 2000_ip
    !> Operations of a factorisation for each unit of a dissection's work, with two equations a node; measured, as all below.
    real(wp), parameter :: OPERATIONS = 65.0_wp
-   !> Work of METIS's cuts over that of a regular mesh. Work that moving elements saves where they lie irregularly.
-   real(wp), parameter :: METIS_SHARE = 1.45_wp, REFINED_SHARE = 0.9_wp
+   !> Work of METIS's cuts over that of a regular mesh.
+   real(wp), parameter :: METIS_SHARE = 1.45_wp
+   !> Work that is left when elements that lie irregularly were moved: cuts by the centres of triangles go to and fro. The least.
+   real(wp), parameter :: REFINED_QUADRILATERALS = 0.9_wp, REFINED_TRIANGLES = 0.5_wp, BEST_REFINED = 0.3_wp
    !> What ordering takes for each element, in operations of the factorisation.
    real(wp), parameter :: METIS_COST = 16000.0_wp, REFINING_COST = 6000.0_wp
    !> Elements are joined to clusters of 2**ROUNDS, and sets of no more than so many elements are cut by their places.
@@ -60,8 +51,9 @@ contains
       type(dissection_t), intent(out) :: parts
       character(len=:), allocatable, intent(out) :: text !< how, for the listing
       type(dissection_guide_t) :: guide
-      real(wp) :: angle
-      integer :: way
+      type(compact_mesh_t) :: mesh
+      real(wp) :: angle, by_metis, by_places
+      logical :: refines
 
       call find_direction(elements, nodes, x, angle)
       guide%cosine = cos(angle)
@@ -69,62 +61,72 @@ contains
       call dissect(elements, nodes, n_nodes_of, x, wanted, guide, parts)
       text = 'by places'
       if (abs(angle) > 0.0_wp) text = text//', turned by '//to_text(angle*45.0_wp/atan(1.0_wp), 3)//' degrees'
-      way = choose_way(elements, nodes, x, parts)
-      if (way == BY_PLACES) return
-      call dissect_again(way, nodes, n_nodes_of, x, wanted, guide, parts, text)
-   end subroutine order_elements
-
-   !> The way that is predicted to cost least, ordering and factorisation together.
-   integer function choose_way(elements, nodes, x, parts) result(way)
-      integer(ip), intent(in) :: elements(:), nodes(:, :)
-      real(wp), intent(in) :: x(:, :)
-      type(dissection_t), intent(in) :: parts    !< by places
-      real(wp) :: cost(BY_PLACES:BY_METIS), n
-
-      way = BY_PLACES
       if (size(elements) < LEAST) return
-      n = real(size(elements), wp)
-      cost(BY_PLACES) = OPERATIONS*parts%work
-      cost(BY_PLACES_REFINED) = REFINED_SHARE*OPERATIONS*parts%work + REFINING_COST*n
-      cost(BY_METIS) = METIS_SHARE*OPERATIONS*parts%regular_work + METIS_COST*n
-      way = minloc(cost, dim=1) - 1
-      if (way == BY_PLACES_REFINED .and. .not. are_irregular(elements, nodes, x)) way = BY_PLACES
-   end function choose_way
-
-   subroutine dissect_again(way, nodes, n_nodes_of, x, wanted, guide, parts, text)
-      integer, intent(in) :: way
-      integer(ip), intent(in) :: nodes(:, :), n_nodes_of(:)
-      real(wp), intent(in) :: x(:, :)
-      logical, intent(in) :: wanted(:)
-      type(dissection_guide_t), intent(inout) :: guide
-      type(dissection_t), intent(inout) :: parts !< another, where that has less work
-      character(len=:), allocatable, intent(inout) :: text
-      type(compact_mesh_t) :: mesh
-      type(dissection_t) :: other
-      logical :: done
-
+      by_places = parts%work
+      by_metis = METIS_SHARE*OPERATIONS*parts%regular_work + METIS_COST*real(size(elements), wp)
+      refines = is_refining_worth(parts, expected_share(elements, n_nodes_of), by_metis)
+      if (refines) refines = are_irregular(elements, nodes, x)
+      if (.not. refines .and. by_metis >= OPERATIONS*by_places) return
       call compact(parts%element, nodes, n_nodes_of, x, wanted, mesh)
       guide%refines = .true.
       call list_corners(mesh%list, mesh%nodes, mesh%n_nodes_of, size(mesh%node, kind=ip), guide%lists)
-      done = .true.
-      if (way == BY_METIS) call halve_elements(mesh%list, guide, done)
-      if (.not. done) return
+      if (refines) call dissect_again(text//', refined', by_places, mesh, guide, parts, text)
+      if (by_metis >= OPERATIONS*parts%work) return
+      call halve_elements(mesh%list, guide)
+      if (allocated(guide%half)) call dissect_again('by METIS', by_places, mesh, guide, parts, text)
+   end subroutine order_elements
+
+   !> Moving elements at the cuts is expected to save more than it takes, and may come to less than METIS.
+   pure logical function is_refining_worth(parts, share, by_metis)
+      type(dissection_t), intent(in) :: parts    !< by places
+      real(wp), intent(in) :: share              !< of the work that is expected to be left
+      real(wp), intent(in) :: by_metis           !< predicted [operations]
+      real(wp) :: takes
+
+      takes = REFINING_COST*real(size(parts%element), wp)
+      is_refining_worth = takes < (1.0_wp - share)*OPERATIONS*parts%work .and. &
+                          takes + BEST_REFINED*OPERATIONS*parts%work < by_metis
+   end function is_refining_worth
+
+   !> The share of the work that is left when elements were moved, from what a sample of them has for corners.
+   pure real(wp) function expected_share(elements, n_nodes_of) result(share)
+      integer(ip), intent(in) :: elements(:), n_nodes_of(:)
+      integer(ip) :: i, n, n_triangles
+
+      n = min(MOST_SAMPLES, size(elements, kind=ip))
+      n_triangles = 0
+      do i = 1, n
+         associate (n_nodes => n_nodes_of(elements(sample_place(i, n, size(elements, kind=ip)))))
+            if (n_nodes == 3 .or. n_nodes == 6) n_triangles = n_triangles + 1
+         end associate
+      end do
+      share = REFINED_QUADRILATERALS + (REFINED_TRIANGLES - REFINED_QUADRILATERALS)*real(n_triangles, wp)/real(n, wp)
+   end function expected_share
+
+   !> Another dissection by another guide, where that has less work.
+   subroutine dissect_again(how, by_places, mesh, guide, parts, text)
+      character(len=*), intent(in) :: how
+      real(wp), intent(in) :: by_places          !< work of the first dissection
+      type(compact_mesh_t), intent(in) :: mesh
+      type(dissection_guide_t), intent(in) :: guide
+      type(dissection_t), intent(inout) :: parts
+      character(len=:), allocatable, intent(inout) :: text
+      type(dissection_t) :: other
+
       call dissect(mesh%list, mesh%nodes, mesh%n_nodes_of, mesh%x, mesh%wanted, guide, other)
       if (other%work >= parts%work) return
-      text = text//', refined'
-      if (way == BY_METIS) text = 'by METIS'
-      text = text//', predicted operations '//to_text(other%work/parts%work, 2)//' of those by places'
+      text = how//', predicted operations '//to_text(other%work/by_places, 2)//' of those by places'
       parts = other
       parts%order = mesh%node(other%order)
    end subroutine dissect_again
 
    !> Halves, halves of these and so on, by METIS.
-   subroutine halve_elements(list, guide, done)
+   subroutine halve_elements(list, guide)
       integer(ip), intent(in) :: list(:)
-      type(dissection_guide_t), intent(inout) :: guide
-      logical, intent(out) :: done
+      type(dissection_guide_t), intent(inout) :: guide !< halves are on return, where METIS found them
       type(cluster_t) :: clusters
       integer(ip), allocatable :: half(:)
+      logical :: done
 
       call join_elements(guide%lists, list, ROUNDS, clusters)
       call link_clusters(guide%lists, clusters)
@@ -134,34 +136,6 @@ contains
                        IMBALANCE, half, done)
       if (done) guide%half = half(clusters%of_element)
    end subroutine halve_elements
-
-   subroutine compact(elements, nodes, n_nodes_of, x, wanted, mesh)
-      integer(ip), intent(in) :: elements(:), nodes(:, :), n_nodes_of(:)
-      real(wp), intent(in) :: x(:, :)
-      logical, intent(in) :: wanted(:)
-      type(compact_mesh_t), intent(out) :: mesh
-      integer(ip) :: number(size(wanted)), list(size(wanted)), i, k, n, node
-
-      mesh%list = [(i, i=1, size(elements, kind=ip))]
-      mesh%n_nodes_of = n_nodes_of(elements)
-      allocate (mesh%nodes(size(nodes, 1), size(elements)), source=0_ip)
-      number = 0
-      n = 0
-      do i = 1, size(elements, kind=ip)
-         do k = 1, mesh%n_nodes_of(i)
-            node = nodes(k, elements(i))
-            if (number(node) == 0) then
-               n = n + 1
-               number(node) = n
-               list(n) = node
-            end if
-            mesh%nodes(k, i) = number(node)
-         end do
-      end do
-      mesh%node = list(:n)
-      mesh%x = x(:, mesh%node)
-      mesh%wanted = wanted(mesh%node)
-   end subroutine compact
 
    !> The angle that the sides of the elements have in common, or that less a right one; 0: none that counts.
    pure subroutine find_direction(elements, nodes, x, angle)

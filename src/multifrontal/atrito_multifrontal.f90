@@ -7,7 +7,7 @@
 !> - cut_elements and share_graph share out elements, and what else there is of them, to those who solve together.
 module atrito_multifrontal
    use atrito_dissection, only: dissection_t
-   use atrito_element_cuts, only: cut_elements
+   use atrito_element_cuts, only: cut_elements, sort_by_squares
    use atrito_element_order, only: order_elements
    use atrito_element_store, only: element_store_t, begin_store, add_to_store, move_store, take_own_matrices, &
                                    sum_diagonals, pack_matrix, unpack_matrix

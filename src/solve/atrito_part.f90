@@ -66,26 +66,29 @@ contains
       nullify (part%fem%mesh)
    end subroutine release_part
 
-   !> The nodes in the order of the body, those with equations that are retained last: of the border, then of the contact.
+   !> The nodes, those with equations that are retained last, in the order of the top.
    subroutine order_nodes(fem, share, top, nodes)
       type(fem_t), intent(in) :: fem
       type(share_t), intent(in) :: share
       type(top_t), intent(in) :: top
       integer(ip), allocatable, intent(out) :: nodes(:)
       logical, allocatable :: stays(:)
-      integer(ip) :: i
+      integer(ip) :: node_at(top%n), at(2), i
 
       if (share%is_whole) then
          nodes = fem%bodies%list(share%body)%nodes
          return
       end if
       allocate (stays(size(share%nodes)))
+      node_at = 0
       do i = 1, size(share%nodes, kind=ip)
          associate (equation => fem%bodies%equation(:, share%nodes(i)))
-            stays(i) = place_in(top%equation, equation(1)) > 0 .or. place_in(top%equation, equation(2)) > 0
+            at = [place_in(top%equation, equation(1)), place_in(top%equation, equation(2))]
+            stays(i) = any(at > 0)
+            if (stays(i)) node_at(minval(at, mask=at > 0)) = share%nodes(i)
          end associate
       end do
-      nodes = [pack(share%nodes,.not. stays), pack(share%nodes, stays)]
+      nodes = [pack(share%nodes,.not. stays), pack(node_at, node_at > 0)]
    end subroutine order_nodes
 
    !> The place of a number in an ascending list; 0: it is not there.

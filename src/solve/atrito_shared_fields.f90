@@ -11,6 +11,7 @@ module atrito_shared_fields
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_mesh_parcel, only: put_mesh, put_sections, take_mesh, take_sections
+   use atrito_multifrontal, only: sort_by_squares
    use atrito_mpi, only: rank_count, receive_parcel, send_parcel
    use atrito_parcel, only: parcel_t, put, take
    use atrito_plane_state, only: STRESS_NAMES
@@ -53,6 +54,7 @@ contains
       type(region_t), allocatable :: regions(:)      ! from 0
       type(found_t) :: found
       type(energies_t) :: energies
+      integer(ip), allocatable :: order(:)
       real(wp) :: unit
       integer(ip) :: rank
 
@@ -62,8 +64,9 @@ contains
       end if
       allocate (regions(0:rank_count() - 1))
       unit = unit_of(results%u)
+      call sort_by_squares(fem%mesh%x, fem%mesh%nodes(1, :), order)
       do rank = rank_count() - 1, 0, -1
-         call find_region(fem%mesh, rank_of, rank, regions(rank))
+         call find_region(fem%mesh, order, rank_of, rank, regions(rank))
          call take_piece(fem, regions(rank)%node, regions(rank)%element, regions(rank)%fem)
          if (rank == 0) cycle
          call give_region(regions(rank), results%u(:, regions(rank)%node), unit, by_element, rank)
@@ -179,12 +182,13 @@ contains
    end subroutine measure_region
 
    !> The elements of a rank, then those in the rings round them; and their nodes in this order.
-   pure subroutine find_region(mesh, rank_of, rank, region)
+   pure subroutine find_region(mesh, order, rank_of, rank, region)
       type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: order(:)            !< (n_elements) in which they come
       integer(ip), intent(in) :: rank_of(:), rank
       type(region_t), intent(out) :: region
       logical :: is_in(mesh%n_elements), is_known(mesh%n_nodes), touches(mesh%n_nodes)
-      integer(ip) :: ring, e, n, n_nodes
+      integer(ip) :: ring, e, i, n, n_nodes
 
       region%n_own = count(rank_of == rank, kind=ip)
       allocate (region%element(mesh%n_elements), region%node(mesh%n_nodes))
@@ -194,7 +198,8 @@ contains
       is_known = .false.
       do ring = 0, RINGS
          touches = is_known
-         do e = 1, mesh%n_elements
+         do i = 1, mesh%n_elements
+            e = order(i)
             if (ring == 0 .and. .not. is_in(e)) cycle
             if (ring > 0) then
                if (is_in(e)) cycle

@@ -1,7 +1,7 @@
 !> The shares of the ranks in one scene: whole bodies by their predicted work, and bodies with more of it than a fair share in
 !> pieces.
 !>
-!> Fair is the same work for all ranks, but less for the first (fair_share).
+!> Fair is the same work for all ranks, of many but the first (fair_share).
 !> A body of work w where f is fair is cut into pieces of f and what is left of it. Pieces of a fair share have a rank of their own,
 !> all others are shared out over the contact graph. As long as one rank has far more than the mean, its heaviest piece is halved.
 !> The same scene and number of ranks give the same shares.
@@ -14,7 +14,7 @@ module atrito_shares
    use atrito_contact_rows, only: contact_rows_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
-   use atrito_multifrontal, only: cut_elements
+   use atrito_multifrontal, only: cut_elements, sort_by_squares
    use atrito_profile, only: profile_t
    implicit none (type, external)
    private
@@ -55,7 +55,7 @@ module atrito_shares
    real(wp), parameter :: LEAST_WORK = 2.0e9_wp
    !> A piece with this share of what is fair has a rank of its own; less than this, of what is fair, is no piece of its own.
    real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
-   !> What the first rank has besides, over the work of all: of time and of memory, some of each.
+   !> What the first of many ranks has besides, over the work of all.
    real(wp), parameter :: BESIDES = 0.2_wp
    !> The largest work of a rank over the mean for which nothing is cut any more, and pieces of the fair share that are not.
    real(wp), parameter :: EVEN_ENOUGH = 1.2_wp, LEAST_CUT = 0.05_wp
@@ -145,15 +145,15 @@ contains
       call arrange(fem, shares)
    end subroutine make_shares
 
-   !> That of each rank but the first, of all the work; the first one has less: it has the mesh and the results of the whole scene
-   !> besides, and does what is not shared out.
+   !> That of each rank but the first, of all the work. Two ranks have the same: it is time that counts. Of many the first one has
+   !> less: it has the mesh and the results of the whole scene besides, and would be the largest.
    pure real(wp) function fair_share(n_ranks) result(share)
       integer(ip), intent(in) :: n_ranks         !< >= 1
       real(wp) :: n
 
       n = real(n_ranks, wp)
       share = 1.0_wp
-      if (n_ranks > 1) share = min((1.0_wp + BESIDES*(n - 1.0_wp)/n)/n, 1.0_wp/(n - 1.0_wp))
+      if (n_ranks > 1) share = min((1.0_wp + BESIDES*(n - 2.0_wp)/n)/n, 1.0_wp/(n - 1.0_wp))
    end function fair_share
 
    !> The shares of a body's pieces in it; one piece: it stays whole.
@@ -172,6 +172,7 @@ contains
       end if
    end function pieces_of
 
+   !> The elements of a body that is cut are sorted: neighbours are near in memory on their ranks.
    subroutine add_body(fem, b, work, target, list)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b
@@ -179,10 +180,15 @@ contains
       real(wp), intent(in) :: target(:)          !< (pieces)
       type(share_t), allocatable, intent(inout) :: list(:)
       type(share_t) :: whole
+      integer(ip), allocatable :: order(:)
 
       whole%body = b
       whole%work = work
       whole%elements = fem%bodies%list(b)%elements
+      if (size(target) > 1) then
+         call sort_by_squares(fem%mesh%x, fem%mesh%nodes(1, whole%elements), order)
+         whole%elements = whole%elements(order)
+      end if
       call append(fem, whole, target, list)
    end subroutine add_body
 
@@ -387,40 +393,29 @@ contains
       integer(ip), intent(inout) :: place(:)     !< (nodes of the mesh)
       type(share_t), intent(inout) :: parts(:)
       logical, intent(inout) :: is_border(:)     !< (nodes of the body) more than one part has it
-      integer(ip), allocatable :: found(:, :)    !< (2, ...) place of a node, part that has it, each once
-      integer(ip), allocatable :: last(:), first(:), holder(:)
-      integer(ip) :: n(size(parts)), i, h, k, p
+      integer(ip), allocatable :: found(:)       !< places of the nodes of one part after the other
+      integer(ip), allocatable :: last(:), n_parts(:)
+      integer(ip) :: i, before, n, p
 
       place(body%nodes) = [(i, i=1, size(body%nodes, kind=ip))]
-      allocate (last(size(body%nodes)), source=0_ip)
-      allocate (found(2, sum(fem%mesh%shape(body%elements))))
-      k = 0
-      do p = 1, size(parts, kind=ip)
-         h = k
-         call find_nodes(fem, parts(p)%elements, place, p, last, found, k)
-         n(p) = k - h
-      end do
-      call list_holders(size(body%nodes, kind=ip), found(:1, :k), first, holder)
-      is_border = first(2:) - first(:size(is_border)) > 1
-      do p = 1, size(parts, kind=ip)
-         allocate (parts(p)%nodes(n(p)))
-      end do
+      allocate (last(size(body%nodes)), n_parts(size(body%nodes)), source=0_ip)
+      allocate (found(sum(fem%mesh%shape(body%elements))))
       n = 0
-      do i = 1, size(body%nodes, kind=ip)
-         do h = first(i), first(i + 1) - 1
-            p = found(2, holder(h))
-            n(p) = n(p) + 1
-            parts(p)%nodes(n(p)) = body%nodes(i)
-         end do
+      do p = 1, size(parts, kind=ip)
+         before = n
+         call find_nodes(fem, parts(p)%elements, place, p, last, found, n)
+         n_parts(found(before + 1:n)) = n_parts(found(before + 1:n)) + 1
+         parts(p)%nodes = body%nodes(found(before + 1:n))
       end do
+      is_border = n_parts > 1
    end subroutine list_nodes
 
-   !> The nodes of the elements of a part, each once.
+   !> The nodes of the elements of a part, each once, as they come.
    pure subroutine find_nodes(fem, elements, place, p, last, found, n)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: elements(:), place(:), p
       integer(ip), intent(inout) :: last(:)      !< part that was found last at each node
-      integer(ip), intent(inout) :: found(:, :), n
+      integer(ip), intent(inout) :: found(:), n
       integer(ip) :: i, k, node
 
       do i = 1, size(elements, kind=ip)
@@ -429,7 +424,7 @@ contains
             if (last(node) == p) cycle
             last(node) = p
             n = n + 1
-            found(:, n) = [node, p]
+            found(n) = node
          end do
       end do
    end subroutine find_nodes
