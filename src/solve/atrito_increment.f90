@@ -27,7 +27,7 @@ module atrito_increment
    use atrito_scene_top, only: take_trouble_of_top
    use atrito_section_forces, only: sum_cuts
    use atrito_sparse_form, only: solve_sparse_form
-   use atrito_shared_fields, only: estimate_on_ranks
+   use atrito_shared_fields, only: shared_fields_t, begin_fields, end_fields, EQUILIBRIUM_WORK, STRESS_WORK
    use atrito_status, only: status_t, is_ok
    use atrito_step_loads, only: moment_t
    use atrito_strings, only: to_text
@@ -135,6 +135,7 @@ contains
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
       real(wp), allocatable :: u(:, :)                      ! without rigid motions, (2, n_nodes) [L]
+      type(shared_fields_t) :: fields
 
       if (form == CONTACT_SPARSE) then
          call solve_sparse_form(data, controls, results, solution, u, status)
@@ -149,9 +150,10 @@ contains
       call stop_phase('iterate')
       if (.not. is_ok(status)) return
       call start_phase('recover')
+      if (data%is_printed) call begin_early(data, solution, u, fields)
       call recover(data, solution, u, results)
       call stop_phase('recover')
-      if (data%is_printed) call complete_results(data, results)
+      if (data%is_printed) call complete_results(data, results, fields)
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
                      growth_of_bodies(data, results%scene))
@@ -292,18 +294,22 @@ contains
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of
    !> a linear theory.
-   subroutine complete_results(data, results)
+   subroutine complete_results(data, results, fields)
       type(scene_data_t), intent(in) :: data
       type(results_t), intent(inout) :: results
+      type(shared_fields_t), intent(inout) :: fields        !< may have begun
       real(wp) :: strain_bound
 
       call start_phase('recover')
+      if (allocated(data%rank_of) .and. .not. allocated(fields%regions)) then
+         call begin_fields(data%fem, data%rank_of, results%u, work_of_stresses(data), data%wants_element_errors, fields)
+      end if
       call sum_joints(data%fem%bodies%of_node, data%points, results%contact, results%joints)
       call recover_stress(data%step%requests, data%fem, results)
       call stop_phase('recover')
       call start_phase('estimate')
       if (allocated(data%rank_of)) then
-         call estimate_on_ranks(data%fem, data%rank_of, results, strain_bound, data%wants_element_errors)
+         call end_fields(data%fem, fields, results, strain_bound)
       else
          call estimate_error(data%fem, results, strain_bound, data%wants_element_errors)
       end if
@@ -311,6 +317,34 @@ contains
       call find_extremes(data%model%mesh, data%fem%bodies%of_node, data%points, results)
       call stop_phase('estimate')
    end subroutine complete_results
+
+   !> Where there are several ranks the others begin with the fields, while the first one checks the equilibrium.
+   subroutine begin_early(data, solution, u, fields)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: u(:, :)                       !< without rigid motions, (2, n_nodes) [L]
+      type(shared_fields_t), intent(inout) :: fields
+      real(wp), allocatable :: total(:, :)
+
+      if (.not. allocated(data%rank_of)) return
+      total = u
+      call add_rigid_motions(data%fem, solution%state%a, total)
+      call begin_fields(data%fem, data%rank_of, total, EQUILIBRIUM_WORK + work_of_stresses(data), data%wants_element_errors, &
+                        fields)
+   end subroutine begin_early
+
+   !> What the stresses that are asked for take, over the fields of all elements.
+   pure real(wp) function work_of_stresses(data) result(work)
+      type(scene_data_t), intent(in) :: data
+
+      work = 0.0_wp
+      associate (requests => data%step%requests)
+         if (requests%stress .or. requests%fields%stress) work = STRESS_WORK
+         if (requests%stress .and. .not. requests%fields%stress) then
+            work = work*real(count(requests%element_s), wp)/real(size(requests%element_s), wp)
+         end if
+      end associate
+   end function work_of_stresses
 
    !> Displacements, reactions, contact fields, energies and balances.
    subroutine recover(data, solution, u, results)

@@ -2,6 +2,7 @@
 module atrito_observer
    use atrito_history_lists, only: add_observed
    use atrito_increment, only: complete_results
+   use atrito_shared_fields, only: shared_fields_t
    use atrito_results, only: observed_list_t, results_t
    use atrito_rigid_results, only: leave_mesh_alone
    use atrito_scene_data, only: scene_data_t
@@ -34,10 +35,11 @@ contains
       type(results_t), intent(inout) :: results      !< of the increment; complete where it is printed
       type(observed_list_t), intent(inout) :: list
       type(results_t) :: whole
+      type(shared_fields_t) :: fields
 
       if (observer%wants_stress .and. .not. data%is_printed) then
          whole = results
-         call complete_results(data, whole)
+         call complete_results(data, whole, fields)
          call leave_mesh_alone(data, whole)
          call observer%observe(whole)
          call move_alloc(whole%observed, results%observed)

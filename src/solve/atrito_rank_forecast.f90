@@ -32,6 +32,7 @@ module atrito_rank_forecast
    use atrito_scene_data, only: scene_data_t
    use atrito_scene_forecast, only: contact_bytes, field_library_bytes, load_bytes, recovery_bytes, request_bytes, with_holes, &
                                     LATER_BYTES
+   use atrito_shared_fields, only: kept_share, EQUILIBRIUM_WORK, STRESS_WORK
    use atrito_shares, only: shares_t
    use atrito_solver_choice, only: SOLVER_SPARSE
    implicit none (type, external)
@@ -73,9 +74,11 @@ contains
       integer(lp), allocatable :: bytes(:)           !< (ranks) from 0
       type(rank_size_t) :: ranks(0:shares%n_ranks - 1)
       integer(lp) :: top(2), later, sent         ! top: of the first rank and of others
+      real(wp) :: fields(0:shares%n_ranks - 1)   ! elements with the fields of a rank over those of its parts
       integer(ip) :: r
 
       call measure_ranks(data%fem, shares, parts, ranks)
+      fields = share_of_fields(ranks)
       top = 0
       if (data%contact_form /= CONTACT_SPARSE) top = [top_bytes(shares, .true.), top_bytes(shares, .false.)]
       later = LATER_BYTES + BUFFERS
@@ -83,12 +86,12 @@ contains
       allocate (bytes(0:shares%n_ranks - 1))
       do r = 1, shares%n_ranks - 1
          bytes(r) = later + overlap(solving_bytes(ranks(r), are_there, top(2), ranks(r)%largest), &
-                                    region_bytes(data%model, ranks(r)), LEFT_BEHIND(2))
+                                    region_bytes(data%model, ranks(r), fields(r)), LEFT_BEHIND(2))
       end do
       bytes(0) = later + field_library_bytes(data) &
                  + overlap(load_bytes(data%model) + list_bytes(data%fem) &
                            + solving_bytes(ranks(0), are_there, top(1) + contact_system(data, scene), sent), &
-                           whole_bytes(data) + region_bytes(data%model, ranks(0)) + sent, LEFT_BEHIND(1))
+                           whole_bytes(data) + region_bytes(data%model, ranks(0), fields(0)) + sent, LEFT_BEHIND(1))
    end function forecast_ranks
 
    !> What the first rank grows by at the least, however many there are.
@@ -164,14 +167,27 @@ contains
       end do
    end function top_bytes
 
+   !> The others take over what the first rank has no time for.
+   pure function share_of_fields(ranks) result(share)
+      type(rank_size_t), intent(in) :: ranks(0:)
+      real(wp) :: share(0:size(ranks) - 1)
+      real(wp) :: elements(0:size(ranks) - 1), keeps
+
+      elements = max(1.0_wp, real(ranks%elements, wp))
+      keeps = min(elements(0), kept_share(EQUILIBRIUM_WORK + STRESS_WORK, size(ranks, kind=ip))*sum(elements))
+      share(0) = keeps/elements(0)
+      share(1:) = (elements(1:) + (elements(0) - keeps)/real(size(ranks) - 1, wp))/elements(1:)
+   end function share_of_fields
+
    !> Stresses and patches of the rank's elements and of those in the rings round them.
-   integer(lp) function region_bytes(model, rank) result(bytes)
+   integer(lp) function region_bytes(model, rank, share) result(bytes)
       type(model_t), intent(in) :: model
       type(rank_size_t), intent(in) :: rank
+      real(wp), intent(in) :: share                  !< elements with fields over those of the rank's parts
       integer(lp) :: nodes, elements
 
-      nodes = rank%nodes + RINGS*rank%border/2
-      elements = rank%elements + RINGS*rank%border/2
+      nodes = int(share*real(rank%nodes, wp), lp) + RINGS*rank%border/2
+      elements = int(share*real(rank%elements, wp), lp) + RINGS*rank%border/2
       bytes = 2*(MESH_NODE*nodes + MESH_ELEMENT*elements) + recovery_bytes(model, nodes, elements)
    end function region_bytes
 

@@ -22,9 +22,12 @@ module atrito_shared_fields
    use atrito_thermal_loads, only: largest_thermal_strain
    implicit none (type, external)
    private
-   public :: estimate_on_ranks, serve_fields
+   public :: shared_fields_t, begin_fields, end_fields, serve_fields, hand_over, kept_share
+   public :: EQUILIBRIUM_WORK, STRESS_WORK
 
    integer(ip), parameter :: RINGS = 4
+   !> What the equilibrium and the stresses of all elements take, over recovered stresses and their error.
+   real(wp), parameter :: EQUILIBRIUM_WORK = 0.3_wp, STRESS_WORK = 0.25_wp
 
    !> The elements of a rank, and what is round them.
    type :: region_t
@@ -32,8 +35,14 @@ module atrito_shared_fields
       integer(ip) :: n_nodes = 0                     !< of them: the first ones
       integer(ip), allocatable :: element(:)         !< place in the mesh of the scene
       integer(ip), allocatable :: node(:)
-      type(fem_t) :: fem                             !< its mesh is the region's own
    end type region_t
+
+   !> Fields that have begun.
+   type :: shared_fields_t
+      type(region_t), allocatable :: regions(:)      !< from 0; not allocated: they have not
+      real(wp) :: unit = 0.0_wp
+      logical :: by_element = .false.
+   end type shared_fields_t
 
    !> What is found in a region.
    type :: found_t
@@ -44,50 +53,99 @@ module atrito_shared_fields
 
 contains
 
-   !> The same as estimate_error.
-   subroutine estimate_on_ranks(fem, rank_of, results, strain_bound, by_element)
+   !> Gives the other ranks their elements; they begin. end_fields has to follow, with nothing else for the ranks between.
+   subroutine begin_fields(fem, rank_of, u, besides, by_element, fields)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: rank_of(:)          !< (n_elements)
-      type(results_t), intent(inout) :: results
+      real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
+      real(wp), intent(in) :: besides                !< what the first rank does meanwhile, over the fields of all elements
+      logical, intent(in) :: by_element              !< the error of each is wanted
+      type(shared_fields_t), intent(out) :: fields
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: rank, owner(size(rank_of))
+      type(fem_t) :: piece
+
+      allocate (fields%regions(0:rank_count() - 1))
+      fields%unit = unit_of(u)
+      fields%by_element = by_element
+      call sort_by_squares(fem%mesh%x, fem%mesh%nodes(1, :), order)
+      owner = rank_of
+      call hand_over(order, besides, rank_count(), owner)
+      do rank = rank_count() - 1, 0, -1
+         associate (region => fields%regions(rank))
+            call find_region(fem%mesh, order, owner, rank, region)
+            if (rank == 0) cycle
+            call take_piece(fem, region%node, region%element, piece)
+            call give_region(region, piece, u(:, region%node), fields%unit, by_element, rank)
+            deallocate (piece%mesh)
+         end associate
+      end do
+   end subroutine begin_fields
+
+   !> The elements of the first rank that the others take over, slice by slice: it has other things to do.
+   pure subroutine hand_over(order, besides, n_ranks, owner)
+      integer(ip), intent(in) :: order(:)            !< (n_elements) elements, neighbours near each other
+      real(wp), intent(in) :: besides
+      integer(ip), intent(in) :: n_ranks
+      integer(ip), intent(inout) :: owner(:)         !< (n_elements)
+      integer(ip), allocatable :: own(:)
+      integer(ip) :: keeps, n, i
+
+      own = pack(order, owner(order) == 0)
+      n = size(own, kind=ip)
+      keeps = int(kept_share(besides, n_ranks)*real(size(order), wp), ip)
+      do i = keeps + 1, n
+         owner(own(i)) = 1 + int(real(n_ranks - 1, wp)*real(i - keeps - 1, wp)/real(n - keeps, wp), ip)
+      end do
+   end subroutine hand_over
+
+   !> The most elements, over all, of which the first rank has the fields.
+   pure real(wp) function kept_share(besides, n_ranks) result(share)
+      real(wp), intent(in) :: besides
+      integer(ip), intent(in) :: n_ranks
+
+      share = max(0.0_wp, (1.0_wp - besides*real(n_ranks - 1, wp))/real(n_ranks, wp))
+   end function kept_share
+
+   !> The same as estimate_error.
+   subroutine end_fields(fem, fields, results, strain_bound)
+      type(fem_t), intent(in) :: fem
+      type(shared_fields_t), intent(inout) :: fields !< that have begun; none on return
+      type(results_t), intent(inout) :: results      !< with the displacements with which they have
       real(wp), intent(out) :: strain_bound          !< no strain is larger than this
-      logical, intent(in) :: by_element
-      type(region_t), allocatable :: regions(:)      ! from 0
       type(found_t) :: found
       type(energies_t) :: energies
-      integer(ip), allocatable :: order(:)
-      real(wp) :: unit
+      type(fem_t) :: piece
       integer(ip) :: rank
 
       allocate (results%nodal_stress(size(STRESS_NAMES), fem%mesh%n_nodes), source=0.0_wp)
-      if (by_element .and. .not. allocated(results%element_error)) then
+      if (fields%by_element .and. .not. allocated(results%element_error)) then
          allocate (results%element_error(fem%mesh%n_elements), source=0.0_wp)
       end if
-      allocate (regions(0:rank_count() - 1))
-      unit = unit_of(results%u)
-      call sort_by_squares(fem%mesh%x, fem%mesh%nodes(1, :), order)
-      do rank = rank_count() - 1, 0, -1
-         call find_region(fem%mesh, order, rank_of, rank, regions(rank))
-         call take_piece(fem, regions(rank)%node, regions(rank)%element, regions(rank)%fem)
-         if (rank == 0) cycle
-         call give_region(regions(rank), results%u(:, regions(rank)%node), unit, by_element, rank)
-         deallocate (regions(rank)%fem%mesh)
+      do rank = 0, rank_count() - 1
+         associate (region => fields%regions(rank))
+            if (rank > 0) then
+               call receive_found(rank, found)
+            else
+               if (region%n_own == 0) cycle
+               call take_piece(fem, region%node, region%element, piece)
+               call measure_region(region, piece, results%u(:, region%node), fields%unit, fields%by_element, found)
+               deallocate (piece%mesh)
+            end if
+            call take_found(region, found, results, energies)
+         end associate
       end do
-      call measure_region(regions(0), results%u(:, regions(0)%node), unit, by_element, found)
-      deallocate (regions(0)%fem%mesh)
-      call take_found(regions(0), found, results, energies)
-      do rank = 1, rank_count() - 1
-         call receive_found(rank, found)
-         call take_found(regions(rank), found, results, energies)
-      end do
-      if (by_element) results%element_error = share_errors(energies, results%element_error)
+      deallocate (fields%regions)
+      if (fields%by_element) results%element_error = share_errors(energies, results%element_error)
       results%error_estimate = relative_error(energies)
       strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! as estimate_error
-   end subroutine estimate_on_ranks
+   end subroutine end_fields
 
    !> Joins in; what is left of the parcel comes behind SERVICE_FIELDS.
    subroutine serve_fields(request)
       type(parcel_t), intent(inout) :: request
       type(region_t) :: region
+      type(fem_t) :: piece
       type(found_t) :: found
       type(parcel_t) :: answer
       real(wp), allocatable :: u(:, :)
@@ -99,11 +157,11 @@ contains
       call take(request, unit)
       call take(request, by_element)
       call take(request, u)
-      allocate (region%fem%mesh)
-      call take_mesh(request, region%fem%mesh)
-      call take_sections(request, region%fem)
-      call measure_region(region, u, unit, by_element, found)
-      deallocate (region%fem%mesh)
+      allocate (piece%mesh)
+      call take_mesh(request, piece%mesh)
+      call take_sections(request, piece)
+      call measure_region(region, piece, u, unit, by_element, found)
+      deallocate (piece%mesh)
       call put(answer, found%stress)
       associate (e => found%energies)
          call put(answer, [e%solution, e%error, e%round_off, e%strain])
@@ -112,8 +170,9 @@ contains
       call send_parcel(answer, 0_ip)
    end subroutine serve_fields
 
-   subroutine give_region(region, u, unit, by_element, rank)
+   subroutine give_region(region, piece, u, unit, by_element, rank)
       type(region_t), intent(in) :: region
+      type(fem_t), intent(in) :: piece               !< its elements, with a mesh of their own
       real(wp), intent(in), contiguous :: u(:, :)    !< (2, nodes of the region) [L]
       real(wp), intent(in) :: unit
       logical, intent(in) :: by_element
@@ -126,8 +185,8 @@ contains
       call put(request, unit)
       call put(request, by_element)
       call put(request, u)
-      call put_mesh(request, region%fem%mesh)
-      call put_sections(request, region%fem)
+      call put_mesh(request, piece%mesh)
+      call put_sections(request, piece)
       call send_parcel(request, rank)
    end subroutine give_region
 
@@ -160,8 +219,9 @@ contains
    end subroutine take_found
 
    !> Stresses at the nodes of the rank's elements, and their error.
-   subroutine measure_region(region, u, unit, by_element, found)
-      type(region_t), intent(inout) :: region
+   subroutine measure_region(region, piece, u, unit, by_element, found)
+      type(region_t), intent(in) :: region
+      type(fem_t), intent(inout) :: piece            !< its elements
       real(wp), intent(in) :: u(:, :)                !< (2, nodes of the region) [L]
       real(wp), intent(in) :: unit
       logical, intent(in) :: by_element
@@ -169,15 +229,15 @@ contains
       type(stress_field_t) :: field
       real(wp), allocatable :: stress(:, :)
 
-      call recover_stress_field(region%fem, u, field)
-      call nodal_stresses(region%fem, field, stress)
+      call recover_stress_field(piece, u, field)
+      call nodal_stresses(piece, field, stress)
       found%stress = stress(:, :region%n_nodes)
-      region%fem%mesh%n_elements = region%n_own      ! those round them have served
+      piece%mesh%n_elements = region%n_own      ! those round them have served
       allocate (found%square(merge(region%n_own, 0_ip, by_element)))
       if (by_element) then
-         call integrate_error(region%fem, u, field, found%energies, unit, found%square)
+         call integrate_error(piece, u, field, found%energies, unit, found%square)
       else
-         call integrate_error(region%fem, u, field, found%energies, unit)
+         call integrate_error(piece, u, field, found%energies, unit)
       end if
    end subroutine measure_region
 
