@@ -2,7 +2,7 @@
 #    gnuplot tests/bench/rank-model.gp        draws docs/user/figures/rank-model.png and prints the table
 set terminal pngcairo size 1000,420 font 'sans,11'
 set output 'docs/user/figures/rank-model.png'
-fair(p) = p > 1 ? ((1 + 0.2*(p - 1)/p)/p < 1.0/(p - 1) ? (1 + 0.2*(p - 1)/p)/p : 1.0/(p - 1)) : 1.0
+fair(p) = p > 1 ? ((1 + 0.2*(p - 2)/p)/p < 1.0/(p - 1) ? (1 + 0.2*(p - 2)/p)/p : 1.0/(p - 1)) : 1.0
 own(p) = 1 - (p - 1)*fair(p)
 sides(p) = p < 2 ? 0 : p < 4 ? 1 : p < 16 ? 2 : 4
 root(n, p) = p < 2 ? 0 : 1.07*sqrt(n)
@@ -10,7 +10,7 @@ held(m) = m > 1 ? m*(160 + 59*log(m)/log(2)) : 0
 left(m, p) = 12*(1.4*sides(p)*sqrt(m))**2
 first(n, p) = (340*n + held(own(p)*n) + left(own(p)*n, p) + 8*root(n, p)**2)/1e9
 other(n, p) = (held(fair(p)*n) + left(fair(p)*n, p) + (p > 2 ? 8*(1.5*root(n, p))**2 : 0))/1e9
-serial(n) = 2.8e-6*n
+serial(n) = 2.1e-6*n
 part(n, p) = 6.1*(fair(p)*n/1.25e6)**1.4
 top(n, p) = root(n, p)**3/3/2.5e10*(p > 2 ? 2 : 1)
 whole(n, p) = serial(n) + part(n, p) + top(n, p)
