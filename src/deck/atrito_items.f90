@@ -47,7 +47,7 @@ contains
 
       call get_number(deck, token, what, .true., x, ok, present(default), keyword)
       value = 0
-      if (ok) value = nint(x, ip)
+      if (ok) value = int(x, ip)                       ! whole
       if (ok .and. present(default) .and. is_empty_token(token)) value = default
    end subroutine get_integer
 

@@ -4,13 +4,13 @@ module atrito_block_spec
    use atrito_block_copies, only: copies_t, read_copies
    use atrito_block_map, only: block_map_t, has_arcs
    use atrito_build_elements, only: read_element_type
-   use atrito_build_nodes, only: MOST_NODES
    use atrito_coordinates, only: get_coordinate
    use atrito_deck, only: deck_t, card_t, data_line_t, option_t, token_text, line_item
    use atrito_diagnostics, only: report_error
    use atrito_items, only: get_real, option_integer, find_option
    use atrito_kinds, only: ip, lp, wp
    use atrito_element_table, only: SHAPES
+   use atrito_model_memory, only: most_nodes
    use atrito_strings, only: same_name, to_text
    implicit none (type, external)
    private
@@ -57,9 +57,9 @@ contains
       call read_copies(deck, card, spec%copies, good(6))
       ok = all(good)
       if (.not. all(good([2, 3, 6]))) return
-      if (count_nodes(spec) <= int(MOST_NODES, lp)) return
+      if (count_nodes(spec) <= most_nodes()) return
       ok = .false.
-      call report_error(deck, card%place, 'E-VALUE', 'a block of more than '//to_text(MOST_NODES)//' nodes', &
+      call report_error(deck, card%place, 'E-VALUE', 'a block of more than '//to_text(most_nodes())//' nodes', &
                         expected='fewer elements NX, NY, or fewer copies', keyword='BLOCK')
    end subroutine read_block_spec
 

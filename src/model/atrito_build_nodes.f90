@@ -7,17 +7,14 @@ module atrito_build_nodes
    use atrito_items, only: get_integer, get_real, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
-   use atrito_model_memory, only: fits_memory
+   use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_sets, only: grow_set, set_count
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_node_card, read_ngen_card, read_nfill_card, place_node, put_node_set, MOST_NODES
-
-   !> More than this is a slip of the pen.
-   integer(ip), parameter :: MOST_NODES = 50000000
+   public :: read_node_card, read_ngen_card, read_nfill_card, place_node, put_node_set
 
 contains
 
@@ -166,7 +163,7 @@ contains
 
       is_step = step /= 0
       if (is_step) is_step = modulo(ids(2) - ids(1), step) == 0 .and. (ids(2) - ids(1))/step > 0 &
-                             .and. (ids(2) - ids(1))/step <= MOST_NODES
+                             .and. int((ids(2) - ids(1))/step, lp) <= most_nodes()
       if (is_step) return
       call report_error(deck, line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), 'E-VALUE', 'steps of '// &
                         to_text(step)//' do not lead from node '//to_text(ids(1))//' to node '//to_text(ids(2)), &
@@ -262,11 +259,11 @@ contains
       reach = int(n - 1, lp)*int(step, lp)
       numbers_fit = n == 1 .or. size(ids) == 0
       if (.not. numbers_fit) numbers_fit = minval(ids) + reach > 0_lp .and. maxval(ids) + reach <= int(huge(1_ip), lp) &
-                                           .and. step /= 0 .and. int(n, lp)*size(ids, kind=lp) <= int(MOST_NODES, lp)
+                                           .and. step /= 0 .and. int(n, lp)*size(ids, kind=lp) <= most_nodes()
       if (numbers_fit) return
       call report_error(deck, line_item(deck, line, 3_ip), 'E-VALUE', to_text(n)//' intervals in steps of '//to_text(step)// &
                         ' lead to node numbers that cannot be', expected='positive node numbers, at most '// &
-                        to_text(MOST_NODES)//' nodes', keyword='NFILL')
+                        to_text(most_nodes())//' nodes', keyword='NFILL')
    end function numbers_fit
 
    subroutine fill_lines(context, from, to, n, step, place)

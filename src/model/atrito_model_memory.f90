@@ -1,20 +1,29 @@
-!> Whether the machine can hold a mesh, asked before it is made.
+!> Whether the machine, and lists of integers of 32 bits, can hold a mesh, asked before it is made.
 module atrito_model_memory
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t
-   use atrito_kinds, only: lp
+   use atrito_element_table, only: MOST_NODES_OF_ELEMENT => MOST_NODES
+   use atrito_kinds, only: ip, lp
    use atrito_memory, only: memory_text
+   use atrito_mpi, only: has_mpi
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: fits_memory, mesh_bytes
+   public :: fits_memory, mesh_bytes, most_nodes
 
    !> What a node and an element take at the peak between reading and solving, measured with blocks of a million nodes: Q1 340
    !> bytes a node, refined 440, Q2 440.
    integer(lp), parameter :: NODE_BYTES = 500_lp, ELEMENT_BYTES = 100_lp
+   !> Nodes of a mesh in one process: more are a slip of the pen. Over ranks: a thousand million displacements have their numbers.
+   integer(lp), parameter :: MOST_IN_A_PROCESS = 50000000_lp, MOST_OVER_RANKS = 500000000_lp
 
 contains
+
+   !> Nodes that one keyword, or --refine, may make.
+   pure integer(lp) function most_nodes()
+      most_nodes = merge(MOST_OVER_RANKS, MOST_IN_A_PROCESS, has_mpi())
+   end function most_nodes
 
    !> Bytes of a mesh with all that is built round it before the solution.
    pure integer(lp) function mesh_bytes(n_nodes, n_elements) result(bytes)
@@ -23,21 +32,45 @@ contains
       bytes = NODE_BYTES*n_nodes + ELEMENT_BYTES*n_elements
    end function mesh_bytes
 
-   !> False, and an error, when the mesh with some more nodes and elements needs more memory than there is.
-   logical function fits_memory(place, context, new_nodes, new_elements, keyword) result(fits)
+   !> False, and an error, when the mesh with some more nodes and elements needs more memory than there is, or has more nodes than
+   !> there are numbers for: displacements, and the nodes of all elements one behind the other, are counted in 32 bits.
+   logical function fits_memory(place, context, new_nodes, new_elements, keyword, element_nodes) result(fits)
       type(token_t), intent(in) :: place               !< of the item or keyword that asks for them; source 0: none
       type(build_context_t), intent(in) :: context
       integer(lp), intent(in) :: new_nodes, new_elements
       character(len=*), intent(in), optional :: keyword
-      integer(lp) :: n_nodes, n_elements
+      integer(ip), intent(in), optional :: element_nodes   !< of each new element; without it they may have as many as there are
+      character(len=:), allocatable :: what
+      integer(lp) :: n_nodes, n_elements, n_corners
 
       n_nodes = new_nodes + int(context%model%mesh%n_nodes, lp)
       n_elements = new_elements + int(context%model%mesh%n_elements, lp)
+      n_corners = MOST_NODES_OF_ELEMENT*new_elements
+      if (present(element_nodes)) n_corners = element_nodes*new_elements
+      n_corners = n_corners + count_corners(context, int(huge(1_ip), lp) - n_corners)
+      what = 'a mesh of '//to_text(n_nodes)//' nodes and '//to_text(n_elements)//' elements '
       fits = mesh_bytes(n_nodes, n_elements) <= context%memory
+      if (.not. fits) then
+         call report_error(context%deck, place, 'E-MEMORY', what//'needs about '//memory_text(mesh_bytes(n_nodes, n_elements))// &
+                           ' of memory, there are '//memory_text(context%memory), expected='a coarser mesh, or a larger machine', &
+                           keyword=keyword)
+         return
+      end if
+      fits = n_nodes <= MOST_OVER_RANKS .and. n_corners <= int(huge(1_ip), lp)
       if (fits) return
-      call report_error(context%deck, place, 'E-MEMORY', 'a mesh of '//to_text(n_nodes)//' nodes and '//to_text(n_elements)// &
-                        ' elements needs about '//memory_text(mesh_bytes(n_nodes, n_elements))//' of memory, there are '// &
-                        memory_text(context%memory), expected='a coarser mesh, or a larger machine', keyword=keyword)
+      call report_error(context%deck, place, 'E-VALUE', what//'is more than there are numbers for', expected='at most '// &
+                        to_text(MOST_OVER_RANKS)//' nodes, and '//to_text(huge(1_ip))//' nodes of elements', keyword=keyword)
    end function fits_memory
+
+   !> The nodes of the elements that are there, one behind the other; more than they are where even that is below a bound.
+   pure integer(lp) function count_corners(context, bound) result(n)
+      type(build_context_t), intent(in) :: context
+      integer(lp), intent(in) :: bound
+
+      associate (mesh => context%model%mesh)
+         n = int(MOST_NODES_OF_ELEMENT, lp)*int(mesh%n_elements, lp)
+         if (n > max(bound, 0_lp)) n = sum(int(mesh%shape(:mesh%n_elements), lp))
+      end associate
+   end function count_corners
 
 end module atrito_model_memory

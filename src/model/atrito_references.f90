@@ -29,12 +29,15 @@ contains
       integer(ip), intent(out) :: id
       logical, intent(out) :: ok
       character(len=*), intent(in) :: keyword
+      character(len=*), parameter :: POSITIVE = ', a positive integer'
+      character(len=len(what) + len(POSITIVE)) :: expected   ! // would take memory for each of millions
 
-      call get_integer(deck, token, what//', a positive integer', id, ok, keyword=keyword)
+      expected(:len(what)) = what
+      expected(len(what) + 1:) = POSITIVE
+      call get_integer(deck, token, expected, id, ok, keyword=keyword)
       if (ok .and. id <= 0) then
          ok = .false.
-         call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=what//', a positive integer', &
-                           keyword=keyword)
+         call report_error(deck, token, 'E-ID', to_text(id)//' is not positive', expected=expected, keyword=keyword)
       else if (ok .and. allocated(deck%scopes)) then
          call take_scope(deck, token, what, id, ok, keyword)
       end if

@@ -1,7 +1,6 @@
 !> --refine and --elements: the mesh of a deck and its sets, refined or made of other elements. Surfaces, loads and supports are
 !> read afterwards and follow them.
 module atrito_refine_model
-   use atrito_build_nodes, only: MOST_NODES
    use atrito_build_temperatures, only: refine_temperatures
    use atrito_build_thickness, only: refine_thickness
    use atrito_deck, only: token_t
@@ -11,7 +10,7 @@ module atrito_refine_model
    use atrito_faces, only: list_node_elements
    use atrito_kinds, only: ip, lp
    use atrito_mesh, only: mesh_t
-   use atrito_model_memory, only: fits_memory
+   use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_refine_arcs, only: place_on_arcs
    use atrito_refined_members, only: fine_nodes, fine_elements
    use atrito_refinement, only: refine_mesh, count_fine_nodes
@@ -78,18 +77,19 @@ contains
 
       n = count_fine_nodes(context%model%mesh, pieces, shape)
       greatest = maxval(context%model%mesh%node_id(:context%model%mesh%n_nodes))
-      is_possible = n <= int(MOST_NODES, lp)
+      is_possible = n <= most_nodes()
       if (.not. is_possible) then
-         call report_deck_error(context%deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '//to_text(MOST_NODES)// &
-                                ' nodes', expected='a smaller number: each one more makes four elements of one')
+         call report_deck_error(context%deck, 'E-REFINE', '--refine '//to_text(levels)//' makes more than '// &
+                                to_text(most_nodes())//' nodes', expected='a smaller number: each one more makes four '// &
+                                'elements of one')
          return
       end if
       is_possible = greatest + (n - int(context%model%mesh%n_nodes, lp)) <= int(huge(1_ip), lp)
       if (.not. is_possible) call report_deck_error(context%deck, 'E-REFINE', '--refine '//to_text(levels)// &
                           ': the numbers of the new '//'nodes, which follow the greatest, '//to_text(greatest)//', are too large', &
                                                     expected='smaller node numbers')
-      if (is_possible) is_possible = fits_memory(nowhere, context, n, int(context%model%mesh%n_elements, lp)*int(pieces, &
-                                                                                                                 lp)**2)
+      if (is_possible) is_possible = fits_memory(nowhere, context, n, int(context%model%mesh%n_elements, lp)*int(pieces, lp)**2, &
+                                                 element_nodes=merge(shape, maxval(context%model%mesh%shape), shape > 0))
    end function is_possible
 
    !> New nodes and elements come from where the element that holds them comes from.

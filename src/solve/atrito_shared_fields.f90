@@ -71,10 +71,9 @@ contains
       call sort_by_squares(fem%mesh%x, fem%mesh%nodes(1, :), order)
       owner = rank_of
       call hand_over(order, besides, rank_count(), owner)
-      do rank = rank_count() - 1, 0, -1
+      call find_regions(fem%mesh, order, owner, fields%regions)
+      do rank = rank_count() - 1, 1, -1
          associate (region => fields%regions(rank))
-            call find_region(fem%mesh, order, owner, rank, region)
-            if (rank == 0) cycle
             call take_piece(fem, region%node, region%element, piece)
             call give_region(region, piece, u(:, region%node), fields%unit, by_element, rank)
             deallocate (piece%mesh)
@@ -241,52 +240,124 @@ contains
       end if
    end subroutine measure_region
 
-   !> The elements of a rank, then those in the rings round them; and their nodes in this order.
-   pure subroutine find_region(mesh, order, rank_of, rank, region)
+   !> The elements of each rank, then those in the rings round them; and their nodes in this order. What is near no border is looked
+   !> at RINGS times, for any number of ranks.
+   pure subroutine find_regions(mesh, order, rank_of, regions)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: order(:)            !< (n_elements) in which they come
-      integer(ip), intent(in) :: rank_of(:), rank
-      type(region_t), intent(out) :: region
-      logical :: is_in(mesh%n_elements), is_known(mesh%n_nodes), touches(mesh%n_nodes)
-      integer(ip) :: ring, e, i, n, n_nodes
+      integer(ip), intent(in) :: rank_of(:)          !< (n_elements) from 0; beyond the last rank: nobody's
+      type(region_t), intent(out) :: regions(0:)     !< (ranks) from 0
+      integer(ip) :: known(mesh%n_nodes), n_own(0:maxval(rank_of)), i, rank
+      integer(ip), allocatable :: near(:)
 
-      region%n_own = count(rank_of == rank, kind=ip)
-      allocate (region%element(mesh%n_elements), region%node(mesh%n_nodes))
-      n = 0
-      n_nodes = 0
-      is_in = rank_of == rank
-      is_known = .false.
-      do ring = 0, RINGS
-         touches = is_known
+      n_own = 0
+      do i = 1, size(rank_of, kind=ip)
+         n_own(rank_of(i)) = n_own(rank_of(i)) + 1
+      end do
+      do rank = 0, ubound(regions, 1)
+         allocate (regions(rank)%element(n_own(rank)))
+      end do
+      do i = 1, size(order, kind=ip)
+         if (rank_of(order(i)) > ubound(regions, 1)) cycle
+         associate (region => regions(rank_of(order(i))))
+            region%n_own = region%n_own + 1
+            region%element(region%n_own) = order(i)
+         end associate
+      end do
+      call list_near_border(mesh, order, rank_of, near)
+      known = -1
+      do rank = 0, ubound(regions, 1)
+         call add_rings(mesh, near, rank_of, rank, known, regions(rank))
+      end do
+   end subroutine find_regions
+
+   !> The elements in the rings round any node that elements of several ranks have.
+   pure subroutine list_near_border(mesh, order, rank_of, near)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: order(:), rank_of(:)
+      integer(ip), allocatable, intent(out) :: near(:)   !< in the order of the elements
+      integer(ip) :: ring_of(mesh%n_nodes)           ! of those that are known; before that -2 - a rank that has the node
+      logical :: is_near(mesh%n_elements)
+      integer(ip) :: ring, e, i, k
+      integer(ip), parameter :: NOWHERE = huge(1_ip)
+
+      ring_of = NOWHERE
+      do e = 1, mesh%n_elements
+         do k = 1, mesh%shape(e)
+            i = mesh%nodes(k, e)
+            if (ring_of(i) == NOWHERE) ring_of(i) = -2 - rank_of(e)
+            if (ring_of(i) /= -2 - rank_of(e)) ring_of(i) = 0
+         end do
+      end do
+      where (ring_of < 0) ring_of = NOWHERE
+      is_near = .false.
+      do ring = 1, RINGS
          do i = 1, mesh%n_elements
             e = order(i)
-            if (ring == 0 .and. .not. is_in(e)) cycle
-            if (ring > 0) then
-               if (is_in(e)) cycle
-               if (.not. any(touches(mesh%nodes(:mesh%shape(e), e)))) cycle
-            end if
-            is_in(e) = .true.
-            n = n + 1
-            region%element(n) = e
-            call add_nodes_of(mesh%nodes(:mesh%shape(e), e), is_known, region%node, n_nodes)
+            if (is_near(e)) cycle
+            do k = 1, mesh%shape(e)
+               if (ring_of(mesh%nodes(k, e)) < ring) exit
+            end do
+            is_near(e) = k <= mesh%shape(e)
+            if (.not. is_near(e)) cycle
+            do k = 1, mesh%shape(e)
+               ring_of(mesh%nodes(k, e)) = min(ring_of(mesh%nodes(k, e)), ring)
+            end do
          end do
-         if (ring == 0) region%n_nodes = n_nodes
       end do
-      region%element = region%element(:n)
-      region%node = region%node(:n_nodes)
-   end subroutine find_region
+      near = pack(order, is_near(order))
+   end subroutine list_near_border
 
-   pure subroutine add_nodes_of(nodes, is_known, list, n)
-      integer(ip), intent(in) :: nodes(:)
-      logical, intent(inout) :: is_known(:)
-      integer(ip), intent(inout) :: list(:), n
+   !> The nodes of the elements of a rank, then the rings round them.
+   pure subroutine add_rings(mesh, near, rank_of, rank, known, region)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: near(:)             !< elements that may lie in them
+      integer(ip), intent(in) :: rank_of(:), rank
+      integer(ip), intent(inout) :: known(:)         !< (n_nodes) the ring of a node behind all rings of the ranks before; -1
+      type(region_t), intent(inout) :: region        !< with its own elements
+      integer(ip), allocatable :: element(:), node(:)
+      logical :: is_in(size(near))
+      integer(ip) :: before, ring, i, n, m
+
+      before = rank*(RINGS + 1_ip)
+      n = 0
+      allocate (node(min(mesh%n_nodes, sum(mesh%shape(region%element)) + sum(mesh%shape(near)))))
+      do i = 1, region%n_own
+         call add_nodes_of(mesh, region%element(i), before, before, known, node, n)
+      end do
+      region%n_nodes = n
+      m = 0
+      allocate (element(size(near)))
+      is_in = rank_of(near) == rank
+      do ring = before + 1, before + RINGS
+         do i = 1, size(near, kind=ip)
+            if (is_in(i)) cycle
+            associate (of_nodes => known(mesh%nodes(:mesh%shape(near(i)), near(i))))
+               is_in(i) = any(of_nodes >= before .and. of_nodes < ring)
+            end associate
+            if (.not. is_in(i)) cycle
+            m = m + 1
+            element(m) = near(i)
+            call add_nodes_of(mesh, near(i), before, ring, known, node, n)
+         end do
+      end do
+      region%element = [region%element, element(:m)]
+      region%node = node(:n)
+   end subroutine add_rings
+
+   pure subroutine add_nodes_of(mesh, element, before, ring, known, list, n)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: element, before, ring
+      integer(ip), intent(inout) :: known(:), list(:), n
       integer(ip) :: k
 
-      do k = 1, size(nodes, kind=ip)
-         if (is_known(nodes(k))) cycle
-         is_known(nodes(k)) = .true.
-         n = n + 1
-         list(n) = nodes(k)
+      do k = 1, mesh%shape(element)
+         associate (node => mesh%nodes(k, element))
+            if (known(node) >= before) cycle
+            known(node) = ring
+            n = n + 1
+            list(n) = node
+         end associate
       end do
    end subroutine add_nodes_of
 

@@ -21,6 +21,23 @@ for words in 'bad.inp' 'nowhere.inp' "$deck --nonsense" "$deck --set nonsense=1"
    done
 done
 
+# --- a mesh of more nodes than one process may have: what there is of memory decides, up to what numbers of 32 bits count ------------
+block() { # block N: N x N elements
+   printf '%s\n' "*BLOCK, TYPE=CPE4, ELSET=B, NX=$1, NY=$1" '0, 0' '1, 0' '1, 1' '0, 1' '*MATERIAL, NAME=M' '*ELASTIC' '1, 0.3' \
+      '*SOLID SECTION, ELSET=B, MATERIAL=M' '*BOUNDARY' 'B-BOTTOM, 1, 2' '*STEP' '*STATIC' '*END STEP' >block.inp
+}
+block 8000
+"$atrito" check block.inp >out.plain 2>err.plain
+told err.plain 'a block of more than 50000000 nodes' || fail 'a block of 64 million nodes in one process: not refused'
+mpirun -n 1 sh -c 'ulimit -v 8000000; exec "$0" "$@"' "$atrito_mpi" check block.inp >out 2>err
+code=$?
+expect_code 2 'a block of 64 million nodes in 8 GB'
+said_once 'a block of 64 million nodes in 8 GB' 'E-MEMORY.*a mesh of 64016001 nodes'
+block 25000
+by_ranks 1 check block.inp
+expect_code 2 'a block of 625 million nodes'
+said_once 'a block of 625 million nodes' 'a block of more than 500000000 nodes'
+
 # --- a scene without a solution ------------------------------------------------------------------------------------------------------
 "$atrito" "$loose" --set side=0.1 -o loose >out.plain 2>err.plain
 expected=$?                                              # 4, or 3 of a build without Clp

@@ -12,8 +12,8 @@ module model_cases
    use atrito_strings, only: string_t, same_name, to_text
    implicit none (type, external)
    private
-   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, build_within, write_file, said, first_text, &
-             node_ids, element_ids, faces_text
+   public :: PLATE, SECTION, ENDING, FLOOR, build, build_with, build_refined, build_within, read_scene, write_file, said, &
+             first_text, node_ids, element_ids, faces_text
 
    !> Two unit squares side by side.
    character(len=*), parameter :: PLATE = '*NODE|1, 0, 0|2, 1, 0|3, 2, 0|11, 0, 1|12, 1, 1|13, 2, 1|'// &
@@ -69,16 +69,24 @@ contains
       integer(ip), intent(in) :: levels
       integer(lp), intent(in) :: memory                !< bytes
       type(model_t), intent(out) :: model
-      type(string_t) :: none(0)
       type(deck_t) :: deck
+
+      call read_scene(text, deck)
+      call build_model(deck, model, levels, memory)
+      call sort_messages()
+   end subroutine build_within
+
+   !> The deck alone.
+   subroutine read_scene(text, deck)
+      character(len=*), intent(in) :: text
+      type(deck_t), intent(out) :: deck
+      type(string_t) :: none(0)
       type(status_t) :: status
 
       call clear_messages()
       call write_deck(text)
       call read_deck(FOLDER//'/scene.inp', none, deck, status)
-      call build_model(deck, model, levels, memory)
-      call sort_messages()
-   end subroutine build_within
+   end subroutine read_scene
 
    subroutine write_deck(text)
       character(len=*), intent(in) :: text
