@@ -45,7 +45,7 @@ module atrito_run
    use atrito_write_results, only: write_results
    implicit none (type, external)
    private
-   public :: run_deck, load_model, prepare_observations, solve_options, agree_on_outcome
+   public :: run_deck, load_model, read_model, prepare_observations, solve_options, agree_on_outcome
 
 contains
 
@@ -229,6 +229,21 @@ contains
       code = status%code
       if (.not. is_ok(status)) call print_status(status, command%names(1)%s, command%json)
    end subroutine load_model
+
+   !> The model of a command of which nothing is told. ok: its deck has no errors.
+   subroutine read_model(command, model, ok)
+      type(command_t), intent(in) :: command
+      type(model_t), intent(out) :: model
+      logical, intent(out) :: ok
+      type(deck_t) :: deck
+      type(status_t) :: status
+
+      call read_deck(command%names(1)%s, command%settings, deck, status)
+      ok = is_ok(status) .and. count_messages(SEVERITY_ERROR) == 0
+      if (.not. ok) return
+      call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
+      ok = count_messages(SEVERITY_ERROR) == 0
+   end subroutine read_model
 
    !> Reads the expressions of --observe. code: STATUS_USAGE for one that is wrong, which is told.
    subroutine prepare_observations(command, model, observations, code)

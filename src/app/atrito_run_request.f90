@@ -1,17 +1,15 @@
 !> What rank 0 tells the others of runs that it will hand out: the arguments of the program, of which each makes the command anew.
 module atrito_run_request
-   use atrito_build_model, only: build_model
    use atrito_command_line, only: command_t, fetch_arguments, parse_command
    use atrito_console, only: print_status
-   use atrito_deck, only: deck_t
    use atrito_kinds, only: ip
-   use atrito_messages, only: message_t, clear_messages, count_messages, SEVERITY_ERROR
+   use atrito_messages, only: message_t, clear_messages
    use atrito_model, only: model_t
    use atrito_observations, only: observations_t, read_observations
    use atrito_parcel, only: parcel_t, put, take
    use atrito_rank_services, only: send_to_others, SERVICE_RUNS
-   use atrito_reader, only: read_deck
-   use atrito_status, only: status_t, set_status, is_ok, STATUS_INTERNAL
+   use atrito_run, only: read_model
+   use atrito_status, only: status_t, set_status, STATUS_INTERNAL
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -78,20 +76,13 @@ contains
    !> Whether a run begins: its deck has no errors, and --observe none either. Nothing is told.
    logical function is_sound(command)
       type(command_t), intent(in) :: command        !< of the run
-      type(deck_t) :: deck
       type(model_t) :: model
       type(observations_t) :: observations
       type(message_t) :: error
-      type(status_t) :: status
 
       call clear_messages()
-      call read_deck(command%names(1)%s, command%settings, deck, status)
-      is_sound = is_ok(status) .and. count_messages(SEVERITY_ERROR) == 0
-      if (is_sound .and. size(command%observe) > 0) then
-         call build_model(deck, model, command%refine, shape=command%shape, state=command%state)
-         is_sound = count_messages(SEVERITY_ERROR) == 0
-         if (is_sound) call read_observations(command%observe, model, observations, is_sound, error)
-      end if
+      call read_model(command, model, is_sound)
+      if (is_sound .and. size(command%observe) > 0) call read_observations(command%observe, model, observations, is_sound, error)
       call clear_messages()
    end function is_sound
 

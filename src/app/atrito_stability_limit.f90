@@ -8,23 +8,19 @@ module atrito_stability_limit
    use atrito_body_cache, only: body_cache_t
    use atrito_clp, only: has_clp, clp_trouble
    use atrito_command_line, only: command_t, output_folder
-   use atrito_console, only: print_messages, print_status
+   use atrito_console, only: print_status
    use atrito_folder_claim, only: folder_claim_t, release_folder
-   use atrito_history, only: solve_history
    use atrito_kinds, only: ip, lp, wp
-   use atrito_mesh, only: find_node
-   use atrito_messages, only: clear_messages
    use atrito_model, only: model_t
    use atrito_page, only: page_t
    use atrito_provenance, only: provenance_t
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
-   use atrito_results, only: history_t, results_t
-   use atrito_run, only: load_model, solve_options, agree_on_outcome
-   use atrito_series_reports, only: begin_series, report_of_limit
+      use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
+   use atrito_stability_questions, only: question_t, answer_t, ask, load_value, TELL_ALL, TELL_ERRORS
    use atrito_sweep_plan, only: read_range
    use atrito_stability_result, only: stability_t, stability_value_t, CODE_NOT_RUN
    use atrito_stability_search, only: search_t, begin_search, next_step, record_balance, record_solution, standing_value, &
@@ -32,14 +28,12 @@ module atrito_stability_limit
                                       UNDECIDED, FOUND_LIMIT, FOUND_INTERVAL, BOTH_STAND, BOTH_FALL
    use atrito_stability_tables, only: write_stability, compose_stability
    use atrito_status, only: status_t, set_status, is_ok, STATUS_OK, STATUS_USAGE, STATUS_NOT_CONVERGED, STATUS_SINGULAR
-   use atrito_strings, only: string_t, append_string, to_text
+   use atrito_strings, only: string_t, to_text
    use atrito_table, only: origin_t
    use atrito_threads, only: set_threads
    implicit none (type, external)
    private
    public :: run_limit
-
-   integer, parameter :: ALL_DIGITS = 17             !< a value as text gives the same value again
 
 contains
 
@@ -73,6 +67,7 @@ contains
       type(model_t) :: model
       type(provenance_t) :: provenance
       integer(lp) :: began
+      integer(ip) :: told
       integer :: answer
       real(wp) :: excess
 
@@ -86,7 +81,7 @@ contains
       if (code /= STATUS_OK) return
       call judge_search(search, limit, status)
       if (is_ok(status)) then
-         call load_value(command, limit, limit%falls, .true., model, code)
+         call load_value(command, limit%parameter, limit%falls, TELL_ERRORS, model, code, told)
          if (code /= STATUS_OK) return
          call probe_balance(model, answer, excess, status, limit%collapse)
       end if
@@ -104,24 +99,59 @@ contains
       integer, intent(out) :: code
       type(body_cache_t) :: store
       type(reporter_t) :: reporter
+      type(question_t) :: question
+      type(answer_t) :: answer
       type(stability_value_t) :: one
-      real(wp) :: x
-      integer :: step
 
       reporter%quiet = command%quiet .or. command%json
       store%keeps = .true.
       do
-         call next_step(search, x, step)
+         call next_step(search, question%x, question%step)
          code = STATUS_OK
-         if (step == STEP_DONE) exit
-         call find_value(limit, x, one)
-         if (step == STEP_BALANCE) call ask_balance(command, limit, search, one, code)
-         if (step == STEP_SOLVE) call ask_solution(command, limit, store, search, one, code)
+         if (question%step == STEP_DONE) exit
+         call ask(command, limit%parameter, question, telling_of(question, search, limit), store, answer)
+         code = answer%code
          if (code /= STATUS_OK) exit
+         call find_value(limit, question%x, one)
+         call take_answer(question, answer, search, one)
          call keep_value(one, limit)
-         call report_progress(reporter, limit%parameter//' = '//to_text(x, 12)//'  '//answer_text(one))
+         call report_progress(reporter, limit%parameter//' = '//to_text(question%x, 12)//'  '//answer_text(one))
       end do
    end subroutine ask_all
+
+   !> The first balance tells what the deck has to say, the first solution what it has to add.
+   pure integer function telling_of(question, search, limit) result(telling)
+      type(question_t), intent(in) :: question
+      type(search_t), intent(in) :: search
+      type(stability_t), intent(in) :: limit
+      logical :: is_first
+
+      is_first = size(search%tried) == 0
+      if (question%step == STEP_SOLVE) is_first = all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)
+      telling = merge(TELL_ALL, TELL_ERRORS, is_first)
+   end function telling_of
+
+   !> What the search and the table of values learn of an answer.
+   pure subroutine take_answer(question, answer, search, one)
+      type(question_t), intent(in) :: question
+      type(answer_t), intent(in) :: answer
+      type(search_t), intent(inout) :: search
+      type(stability_value_t), intent(inout) :: one
+
+      if (question%step == STEP_BALANCE) then
+         call record_balance(search, question%x, answer%verdict, answer%excess)
+         one%excess = answer%excess
+         if (answer%verdict == FALLS) one%code = STATUS_SINGULAR
+         if (answer%verdict == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
+      else
+         call record_solution(search, question%x, answer%verdict)
+         one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, answer%verdict == STANDS)
+         one%displacement = answer%displacement
+         one%iterations = answer%iterations
+         one%solves = answer%solves
+         one%factorisations = answer%factorisations
+      end if
+   end subroutine take_answer
 
    pure function answer_text(one) result(text)
       type(stability_value_t), intent(in) :: one
@@ -139,143 +169,6 @@ contains
          if (one%excess /= one%excess) text = 'too near the limit for a proof'
       end select
    end function answer_text
-
-   subroutine ask_balance(command, limit, search, one, code)
-      type(command_t), intent(in) :: command
-      type(stability_t), intent(in) :: limit
-      type(search_t), intent(inout) :: search
-      type(stability_value_t), intent(inout) :: one
-      integer, intent(out) :: code
-      type(model_t) :: model
-      type(status_t) :: status
-      integer :: answer
-
-      call load_value(command, limit, one%value, size(search%tried) > 0, model, code)
-      if (code /= STATUS_OK) return
-      call probe_balance(model, answer, one%excess, status)
-      code = status%code
-      if (code /= STATUS_OK) then
-         call print_failure(command, limit, one%value, status)
-         return
-      end if
-      call record_balance(search, one%value, answer, one%excess)
-      if (answer == FALLS) one%code = STATUS_SINGULAR
-      if (answer == UNDECIDED) one%excess = ieee_value(1.0_wp, ieee_quiet_nan)
-   end subroutine ask_balance
-
-   !> A run that ends with 0 or 3 is an answer, any other is a failure: what falls has been proved before. Of a history 4 is one,
-   !> too, once something has been solved: it ends at a time that the balance was not asked about (supports that go, smooth
-   !> amplitudes), and neither bound is narrowed.
-   subroutine ask_solution(command, limit, store, search, one, code)
-      type(command_t), intent(in) :: command
-      type(stability_t), intent(in) :: limit
-      type(body_cache_t), intent(inout) :: store
-      type(search_t), intent(inout) :: search
-      type(stability_value_t), intent(inout) :: one
-      integer, intent(out) :: code
-      type(model_t) :: model
-      type(history_t) :: history
-      type(reporter_t) :: reporter
-      type(status_t) :: status, error
-      integer(ip) :: told
-      integer :: n
-      logical :: first
-
-      first = all(limit%values%code == CODE_NOT_RUN .or. limit%values%code == STATUS_SINGULAR)
-      call load_value(command, limit, one%value, .true., model, code, told)
-      if (code /= STATUS_OK) return
-      reporter%quiet = .true.
-      call solve_history(model, solve_options(command), reporter, history, status, store)
-      n = size(history%frames)
-      if (n > 0) call agree_on_outcome(status, history%frames(n), history%ending%is_early)
-      if (status%code == STATUS_SINGULAR .and. n > 0) call set_status(status, STATUS_NOT_CONVERGED, status%text)
-      if (status%code /= STATUS_OK .and. status%code /= STATUS_NOT_CONVERGED) then
-         code = status%code
-         call print_failure(command, limit, one%value, status)
-         return
-      end if
-      if (first) call print_messages(command%quiet, told + 1, command%json)
-      if (n > 0) then
-         call watch(model, history%frames(n), command%watched, one%displacement, error)
-         code = error%code
-         if (code /= STATUS_OK) then
-            call print_status(error, model%deck_path, command%json)
-            return
-         end if
-         call count_work(history, one)
-      end if
-      one%code = merge(STATUS_OK, STATUS_NOT_CONVERGED, is_ok(status))
-      call record_solution(search, one%value, merge(STANDS, UNDECIDED, is_ok(status)))
-   end subroutine ask_solution
-
-   !> Of all increments; of a single one its own.
-   pure subroutine count_work(history, one)
-      type(history_t), intent(in) :: history
-      type(stability_value_t), intent(inout) :: one
-      integer :: n
-
-      n = size(history%frames)
-      one%factorisations = history%factorisations
-      one%iterations = history%frames(n)%outer_iterations
-      one%solves = history%frames(n)%linear_solves
-      if (.not. allocated(history%iterations) .or. size(history%rows) == 0) return
-      one%iterations = count(history%iterations%outer > 0 .and. history%iterations%inner == 1, kind=ip)
-      one%solves = size(history%iterations, kind=ip)
-   end subroutine count_work
-
-   !> The displacement of the curve. status: STATUS_USAGE where there is no such node.
-   subroutine watch(model, results, watched, displacement, status)
-      type(model_t), intent(in) :: model
-      type(results_t), intent(in) :: results
-      integer(ip), intent(in) :: watched(2)          !< node and dof; 0: the largest displacement
-      real(wp), intent(out) :: displacement          !< [L]
-      type(status_t), intent(inout) :: status
-      integer(ip) :: node
-
-      displacement = maxval(norm2(results%u, dim=1))
-      if (watched(1) == 0) return
-      node = find_node(model%mesh, watched(1))
-      if (node > 0) then
-         displacement = results%u(watched(2), node)
-      else
-         call set_status(status, STATUS_USAGE, '--watch '//to_text(watched(1))//','//to_text(watched(2)) &
-                         //': the deck has no node '//to_text(watched(1)))
-      end if
-   end subroutine watch
-
-   !> Reads the deck with a value. Warnings and notes are told the first time; errors whenever there are.
-   subroutine load_value(command, limit, x, silent, model, code, read_so_far)
-      type(command_t), intent(in) :: command
-      type(stability_t), intent(in) :: limit
-      real(wp), intent(in) :: x
-      logical, intent(in) :: silent
-      type(model_t), intent(out) :: model
-      integer, intent(out) :: code
-      integer(ip), intent(out), optional :: read_so_far !< messages of the deck
-      type(command_t) :: one
-      type(reporter_t) :: reporter
-      integer(ip) :: told
-
-      one = command
-      reporter%quiet = .true.
-      call append_string(one%settings, limit%parameter//'='//to_text(x, ALL_DIGITS))
-      call clear_messages()
-      call load_model(one, reporter, model, told, code, only_errors=silent)
-      if (present(read_so_far)) read_so_far = told
-   end subroutine load_value
-
-   subroutine print_failure(command, limit, x, status)
-      type(command_t), intent(in) :: command
-      type(stability_t), intent(in) :: limit
-      real(wp), intent(in) :: x
-      type(status_t), intent(in) :: status
-      type(status_t) :: longer
-
-      call print_messages(command%quiet, 1_ip, command%json)
-      if (.not. allocated(status%text)) return
-      call set_status(longer, status%code, 'at '//limit%parameter//' = '//to_text(x, ALL_DIGITS)//': '//status%text)
-      call print_status(longer, command%names(1)%s, command%json)
-   end subroutine print_failure
 
    !> What is known of a value so far.
    pure subroutine find_value(limit, x, one)
