@@ -13,7 +13,8 @@ module atrito_run_request
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
-   public :: request_runs, put_arguments, take_arguments, take_request, has_own_process, is_sound, print_lost
+   public :: request_runs, begin_request, put_arguments, take_arguments, take_request, has_own_process, &
+             is_sound, print_lost, text_of_end
 
    integer(ip), parameter :: FIRST_SIGNAL = 128_ip   !< exit codes above it are of signals
 
@@ -21,14 +22,21 @@ contains
 
    !> On rank 0: the others get ready for what the command line of the program asks for.
    subroutine request_runs()
-      type(string_t), allocatable :: arguments(:)
       type(parcel_t) :: request
+
+      call begin_request(request)
+      call send_to_others(request)
+   end subroutine request_runs
+
+   !> The same, to which more is added before it is sent.
+   subroutine begin_request(request)
+      type(parcel_t), intent(out) :: request
+      type(string_t), allocatable :: arguments(:)
 
       call fetch_arguments(arguments)
       call put(request, SERVICE_RUNS)
       call put_arguments(arguments, request)
-      call send_to_others(request)
-   end subroutine request_runs
+   end subroutine begin_request
 
    subroutine put_arguments(arguments, parcel)
       type(string_t), intent(in) :: arguments(:)
@@ -92,12 +100,19 @@ contains
       character(len=*), intent(in) :: label         !< of the run
       integer, intent(in) :: end_code               !< its exit code, or 128 and the number of the signal
       type(status_t) :: status
+
+      call set_status(status, STATUS_INTERNAL, 'the process of the run '//label//' '//text_of_end(end_code) &
+                      //'; the other runs go on')
+      call print_status(status, command%names(1)%s, command%json)
+   end subroutine print_lost
+
+   !> How a process came to its end.
+   pure function text_of_end(end_code) result(text)
+      integer, intent(in) :: end_code               !< its exit code, or 128 and the number of the signal
       character(len=:), allocatable :: text
 
       text = 'ended with exit code '//to_text(int(end_code, ip))
       if (end_code > FIRST_SIGNAL) text = 'was ended by signal '//to_text(int(end_code, ip) - FIRST_SIGNAL)
-      call set_status(status, STATUS_INTERNAL, 'the process of the run '//label//' '//text//'; the other runs go on')
-      call print_status(status, command%names(1)%s, command%json)
-   end subroutine print_lost
+   end function text_of_end
 
 end module atrito_run_request

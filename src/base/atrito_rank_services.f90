@@ -18,7 +18,7 @@ module atrito_rank_services
    integer(ip), parameter :: SERVICE_SCENE_PARTS = 4_ip !< of the parts of a scene in one matrix (atrito_scene_service)
    integer(ip), parameter :: SERVICE_SCENE_TOP = 5_ip !< of what these parts share (atrito_scene_top)
    integer(ip), parameter :: SERVICE_MEMORY = 6_ip !< how much there is for the rank (atrito_rank_memory)
-   integer(ip), parameter :: SERVICE_RUNS = 10_ip  !< runs of a sweep or a study: the arguments of the program follow
+   integer(ip), parameter :: SERVICE_RUNS = 10_ip  !< runs of a sweep, a study or a limit: the arguments of the program follow
 
    real(wp), parameter :: ALERT = 2.0e-3_wp        !< [s] who waits looks so long without a pause: requests come in quick succession
    real(c_double), parameter :: PAUSE = 1.0e-4_c_double    !< [s] behind that: who waits for long leaves the core to others

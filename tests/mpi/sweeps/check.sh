@@ -99,9 +99,45 @@ for n in 2 4; do
    diff -rq -x timing.tab -x '*.lst' -x study.tab study1 "study$n" >differences || { fail "a study on $n ranks"; cat differences; }
 done
 
-# ---- limits: by rank 0
-ranks 2 limit "$input/../tests/verify/stability-limit/push.inp" --vary H=2:5 --tolerance 0.01 -o limit --quiet
-expect 0 'a limit on 2 ranks'
+# ---- limits: what is asked ahead leaves the tables as they are
+stability=$input/../tests/verify/stability-limit
+# same_limit FOLDER DECK [options]: on 1 to 4 ranks what the plain program finds; questions have been asked ahead
+same_limit() {
+   folder=$1
+   shift
+   "$plain" limit "$@" --digits 17 -o "$folder" --quiet || fail "the plain limit of $folder"
+   for n in 1 2 3 4; do
+      ranks $n limit "$@" --digits 17 -o "$folder$n"
+      expect 0 "the limit of $folder on $n ranks"
+      without_work "$folder/limit.tab" >limit.a
+      without_work "$folder$n/limit.tab" >limit.b
+      [ -s limit.a ] && cmp -s limit.a limit.b || { fail "the limit of $folder on $n ranks: another table"; diff limit.a limit.b; }
+      diff -r -x limit.tab "$folder" "$folder$n" >differences || { fail "the limit of $folder on $n ranks"; cat differences; }
+      awk -v n="$n" '/^ranks/ { ahead = $3; vain = $7 } END { exit n > 1 && (ahead < 24 || vain > ahead - 20) }' out ||
+         { fail "the limit of $folder on $n ranks: how many questions were asked ahead"; cat out; }
+   done
+}
+same_limit push "$stability/push.inp" --vary H=2:5 --tolerance 0.01
+same_limit slope "$stability/slope.inp" --vary nu=0.1:0.9
+same_limit arch "$input/lessons/arch.inp" --vary t=.05:.2 --watch 37,2
+ranks 3 limit "$stability/slope.inp" --vary nu=0.1:0.9 --solver mumps -o mumpslimit --quiet
+expect 0 'a limit by MUMPS on 3 ranks'
+"$plain" compare slope/limit.tab mumpslimit/limit.tab --rtol 1e-9 >differences 2>&1
+[ $? -le 1 ] && ! grep 'limit.tab' differences | grep -v ', factorisations: ' || fail 'a limit by MUMPS on 3 ranks: another table'
+# what is wrong is told once, also where another rank came upon it
+ranks 3 limit "$stability/slope.inp" --vary E=1e6:1e7 -o wrong
+expect 1 'a limit that is not between the ends'
+ranks 3 limit "$stability/slope.inp" --vary nu=0.1:0.9 --watch 1000,1 -o wrong
+expect 1 'a limit that watches no node'
+[ "$(grep -c 'has no node 1000' err)" -eq 1 ] || { fail 'a limit that watches no node: not told once'; cat err; }
+ranks 3 limit "$stability/slope.inp" --vary E=-1:1 -o wrong
+expect 2 'a limit with a deck error at the first end'
+[ "$(grep -c 'is not positive' err)" -eq 1 ] || { fail 'a deck error at the first end: not told once'; cat err; }
+sed 's/<E>, 0.2/<E>, <poisson>/; s/^nu = 0.7/&\npoisson = 0.2/' "$stability/slope.inp" >poisson.inp
+ranks 3 limit poisson.inp --vary poisson=0.2:0.6 -o wrong
+expect 2 'a limit with a deck error at the second end'
+[ "$(grep -c 'E-.*0.6' err)" -eq 1 ] || { fail 'a deck error at the second end: not told once'; cat err; }
+[ ! -e wrong ] || fail 'a limit that went wrong leaves a folder'
 
 long=$(awk 'BEGIN { for (i = 1; i <= 60; i++) printf "%s%d.5e-5", (i > 1 ? "," : ""), i }')
 "$plain" sweep "$deck" --vary "eps=$long" --refine 3 -o long --quiet || fail 'the long sweep'
@@ -150,6 +186,21 @@ same_sweep 'a sweep begun again after a crash' long crash
 grep -q 'left alone  *59 runs' out || { fail 'a sweep begun again: how many runs were left alone'; cat out; }
 find crash -name summary.tab -exec ls -l --time-style=full-iso {} + | sort >after
 [ "$(comm -12 before after | wc -l)" -eq 59 ] || fail 'a sweep begun again touches what was done'
+
+# ---- a process of a limit is lost: its question is asked again
+"$plain" limit "$input/lessons/arch.inp" --vary t=.05:.2 --refine 3 --watch 37,2 --digits 17 -o whole --quiet || fail 'the plain limit'
+"$mpirun" --oversubscribe -n 3 "$over" limit "$input/lessons/arch.inp" --vary t=.05:.2 --refine 3 --watch 37,2 --digits 17 -o lost >out 2>err &
+job=$!
+while kill -0 $job 2>/dev/null && ! grep -q 'the first rank asks again' err; do
+   victim=$(below $(rank_processes) | head -1)
+   [ -z "$victim" ] || kill -SEGV "$victim" 2>/dev/null
+   pause
+done
+wait $job
+code=$?
+expect 0 'a limit that loses a process'
+grep -q 'its process ended with exit code 9, the first rank asks again' err || { fail 'a lost process is not told'; cat err; }
+diff -r whole lost >differences || { fail 'a limit that loses a process: other tables'; cat differences; }
 
 # ---- a rank that is killed: mpirun ends all; what is done stays, and the next sweep goes on
 begin killed
