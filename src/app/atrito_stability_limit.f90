@@ -18,7 +18,7 @@ module atrito_stability_limit
    use atrito_report, only: report_t
    use atrito_report_maker, only: make_report
    use atrito_reporter, only: reporter_t, report_progress
-      use atrito_series_reports, only: begin_series, report_of_limit
+   use atrito_series_reports, only: begin_series, report_of_limit
    use atrito_series, only: claim_output, find_provenance, series_origin, begin_pictures, tell_series, seconds_since
    use atrito_stability_plot, only: write_stability_plots
    use atrito_stability_questions, only: question_t, answer_t, ask, load_value, TELL_ALL, TELL_ERRORS
@@ -47,7 +47,7 @@ contains
       type(status_t) :: status
       type(folder_claim_t) :: claim
 
-      call set_threads(command%threads)
+      call set_threads(merge(command%threads, 1_ip, rank_count() == 1))   ! ranks: atrito_stability_rounds sets those of its tasks
       limit%tolerance = command%limit_tolerance
       call read_range(command%vary(1)%s, command%settings, limit%parameter, limit%ends, status)
       if (is_ok(status) .and. .not. has_clp()) then

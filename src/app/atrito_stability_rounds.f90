@@ -142,7 +142,6 @@ contains
       call take(request, parameter)
       call take(request, x)
       call take(request, step)
-      call set_threads(command%threads)
       call begin_rounds(command, parameter, rounds)
       rounds%questions = [(question_t(x(i), int(step(i))), i=1, size(x))]
       call work_for_first(rounds)
@@ -154,6 +153,7 @@ contains
       type(parcel_t), intent(inout) :: answer
       type(answer_t) :: found
 
+      call set_threads(self%command%threads)        ! of this process: those of the rank would not outlive a fork
       call ask(self%command, self%parameter, self%questions(self%before + task), TELL_NOTHING, self%store, found)
       call put_answer(found, answer)
    end subroutine make_task

@@ -120,6 +120,8 @@ same_limit() {
 same_limit push "$stability/push.inp" --vary H=2:5 --tolerance 0.01
 same_limit slope "$stability/slope.inp" --vary nu=0.1:0.9
 same_limit arch "$input/lessons/arch.inp" --vary t=.05:.2 --watch 37,2
+ranks 3 limit "$stability/slope.inp" --vary nu=0.1:0.9 --refine 3 --threads 2 -o threadslimit --quiet
+expect 0 'a limit on 3 ranks with threads'
 ranks 3 limit "$stability/slope.inp" --vary nu=0.1:0.9 --solver mumps -o mumpslimit --quiet
 expect 0 'a limit by MUMPS on 3 ranks'
 "$plain" compare slope/limit.tab mumpslimit/limit.tab --rtol 1e-9 >differences 2>&1
@@ -138,6 +140,10 @@ ranks 3 limit poisson.inp --vary poisson=0.2:0.6 -o wrong
 expect 2 'a limit with a deck error at the second end'
 [ "$(grep -c 'E-.*0.6' err)" -eq 1 ] || { fail 'a deck error at the second end: not told once'; cat err; }
 [ ! -e wrong ] || fail 'a limit that went wrong leaves a folder'
+sed 's/^\*STEP.*/*STEP, NLGEOM/' "$stability/slope.inp" >told.inp
+ranks 3 limit told.inp --vary nu=0.1:0.9 -o told
+expect 0 'a limit that has something to tell'
+[ "$(grep -c 'warning .W-NLGEOM' err) $(grep -c 'note .N-SMALL' err)" = '1 1' ] || { fail 'a limit: not told once'; cat err; }
 
 long=$(awk 'BEGIN { for (i = 1; i <= 60; i++) printf "%s%d.5e-5", (i > 1 ? "," : ""), i }')
 "$plain" sweep "$deck" --vary "eps=$long" --refine 3 -o long --quiet || fail 'the long sweep'
