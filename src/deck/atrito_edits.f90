@@ -59,14 +59,14 @@ contains
       character(len=*), intent(in) :: text
       integer(ip), intent(in) :: source, first, last
       logical, intent(out) :: found
-      integer(ip) :: known
+      integer(ip) :: known, from, to
 
       known = find_name(edits%known, text)
       found = known > 0
       if (.not. found) return
-      associate (edit => edits%edit_of(known))
-         call append_place(edits, source, first, last, edits%from(edit), edits%to(edit))
-      end associate
+      from = edits%from(edits%edit_of(known))         ! of their own: the list that has them may move
+      to = edits%to(edits%edit_of(known))
+      call append_place(edits, source, first, last, from, to)
    end subroutine take_known_edit
 
    pure subroutine append_place(edits, source, first, last, from, to)
