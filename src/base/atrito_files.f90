@@ -13,8 +13,8 @@ module atrito_files
                             hold_interrupts, release_interrupts, note_path, forget_path
    implicit none (type, external)
    private
-   public :: read_file, read_bytes, read_system_line, true_path, file_exists, is_folder, make_folder, remove_folders, remove_file, &
-             remove_empty_folder, check_folder
+   public :: read_file, read_bytes, read_system_line, read_system_lines, true_path
+   public :: file_exists, is_folder, make_folder, remove_folders, remove_file, remove_empty_folder, check_folder
    public :: file_set_t, text_file_t, begin_files, reserve_file, open_text, put_line, put_lines, put_text, close_text, &
              NEW_LINE_CHARACTER
    public :: end_files, commit_files, commit_over, discard_files, judge_file
@@ -40,6 +40,7 @@ module atrito_files
    integer(lp), parameter :: NO_LENGTH = -2_lp               !< of a pipe or a terminal
    !> A text has no zero byte; of a file with one in its first bytes no more than these is read.
    integer, parameter :: FIRST_BYTES = 65536
+   integer, parameter :: LONGEST_SYSTEM_LINE = 4096          !< a path of a control group, at most
 
 contains
 
@@ -125,7 +126,7 @@ contains
       character(len=*), intent(in) :: path, label
       character(len=:), allocatable, intent(out) :: line
       logical, intent(out) :: found
-      character(len=256) :: buffer
+      character(len=LONGEST_SYSTEM_LINE) :: buffer
       integer :: unit, ios
 
       found = .false.
@@ -140,6 +141,24 @@ contains
       close (unit)
       if (found) line = trim(buffer)
    end subroutine read_system_line
+
+   !> All lines of such a file; none where it cannot be read.
+   subroutine read_system_lines(path, lines)
+      character(len=*), intent(in) :: path
+      type(string_t), allocatable, intent(out) :: lines(:)
+      character(len=LONGEST_SYSTEM_LINE) :: buffer
+      integer :: unit, ios
+
+      allocate (lines(0))
+      open (newunit=unit, file=path, status='old', action='read', iostat=ios)
+      if (ios /= 0) return
+      do
+         read (unit, '(a)', iostat=ios) buffer
+         if (ios /= 0) exit
+         call append_string(lines, trim(buffer))
+      end do
+      close (unit)
+   end subroutine read_system_lines
 
    !> The path of a file without links, `.` and `..`, which is the same for each of its names; `path` itself where there is no
    !> such file.

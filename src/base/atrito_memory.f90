@@ -1,30 +1,30 @@
 !> How much memory the machine has to give, so that a scene that needs more is refused before it is allocated: Linux promises
 !> more than it has, and ends the program when the promise is called in.
 module atrito_memory
-   use atrito_files, only: read_system_line
+   use atrito_group_memory, only: group_memory_left
    use atrito_kinds, only: ip, lp, wp
    use atrito_strings, only: to_text
    use atrito_system, only: address_space_limit, reusable_memory
+   use atrito_system_counts, only: count_of, UNLIMITED
    implicit none (type, external)
    private
    public :: available_memory, address_space_left, shared_memory_left, resident_memory, held_memory, memory_text
 
    integer(lp), parameter :: KIB = 1024_lp
-   integer(lp), parameter :: UNLIMITED = huge(1_lp)
    !> Share of the memory that was given back before that will be taken again: the rest lies in pieces between what is held.
    real(wp), parameter :: SERVES_AGAIN = 0.5_wp
 
 contains
 
    !> Memory that the program can still get [bytes]: the least of what is free (swap left out), what `ulimit -v` leaves and what
-   !> a container allows. A very large number where the system does not tell.
+   !> the job or the container allows. A very large number where the system does not tell.
    integer(lp) function available_memory() result(bytes)
       bytes = min(shared_memory_left(), address_space_left())
    end function available_memory
 
-   !> The same of all processes of the machine together [bytes]: what is free, and what a container allows.
+   !> The same of all processes of the machine, job or container together [bytes].
    integer(lp) function shared_memory_left() result(bytes)
-      bytes = min(count_of('/proc/meminfo', 'MemAvailable:', KIB), count_of('/sys/fs/cgroup/memory.max', '', 1_lp))
+      bytes = group_memory_left('', count_of('/proc/meminfo', 'MemAvailable:', KIB))
    end function shared_memory_left
 
    !> Memory that the process holds now [bytes], libraries included; 0 where the system does not tell.
@@ -49,36 +49,6 @@ contains
       if (used == UNLIMITED) used = 0_lp
       bytes = max(0_lp, limit - used)
    end function address_space_left
-
-   !> The number that follows a label at the beginning of a line of a file; UNLIMITED where there is none.
-   integer(lp) function count_of(path, label, unit) result(bytes)
-      character(len=*), intent(in) :: path, label
-      integer(lp), intent(in) :: unit                  !< bytes
-      character(len=:), allocatable :: line
-      character(len=*), parameter :: BLANKS = ' '//achar(9)  ! a tab follows the labels of /proc/self/status
-      logical :: found
-
-      bytes = UNLIMITED
-      call read_system_line(path, label, line, found)
-      if (.not. found) return
-      line = line(len(label) + 1:)
-      line = line(max(verify(line, BLANKS), 1):)
-      if (verify(line(:min(1, len(line))), '0123456789') > 0 .or. len(line) == 0) return
-      bytes = unit*leading_number(line)
-   end function count_of
-
-   !> The number that a text begins with; 0 where it does not.
-   pure integer(lp) function leading_number(text) result(number)
-      character(len=*), intent(in) :: text
-      integer :: i, d
-
-      number = 0_lp
-      do i = 1, min(len(text), 15)
-         d = iachar(text(i:i)) - iachar('0')
-         if (d < 0 .or. d > 9) exit
-         number = 10_lp*number + int(d, lp)
-      end do
-   end function leading_number
 
    !> '1.5 GiB'
    pure function memory_text(bytes) result(text)
