@@ -37,6 +37,7 @@ module atrito_build_context
       type(model_t), pointer :: model => null()        !< so far
       type(motion_t), allocatable :: motions(:)        !< (0:instances), as deck%scopes
       integer(lp) :: memory = huge(1_lp)               !< that the mesh may take [bytes]
+      logical :: has_room = .true.                     !< nothing asked for more
       type(name_list_t) :: invalid                     !< names whose definition is faulty
       type(name_list_t) :: surface_names, material_names, interaction_names, amplitude_names !< in the order of the model's lists
       type(name_list_t) :: orientation_names           !< in the order of orientation_axis

@@ -51,6 +51,7 @@ contains
       first = context%model%mesh%n_elements + 1
       associate (card => context%deck%cards(i_card))
          call read_element_type(context%deck, card, n_nodes, state, ok)
+         if (ok) ok = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
          if (ok) call note_membrane(card, context)
          do i = card%first_line, card%first_line + card%n_lines - 1
             if (ok .and. context%deck%lines(i)%ok) then

@@ -126,6 +126,7 @@ contains
       call build_instances(context)
       call build_nodes(context)
       call build_elements(context)
+      if (.not. context%has_room) return               ! an error, and others would follow from what was not made
       call trim_mesh(model%mesh)
       context%around = list_node_elements(model%mesh)
       call read_curves(context)

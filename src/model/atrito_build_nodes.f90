@@ -23,11 +23,17 @@ contains
       integer(ip), intent(in) :: i_card                !< place in deck%cards
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i, first
+      logical :: fits
 
       first = context%model%mesh%n_nodes + 1
       associate (card => context%deck%cards(i_card))
+         fits = fits_memory(card%place, context, int(card%n_lines, lp), 0_lp, 'NODE')
          do i = card%first_line, card%first_line + card%n_lines - 1
-            call read_node_line(context%deck%lines(i), context)
+            if (fits) then
+               call read_node_line(context%deck%lines(i), context)
+            else
+               call spoil_number(context%deck, context%deck%lines(i), context%nodes)
+            end if
          end do
       end associate
       call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_nodes)])

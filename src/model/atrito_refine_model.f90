@@ -71,7 +71,7 @@ contains
    !> There are not too many nodes, and there are numbers and memory for them. The numbers of elements are chosen so that they fit.
    logical function is_possible(levels, pieces, shape, context)
       integer(ip), intent(in) :: levels, pieces, shape
-      type(build_context_t), intent(in) :: context
+      type(build_context_t), intent(inout) :: context
       type(token_t) :: nowhere
       integer(lp) :: n, greatest
 
