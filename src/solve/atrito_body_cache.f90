@@ -7,6 +7,7 @@ module atrito_body_cache
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_bodies, only: bodies_t
    use atrito_condensed_body, only: condensed_body_t, condense_body, check_held, set_load
+   use atrito_errand, only: errand_t
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_plane_state, only: elastic_t
@@ -30,6 +31,7 @@ module atrito_body_cache
       integer(ip) :: factorisations = 0                !< of the last call of provide_bodies; behind a history of all
       type(condensed_body_t), allocatable :: bodies(:) !< as the last call of provide_bodies left them
       type(shares_t), allocatable :: shares            !< how bodies go over the ranks; not allocated: they stay
+      class(errand_t), allocatable :: errand           !< what this rank does while others factor; it has been done or not
       type(first_rank_t), pointer, private :: first => null() !< what this rank has of them
       logical, private :: holds = .false.              !< the rest is there: what they were made of
       type(mesh_t), private :: mesh
@@ -129,7 +131,7 @@ contains
       end do
       allocate (shared(fem%bodies%n))
       if (.not. associated(store%first)) allocate (store%first)
-      call share_bodies(fem, store%shares, wanted, store%first, shared)
+      call share_bodies(fem, store%shares, wanted, store%first, shared, store%errand)
    end subroutine begin_sharing
 
    !> The bodies as the last call of provide_bodies left them, with another load.

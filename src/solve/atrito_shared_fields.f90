@@ -6,6 +6,7 @@
 !> process but for the order of sums.
 module atrito_shared_fields
    use atrito_assembly, only: fem_t
+   use atrito_errand, only: errand_t
    use atrito_error_estimate, only: energies_t, integrate_error, relative_error, share_errors
    use atrito_fem_piece, only: take_piece
    use atrito_kinds, only: ip, wp
@@ -18,8 +19,10 @@ module atrito_shared_fields
    use atrito_range, only: unit_of
    use atrito_rank_services, only: SERVICE_FIELDS
    use atrito_results, only: results_t
+   use atrito_shares, only: shares_t, rank_of_elements
    use atrito_stress_recovery, only: stress_field_t, nodal_stresses, recover_stress_field
    use atrito_thermal_loads, only: largest_thermal_strain
+   use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
    public :: shared_fields_t, begin_fields, end_fields, serve_fields, hand_over, kept_share
@@ -37,11 +40,15 @@ module atrito_shared_fields
       integer(ip), allocatable :: node(:)
    end type region_t
 
-   !> Fields that have begun.
-   type :: shared_fields_t
-      type(region_t), allocatable :: regions(:)      !< from 0; not allocated: they have not
+   !> Fields that will be asked for, or have begun. Their regions are found while other ranks factor, or when they begin.
+   type, extends(errand_t) :: shared_fields_t
+      real(wp) :: besides = 0.0_wp                   !< what the first rank does meanwhile, over the fields of all elements
+      type(region_t), allocatable :: regions(:)      !< from 0
+      logical :: has_begun = .false.
       real(wp) :: unit = 0.0_wp
       logical :: by_element = .false.
+   contains
+      procedure :: run => find_regions_of_shares
    end type shared_fields_t
 
    !> What is found in a region.
@@ -54,24 +61,19 @@ module atrito_shared_fields
 contains
 
    !> Gives the other ranks their elements; they begin. end_fields has to follow, with nothing else for the ranks between.
-   subroutine begin_fields(fem, rank_of, u, besides, by_element, fields)
+   subroutine begin_fields(fem, rank_of, u, by_element, fields)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: rank_of(:)          !< (n_elements)
       real(wp), intent(in) :: u(:, :)                !< (2, n_nodes) [L]
-      real(wp), intent(in) :: besides                !< what the first rank does meanwhile, over the fields of all elements
       logical, intent(in) :: by_element              !< the error of each is wanted
-      type(shared_fields_t), intent(out) :: fields
-      integer(ip), allocatable :: order(:)
-      integer(ip) :: rank, owner(size(rank_of))
+      type(shared_fields_t), intent(inout) :: fields !< with what the first rank does besides; its regions may be there
+      integer(ip) :: rank
       type(fem_t) :: piece
 
-      allocate (fields%regions(0:rank_count() - 1))
+      if (.not. allocated(fields%regions)) call find_regions(fem%mesh, rank_of, fields%besides, rank_count(), fields%regions)
+      fields%has_begun = .true.
       fields%unit = unit_of(u)
       fields%by_element = by_element
-      call sort_by_squares(fem%mesh%x, fem%mesh%nodes(1, :), order)
-      owner = rank_of
-      call hand_over(order, besides, rank_count(), owner)
-      call find_regions(fem%mesh, order, owner, fields%regions)
       do rank = rank_count() - 1, 1, -1
          associate (region => fields%regions(rank))
             call take_piece(fem, region%node, region%element, piece)
@@ -80,6 +82,17 @@ contains
          end associate
       end do
    end subroutine begin_fields
+
+   !> The regions of ranks that have their shares.
+   subroutine find_regions_of_shares(self, fem, shares)
+      class(shared_fields_t), intent(inout) :: self
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(in) :: shares
+
+      call start_phase('recover')
+      call find_regions(fem%mesh, rank_of_elements(fem, shares), self%besides, shares%n_ranks, self%regions)
+      call stop_phase('recover')
+   end subroutine find_regions_of_shares
 
    !> The elements of the first rank that the others take over, slice by slice: it has other things to do.
    pure subroutine hand_over(order, besides, n_ranks, owner)
@@ -109,7 +122,7 @@ contains
    !> The same as estimate_error.
    subroutine end_fields(fem, fields, results, strain_bound)
       type(fem_t), intent(in) :: fem
-      type(shared_fields_t), intent(inout) :: fields !< that have begun; none on return
+      type(shared_fields_t), intent(inout) :: fields !< that have begun; they have not on return
       type(results_t), intent(inout) :: results      !< with the displacements with which they have
       real(wp), intent(out) :: strain_bound          !< no strain is larger than this
       type(found_t) :: found
@@ -135,6 +148,7 @@ contains
          end associate
       end do
       deallocate (fields%regions)
+      fields%has_begun = .false.
       if (fields%by_element) results%element_error = share_errors(energies, results%element_error)
       results%error_estimate = relative_error(energies)
       strain_bound = energies%strain + 2*largest_thermal_strain(fem)   ! as estimate_error
@@ -240,9 +254,26 @@ contains
       end if
    end subroutine measure_region
 
+   !> The elements of each rank, its own less those that the first one hands over, and what is round them.
+   pure subroutine find_regions(mesh, rank_of, besides, n_ranks, regions)
+      type(mesh_t), intent(in) :: mesh
+      integer(ip), intent(in) :: rank_of(:)          !< (n_elements) from 0
+      real(wp), intent(in) :: besides                !< what the first rank does meanwhile, over the fields of all elements
+      integer(ip), intent(in) :: n_ranks
+      type(region_t), allocatable, intent(out) :: regions(:)   !< from 0
+      integer(ip), allocatable :: order(:)
+      integer(ip) :: owner(size(rank_of))
+
+      call sort_by_squares(mesh%x, mesh%nodes(1, :), order)
+      owner = rank_of
+      call hand_over(order, besides, n_ranks, owner)
+      allocate (regions(0:n_ranks - 1))
+      call list_regions(mesh, order, owner, regions)
+   end subroutine find_regions
+
    !> The elements of each rank, then those in the rings round them; and their nodes in this order. What is near no border is looked
    !> at RINGS times, for any number of ranks.
-   pure subroutine find_regions(mesh, order, rank_of, regions)
+   pure subroutine list_regions(mesh, order, rank_of, regions)
       type(mesh_t), intent(in) :: mesh
       integer(ip), intent(in) :: order(:)            !< (n_elements) in which they come
       integer(ip), intent(in) :: rank_of(:)          !< (n_elements) from 0; beyond the last rank: nobody's
@@ -269,7 +300,7 @@ contains
       do rank = 0, ubound(regions, 1)
          call add_rings(mesh, near, rank_of, rank, known, regions(rank))
       end do
-   end subroutine find_regions
+   end subroutine list_regions
 
    !> The elements in the rings round any node that elements of several ranks have.
    pure subroutine list_near_border(mesh, order, rank_of, near)

@@ -18,8 +18,8 @@ module atrito_shares
    use atrito_profile, only: profile_t
    implicit none (type, external)
    private
-   public :: shares_t, share_t, top_t, make_shares, share_out, predict_work, is_worth_sharing, is_over_ranks, fair_share
-   public :: LEAST_WORK
+   public :: shares_t, share_t, top_t, make_shares, share_out, rank_of_elements, predict_work, is_worth_sharing, is_over_ranks
+   public :: fair_share, LEAST_WORK
    public :: SHARE_NONE, SHARE_AUTO, SHARE_ALL
 
    !> A part of the scene: a body, or a piece of one.
@@ -106,16 +106,24 @@ contains
       integer, intent(in) :: asked               !< SHARE_*
       type(shares_t), allocatable, intent(out) :: shares
       integer(ip), allocatable, intent(out) :: rank_of(:) !< (n_elements)
-      integer(ip) :: p
 
       if (.not. is_worth_sharing(fem, n_ranks, asked)) return
       allocate (shares)
       call make_shares(fem, rows, n_ranks, shares)
-      allocate (rank_of(fem%mesh%n_elements), source=0_ip)
+      rank_of = rank_of_elements(fem, shares)
+   end subroutine share_out
+
+   !> The rank that has each element; those of rigid bodies are the first one's.
+   pure function rank_of_elements(fem, shares) result(rank_of)
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(in) :: shares
+      integer(ip) :: rank_of(fem%mesh%n_elements), p
+
+      rank_of = 0
       do p = 1, shares%n
          rank_of(shares%list(p)%elements) = shares%list(p)%rank
       end do
-   end subroutine share_out
+   end function rank_of_elements
 
    !> Shares out the elements of all bodies.
    subroutine make_shares(fem, rows, n_ranks, shares)

@@ -2,12 +2,13 @@
 module atrito_sharing
    use atrito_assembly, only: fem_t
    use atrito_condensed_body, only: condensed_body_t, check_held, factor_body
+   use atrito_errand, only: errand_t
    use atrito_kinds, only: ip
    use atrito_part, only: part_t, make_part, release_part
    use atrito_part_service, only: ask_for_factors, give_part, receive_outcome
    use atrito_part_store, only: factor_part, find_part, hold_part
    use atrito_results, only: body_result_t
-   use atrito_shared_body, only: shared_body_t, first_rank_t, forget_pieces
+   use atrito_shared_body, only: shared_body_t, first_rank_t, piece_t, forget_pieces
    use atrito_shares, only: shares_t
    use atrito_solver_choice, only: solver_name, SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok
@@ -21,25 +22,32 @@ contains
 
    !> Gives the parts of some bodies to their ranks and has all ranks factor them, at the same time. On return it is known what
    !> became of them all: a rank answers what it is asked in order, so nothing else may be asked before.
-   subroutine share_bodies(fem, shares, wanted, first, shared)
+   subroutine share_bodies(fem, shares, wanted, first, shared, errand)
       type(fem_t), intent(in) :: fem
       type(shares_t), intent(in) :: shares
       logical, intent(in) :: wanted(:)               !< (bodies)
       type(first_rank_t), intent(inout), target :: first
       type(shared_body_t), intent(out) :: shared(:)  !< (bodies) those that are wanted
+      class(errand_t), allocatable, intent(inout) :: errand  !< for the first rank while the others factor; may be none
       integer(ip) :: b, p
 
       call start_phase('order')
       do b = 1, fem%bodies%n
-         if (wanted(b)) call give_body(fem, shares, b, first, shared(b))
+         if (wanted(b)) call begin_pieces(fem, shares, b, first, shared(b))
       end do
-      call stop_phase('order')
+      do b = 1, fem%bodies%n
+         if (wanted(b)) call give_parts(fem, shares, b, shared(b))
+      end do
       do b = 1, fem%bodies%n                         ! behind all parts: who factors takes none
          if (.not. wanted(b)) cycle
          do p = 1, size(shared(b)%piece, kind=ip)
             if (shared(b)%piece(p)%rank > 0) call ask_for_factors(shared(b)%piece(p)%ticket, shared(b)%piece(p)%rank)
          end do
       end do
+      do b = 1, fem%bodies%n                         ! the others have begun
+         if (wanted(b)) call keep_parts(fem, shares, b, first, shared(b))
+      end do
+      call stop_phase('order')
       call start_phase('factor')
       do b = 1, fem%bodies%n
          if (.not. wanted(b)) cycle
@@ -48,6 +56,9 @@ contains
             call factor_part(first%parts%list(find_part(first%parts, shared(b)%piece(p)%ticket)), shared(b)%outcome(p))
          end do
       end do
+      call stop_phase('factor')
+      if (allocated(errand)) call errand%run(fem, shares)
+      call start_phase('factor')
       do b = 1, fem%bodies%n
          if (.not. wanted(b)) cycle
          do p = 1, size(shared(b)%piece, kind=ip)
@@ -57,14 +68,13 @@ contains
       call stop_phase('factor')
    end subroutine share_bodies
 
-   !> The parts of a body go to their ranks.
-   subroutine give_body(fem, shares, b, first, shared)
+   !> The pieces of a body, with their tickets and ranks.
+   subroutine begin_pieces(fem, shares, b, first, shared)
       type(fem_t), intent(in) :: fem
       type(shares_t), intent(in) :: shares
       integer(ip), intent(in) :: b
       type(first_rank_t), intent(inout), target :: first
       type(shared_body_t), intent(inout) :: shared
-      type(part_t) :: part
       integer(ip) :: i, n
 
       n = shares%first(b + 1) - shares%first(b)
@@ -74,23 +84,58 @@ contains
       shared%n_retained = fem%bodies%list(b)%n_retained
       shared%top = shares%tops(b)
       do i = 1, n
-         call make_part(fem, shares, shares%first(b) + i - 1, part)
-         first%last_ticket = first%last_ticket + 1
-         associate (piece => shared%piece(i))
-            piece%ticket = first%last_ticket
-            piece%rank = part%rank
-            piece%equation = part%equation
-            piece%top = part%top
-            piece%n_interior = size(part%equation, kind=ip) - size(part%top, kind=ip)
-            if (part%rank == 0) then
-               call hold_part(first%parts, piece%ticket, shared%piece(1)%ticket, part)
-            else
-               call give_part(piece%ticket, shared%piece(1)%ticket, part)
-               call release_part(part)
-            end if
-         end associate
+         shared%piece(i)%ticket = first%last_ticket + i
+         shared%piece(i)%rank = shares%list(shares%first(b) + i - 1)%rank
       end do
-   end subroutine give_body
+      first%last_ticket = first%last_ticket + n
+   end subroutine begin_pieces
+
+   !> The parts of a body that other ranks have go to them.
+   subroutine give_parts(fem, shares, b, shared)
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(in) :: shares
+      integer(ip), intent(in) :: b
+      type(shared_body_t), intent(inout) :: shared
+      type(part_t) :: part
+      integer(ip) :: i
+
+      do i = 1, size(shared%piece, kind=ip)
+         if (shared%piece(i)%rank == 0) cycle
+         call make_piece(fem, shares, shares%first(b) + i - 1, shared%piece(i), part)
+         call give_part(shared%piece(i)%ticket, shared%piece(1)%ticket, part)
+         call release_part(part)
+      end do
+   end subroutine give_parts
+
+   !> The first rank has its own.
+   subroutine keep_parts(fem, shares, b, first, shared)
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(in) :: shares
+      integer(ip), intent(in) :: b
+      type(first_rank_t), intent(inout) :: first
+      type(shared_body_t), intent(inout) :: shared
+      type(part_t) :: part
+      integer(ip) :: i
+
+      do i = 1, size(shared%piece, kind=ip)
+         if (shared%piece(i)%rank > 0) cycle
+         call make_piece(fem, shares, shares%first(b) + i - 1, shared%piece(i), part)
+         call hold_part(first%parts, shared%piece(i)%ticket, shared%piece(1)%ticket, part)
+      end do
+   end subroutine keep_parts
+
+   subroutine make_piece(fem, shares, p, piece, part)
+      type(fem_t), intent(in) :: fem
+      type(shares_t), intent(in) :: shares
+      integer(ip), intent(in) :: p                   !< place in the shares
+      type(piece_t), intent(inout) :: piece
+      type(part_t), intent(out) :: part
+
+      call make_part(fem, shares, p, part)
+      piece%equation = part%equation
+      piece%top = part%top
+      piece%n_interior = size(part%equation, kind=ip) - size(part%top, kind=ip)
+   end subroutine make_piece
 
    !> Condenses a body by the factors of its parts. status: as condense_body.
    subroutine condense_shared_body(fem, i_body, body, result, status)
