@@ -39,7 +39,7 @@ module atrito_rank_forecast
    private
    public :: forecast_ranks, first_rank_least
 
-   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8
+   integer(lp), parameter :: REAL_BYTES = storage_size(1.0_wp)/8, INTEGER_BYTES = storage_size(1_ip)/8
    integer(lp), parameter :: MESH_NODE = 72_lp, MESH_ELEMENT = 64_lp
    !> Of what is left of a part with k unknowns, for k^2: packed, by its solver, by itself and as a front that goes on.
    integer(lp), parameter :: LEFT_BYTES = 12_lp
@@ -198,12 +198,12 @@ contains
       bytes = WHOLE_NODE*data%model%mesh%n_nodes + WHOLE_ELEMENT*data%model%mesh%n_elements + request_bytes(data%model, data)
    end function whole_bytes
 
-   !> Reduced loads, and which part has an equation.
+   !> Reduced loads, which part has an equation, and whose fields nodes and elements have.
    pure integer(lp) function list_bytes(fem) result(bytes)
       type(fem_t), intent(in) :: fem
       integer(ip) :: b
 
-      bytes = 0
+      bytes = INTEGER_BYTES*(int(fem%mesh%n_nodes, lp) + int(fem%mesh%n_elements, lp))
       do b = 1, fem%bodies%n
          bytes = bytes + 2*REAL_BYTES*int(fem%bodies%list(b)%n, lp)
       end do

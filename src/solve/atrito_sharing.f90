@@ -29,20 +29,16 @@ contains
       type(first_rank_t), intent(inout), target :: first
       type(shared_body_t), intent(out) :: shared(:)  !< (bodies) those that are wanted
       class(errand_t), allocatable, intent(inout) :: errand  !< for the first rank while the others factor; may be none
-      integer(ip) :: b, p
+      integer(ip) :: b
 
       call start_phase('order')
       do b = 1, fem%bodies%n
-         if (wanted(b)) call begin_pieces(fem, shares, b, first, shared(b))
-      end do
-      do b = 1, fem%bodies%n
-         if (wanted(b)) call give_parts(fem, shares, b, shared(b))
+         if (.not. wanted(b)) cycle
+         call begin_pieces(fem, shares, b, first, shared(b))
+         call give_parts(fem, shares, b, shared(b))
       end do
       do b = 1, fem%bodies%n                         ! behind all parts: who factors takes none
-         if (.not. wanted(b)) cycle
-         do p = 1, size(shared(b)%piece, kind=ip)
-            if (shared(b)%piece(p)%rank > 0) call ask_for_factors(shared(b)%piece(p)%ticket, shared(b)%piece(p)%rank)
-         end do
+         if (wanted(b)) call ask_for_parts(shared(b))
       end do
       do b = 1, fem%bodies%n                         ! the others have begun
          if (wanted(b)) call keep_parts(fem, shares, b, first, shared(b))
@@ -50,20 +46,13 @@ contains
       call stop_phase('order')
       call start_phase('factor')
       do b = 1, fem%bodies%n
-         if (.not. wanted(b)) cycle
-         do p = 1, size(shared(b)%piece, kind=ip)
-            if (shared(b)%piece(p)%rank > 0) cycle
-            call factor_part(first%parts%list(find_part(first%parts, shared(b)%piece(p)%ticket)), shared(b)%outcome(p))
-         end do
+         if (wanted(b)) call factor_own(first, shared(b))
       end do
       call stop_phase('factor')
       if (allocated(errand)) call errand%run(fem, shares)
       call start_phase('factor')
       do b = 1, fem%bodies%n
-         if (.not. wanted(b)) cycle
-         do p = 1, size(shared(b)%piece, kind=ip)
-            if (shared(b)%piece(p)%rank > 0) call receive_outcome(shared(b)%piece(p)%rank, shared(b)%outcome(p))
-         end do
+         if (wanted(b)) call hear_parts(shared(b))
       end do
       call stop_phase('factor')
    end subroutine share_bodies
@@ -107,6 +96,15 @@ contains
       end do
    end subroutine give_parts
 
+   subroutine ask_for_parts(shared)
+      type(shared_body_t), intent(in) :: shared
+      integer(ip) :: i
+
+      do i = 1, size(shared%piece, kind=ip)
+         if (shared%piece(i)%rank > 0) call ask_for_factors(shared%piece(i)%ticket, shared%piece(i)%rank)
+      end do
+   end subroutine ask_for_parts
+
    !> The first rank has its own.
    subroutine keep_parts(fem, shares, b, first, shared)
       type(fem_t), intent(in) :: fem
@@ -123,6 +121,26 @@ contains
          call hold_part(first%parts, shared%piece(i)%ticket, shared%piece(1)%ticket, part)
       end do
    end subroutine keep_parts
+
+   subroutine factor_own(first, shared)
+      type(first_rank_t), intent(inout) :: first
+      type(shared_body_t), intent(inout) :: shared
+      integer(ip) :: i
+
+      do i = 1, size(shared%piece, kind=ip)
+         if (shared%piece(i)%rank > 0) cycle
+         call factor_part(first%parts%list(find_part(first%parts, shared%piece(i)%ticket)), shared%outcome(i))
+      end do
+   end subroutine factor_own
+
+   subroutine hear_parts(shared)
+      type(shared_body_t), intent(inout) :: shared
+      integer(ip) :: i
+
+      do i = 1, size(shared%piece, kind=ip)
+         if (shared%piece(i)%rank > 0) call receive_outcome(shared%piece(i)%rank, shared%outcome(i))
+      end do
+   end subroutine hear_parts
 
    subroutine make_piece(fem, shares, p, piece, part)
       type(fem_t), intent(in) :: fem
