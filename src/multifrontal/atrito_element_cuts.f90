@@ -114,41 +114,35 @@ contains
       real(wp), intent(in) :: x(:, :)            !< (2, all nodes) [L]
       integer(ip), intent(in) :: nodes(:)
       integer(ip), allocatable, intent(out) :: order(:)
-      integer(ip), allocatable :: first(:)
-      real(wp) :: low(2), side
-      integer(ip) :: n(2), i, s
+      integer(ip), allocatable :: first(:), square(:)
+      real(wp) :: low(2), high(2), side
+      integer(ip) :: n(2), at(2), i, s
 
-      low = [minval(x(1, nodes)), minval(x(2, nodes))]
-      associate (extent => [maxval(x(1, nodes)), maxval(x(2, nodes))] - low)
-         side = sqrt(max(product(extent), maxval(extent)**2/real(size(nodes), wp))*OF_A_SQUARE/real(size(nodes), wp))
+      allocate (square(size(nodes)), order(size(nodes)))
+      if (size(nodes) == 0) return
+      low = x(:, nodes(1))
+      high = low
+      do i = 2, size(nodes, kind=ip)
+         low = min(low, x(:, nodes(i)))
+         high = max(high, x(:, nodes(i)))
+      end do
+      associate (extent => high - low, n_nodes => real(size(nodes), wp))
+         side = sqrt(max(product(extent), maxval(extent)**2/n_nodes)*OF_A_SQUARE/n_nodes)
          n = int(extent/max(side, tiny(side)), ip) + 1_ip
       end associate
-      allocate (first(0:n(1)*n(2)), order(size(nodes)))
-      first = 0
+      allocate (first(0:n(1)*n(2)), source=0_ip)
       do i = 1, size(nodes, kind=ip)
-         s = square_of(i)
-         first(s + 1) = first(s + 1) + 1
+         at = min(int((x(:, nodes(i)) - low)/max(side, tiny(side)), ip), n - 1_ip)
+         square(i) = at(1) + n(1)*at(2)          ! from 0
+         first(square(i) + 1) = first(square(i) + 1) + 1
       end do
       do s = 1, n(1)*n(2)
          first(s) = first(s) + first(s - 1)
       end do
       do i = 1, size(nodes, kind=ip)
-         s = square_of(i)
-         first(s) = first(s) + 1
-         order(first(s)) = i
+         first(square(i)) = first(square(i)) + 1
+         order(first(square(i))) = i
       end do
-
-   contains
-
-      !> Numbered from 0.
-      pure integer(ip) function square_of(i)
-         integer(ip), intent(in) :: i
-         integer(ip) :: at(2)
-
-         at = min(int((x(:, nodes(i)) - low)/max(side, tiny(side)), ip), n - 1_ip)
-         square_of = at(1) + n(1)*at(2)
-      end function square_of
-
    end subroutine sort_by_squares
 
 end module atrito_element_cuts
