@@ -126,26 +126,19 @@ contains
       character(len=*), intent(in) :: path, label
       character(len=:), allocatable, intent(out) :: line
       logical, intent(out) :: found
-      character(len=LONGEST_SYSTEM_LINE) :: buffer
-      integer :: unit, ios
+      type(string_t), allocatable :: lines(:)
 
+      call read_system_lines(path, lines, label)
       found = .false.
-      open (newunit=unit, file=path, status='old', action='read', iostat=ios)
-      if (ios /= 0) return
-      do
-         read (unit, '(a)', iostat=ios) buffer
-         if (ios /= 0) exit
-         found = buffer(:len(label)) == label
-         if (found) exit
-      end do
-      close (unit)
-      if (found) line = trim(buffer)
+      if (size(lines) > 0) found = index(lines(size(lines))%s, label) == 1
+      if (found) line = lines(size(lines))%s
    end subroutine read_system_line
 
-   !> All lines of such a file; none where it cannot be read.
-   subroutine read_system_lines(path, lines)
+   !> The lines of such a file; none where it cannot be read.
+   subroutine read_system_lines(path, lines, last)
       character(len=*), intent(in) :: path
       type(string_t), allocatable, intent(out) :: lines(:)
+      character(len=*), intent(in), optional :: last   !< the first line that begins so is the last one
       character(len=LONGEST_SYSTEM_LINE) :: buffer
       integer :: unit, ios
 
@@ -156,6 +149,8 @@ contains
          read (unit, '(a)', iostat=ios) buffer
          if (ios /= 0) exit
          call append_string(lines, trim(buffer))
+         if (.not. present(last)) cycle
+         if (index(buffer, last) == 1) exit
       end do
       close (unit)
    end subroutine read_system_lines
