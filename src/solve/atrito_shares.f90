@@ -1,21 +1,21 @@
-!> The shares of the ranks in one scene: whole bodies by their predicted work, and bodies with more of it than a fair share in
-!> pieces.
+!> The shares of the ranks in one scene: whole bodies by their predicted work (atrito_part_work), and bodies with more of it than a
+!> fair share in pieces.
 !>
-!> Fair is the same work for all ranks, of many but the first (fair_share).
-!> A body of work w where f is fair is cut into pieces of f and what is left of it. Pieces of a fair share have a rank of their own,
+!> Fair is the same work for all ranks, of many but the first (fair_share); what a body takes depends on how it is cut, and
+!> with it what is fair. A body that has more is cut into pieces that are fair and what is left of it. Pieces of a fair share have a rank of their own,
 !> all others are shared out over the contact graph. As long as one rank has far more than the mean, its heaviest piece is halved.
 !> The same scene and number of ranks give the same shares.
 module atrito_shares
    use atrito_assembly, only: fem_t, body_profile
    use atrito_bodies, only: body_t
-   use atrito_condensed_body, only: sparse_cost
    use atrito_contact_graph, only: contact_graph_t, begin_contact_graph, add_edge, add_rows, close_contact_graph, share_vertices, &
                                    add_greedily, unevenness
    use atrito_contact_rows, only: contact_rows_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_multifrontal, only: cut_elements, sort_by_squares
-   use atrito_profile, only: profile_t
+   use atrito_part_work, only: body_work_t, share_of_work, work_of_body, work_of_share
+   use atrito_profile, only: profile_t, mean_height
    implicit none (type, external)
    private
    public :: shares_t, share_t, top_t, make_shares, share_out, rank_of_elements, predict_work, is_worth_sharing, is_over_ranks
@@ -27,7 +27,8 @@ module atrito_shares
       integer(ip) :: body = 0
       integer(ip) :: rank = 0                       !< 0..n_ranks - 1
       logical :: is_whole = .true.               !< the body is
-      real(wp) :: work = 0.0_wp                  !< predicted, operations of the skyline
+      integer(ip) :: n_cuts = 0                  !< sides that it has by cuts
+      real(wp) :: work = 0.0_wp                  !< predicted [operations]
       integer(ip), allocatable :: elements(:)    !< in the order of the body
       integer(ip), allocatable :: nodes(:)       !< of a piece, in the order of the body; a whole body has its own
    end type share_t
@@ -52,8 +53,8 @@ module atrito_shares
    integer, parameter :: SHARE_NONE = 0, SHARE_AUTO = 1, SHARE_ALL = 2
 
    !> Scenes of less work, some 2e5 displacements in one body or 0.3 s of one process, are not shared out.
-   real(wp), parameter :: LEAST_WORK = 2.0e9_wp
-   !> A piece with this share of what is fair has a rank of its own; less than this, of what is fair, is no piece of its own.
+   real(wp), parameter :: LEAST_WORK = 1.0e10_wp
+   !> A piece with this share of what is fair has a rank of its own; less than this share of a piece is no piece of its own.
    real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
    !> What the first of many ranks has besides, over the work of all.
    real(wp), parameter :: BESIDES = 0.2_wp
@@ -61,22 +62,33 @@ module atrito_shares
    real(wp), parameter :: EVEN_ENOUGH = 1.2_wp, LEAST_CUT = 0.05_wp
    !> For each rank, so that it ends.
    integer(ip), parameter :: MOST_HALVINGS = 2_ip
+   !> Halvings of an interval in which it is found what is fair.
+   integer, parameter :: HALVINGS = 30
 
 contains
 
-   !> The predicted work of all bodies, in operations of the skyline: nothing that depends on the machine.
-   function predict_work(fem) result(work)
+   !> What the work of all bodies depends on; nothing of rigid ones.
+   function measure_bodies(fem) result(bodies)
       type(fem_t), intent(in) :: fem
-      real(wp) :: work(fem%bodies%n)
+      type(body_work_t) :: bodies(fem%bodies%n)
       type(profile_t) :: profile
       integer(ip) :: b
 
-      work = 0.0_wp
       do b = 1, fem%bodies%n
          if (fem%bodies%list(b)%is_rigid) cycle
          call body_profile(fem, b, profile)
-         work(b) = sparse_cost(profile)
+         bodies(b)%n = real(profile%n - profile%n_retained, wp)
+         bodies(b)%width = mean_height(profile)
+         bodies(b)%n_kept = real(profile%n_retained, wp)
       end do
+   end function measure_bodies
+
+   !> The predicted work of all bodies.
+   function predict_work(fem) result(work)
+      type(fem_t), intent(in) :: fem
+      real(wp) :: work(fem%bodies%n)
+
+      work = merge(0.0_wp, work_of_body(measure_bodies(fem)), fem%bodies%list(:fem%bodies%n)%is_rigid)
    end function predict_work
 
    !> Whether the scene goes over the ranks.
@@ -131,23 +143,24 @@ contains
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: n_ranks         !< >= 1
       type(shares_t), intent(out) :: shares
-      real(wp) :: work(fem%bodies%n), fair
+      type(body_work_t) :: bodies(fem%bodies%n)
+      real(wp) :: fair
       type(share_t), allocatable :: none(:)
       integer(ip) :: b, i, heaviest
 
       shares%n_ranks = n_ranks
-      work = predict_work(fem)
-      fair = fair_share(n_ranks)*sum(work)
+      bodies = measure_bodies(fem)
+      fair = fair_work(pack(bodies,.not. fem%bodies%list(:fem%bodies%n)%is_rigid), n_ranks)
       allocate (none(0))
       call move_alloc(none, shares%list)
       do b = 1, fem%bodies%n
-         if (.not. fem%bodies%list(b)%is_rigid) call add_body(fem, b, work(b), pieces_of(work(b), fair), shares%list)
+         if (.not. fem%bodies%list(b)%is_rigid) call add_body(fem, b, bodies(b), pieces_of(bodies(b), fair), shares%list)
       end do
       call give_to_ranks(fem, rows, fair, n_ranks, shares%list)
       do i = 1, MOST_HALVINGS*n_ranks
          call find_too_heavy(shares%list, fair, n_ranks, heaviest)
          if (heaviest == 0) exit
-         call halve(fem, heaviest, shares%list)
+         call halve(fem, bodies, heaviest, shares%list)
          call give_to_ranks(fem, rows, fair, n_ranks, shares%list)
       end do
       call arrange(fem, shares)
@@ -164,45 +177,89 @@ contains
       if (n_ranks > 1) share = min((1.0_wp + BESIDES*(n - 2.0_wp)/n)/n, 1.0_wp/(n - 1.0_wp))
    end function fair_share
 
+   !> The work of a rank but the first, where bodies are cut into pieces of it: the least that is enough for all.
+   pure real(wp) function fair_work(bodies, n_ranks) result(fair)
+      type(body_work_t), intent(in) :: bodies(:)
+      integer(ip), intent(in) :: n_ranks
+      real(wp) :: low, middle
+      integer :: i
+
+      fair = sum(work_of_body(bodies))
+      low = fair_share(n_ranks)*fair             ! cuts take more
+      do i = 1, HALVINGS
+         middle = 0.5_wp*(low + fair)
+         if (fair_share(n_ranks)*work_in_pieces(bodies, middle) > middle) then
+            low = middle
+         else
+            fair = middle
+         end if
+      end do
+   end function fair_work
+
+   !> All of it, where bodies are cut into fair pieces.
+   pure real(wp) function work_in_pieces(bodies, fair) result(work)
+      type(body_work_t), intent(in) :: bodies(:)
+      real(wp), intent(in) :: fair
+      real(wp), allocatable :: target(:)
+      integer(ip) :: b
+
+      work = 0.0_wp
+      do b = 1, size(bodies, kind=ip)
+         target = pieces_of(bodies(b), fair)
+         work = work + sum(work_of_share(bodies(b), target, cuts_of(size(target, kind=ip))))
+      end do
+   end function work_in_pieces
+
+   !> Sides that pieces have by cuts: two of one body have one in common.
+   pure integer(ip) function cuts_of(n_pieces) result(n)
+      integer(ip), intent(in) :: n_pieces
+
+      n = min(n_pieces - 1_ip, 2_ip)
+   end function cuts_of
+
    !> The shares of a body's pieces in it; one piece: it stays whole.
-   pure function pieces_of(work, fair) result(target)
-      real(wp), intent(in) :: work, fair
+   pure function pieces_of(body, fair) result(target)
+      type(body_work_t), intent(in) :: body
+      real(wp), intent(in) :: fair               !< work
       real(wp), allocatable :: target(:)
       integer(ip) :: i, n
-      real(wp) :: rest
+      real(wp) :: share
 
-      n = max(1_ip, int(work/fair, ip))
-      rest = work/fair - real(n, wp)
-      if (rest < LEAST_REST) then
-         target = [(1.0_wp/real(n, wp), i=1, n)]
-      else
-         target = [[(fair/work, i=1, n)], rest*fair/work]
+      if (work_of_body(body) <= (1.0_wp + LEAST_REST)*fair) then
+         target = [1.0_wp]
+         return
       end if
+      share = share_of_work(body, fair, cuts_of(2_ip))
+      if (2.0_wp + LEAST_REST < 1.0_wp/share) share = share_of_work(body, fair, cuts_of(3_ip))
+      n = max(1_ip, int(1.0_wp/share + 1.0_wp - LEAST_REST, ip))
+      target = [[(share, i=1, n - 1)], 1.0_wp - real(n - 1, wp)*share]
+      if (target(n) >= (1.0_wp - LEAST_REST)*share) target = 1.0_wp/real(n, wp)
    end function pieces_of
 
    !> The elements of a body that is cut are sorted: neighbours are near in memory on their ranks.
-   subroutine add_body(fem, b, work, target, list)
+   subroutine add_body(fem, b, body, target, list)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: b
-      real(wp), intent(in) :: work
+      type(body_work_t), intent(in) :: body
       real(wp), intent(in) :: target(:)          !< (pieces)
       type(share_t), allocatable, intent(inout) :: list(:)
       type(share_t) :: whole
       integer(ip), allocatable :: order(:)
 
       whole%body = b
-      whole%work = work
+      whole%work = work_of_body(body)
       whole%elements = fem%bodies%list(b)%elements
       if (size(target) > 1) then
          call sort_by_squares(fem%mesh%x, fem%mesh%nodes(1, whole%elements), order)
          whole%elements = whole%elements(order)
       end if
-      call append(fem, whole, target, list)
+      call append(fem, body, whole, target, list)
    end subroutine add_body
 
    !> Adds the pieces of a part to a list of parts.
-   subroutine append(fem, part, target, list)
+   subroutine append(fem, body, part, target, list)
       type(fem_t), intent(in) :: fem
+      type(body_work_t), intent(in) :: body
       type(share_t), intent(in) :: part
       real(wp), intent(in) :: target(:)          !< (pieces)
       type(share_t), allocatable, intent(inout) :: list(:)
@@ -225,8 +282,9 @@ contains
          associate (piece => longer(before + n), own => part%elements(member(first(i):first(i + 1) - 1)))
             piece%body = part%body
             piece%elements = own
-            piece%work = part%work*real(size(own), wp)/real(size(part%elements), wp)
             piece%is_whole = part%is_whole .and. size(own) == size(part%elements)
+            if (.not. piece%is_whole) piece%n_cuts = part%n_cuts + cuts_of(size(target, kind=ip))
+            piece%work = work_of_share(body, real(size(own), wp)/real(size(fem%bodies%list(part%body)%elements), wp), piece%n_cuts)
          end associate
       end do
       if (before + n < size(longer)) then
@@ -242,6 +300,7 @@ contains
       to%body = from%body
       to%rank = from%rank
       to%is_whole = from%is_whole
+      to%n_cuts = from%n_cuts
       to%work = from%work
       call move_alloc(from%elements, to%elements)
    end subroutine move_share
@@ -329,8 +388,9 @@ contains
       if (list(heaviest)%work < LEAST_CUT*fair .or. size(list(heaviest)%elements) < 2) heaviest = 0
    end subroutine find_too_heavy
 
-   subroutine halve(fem, heaviest, list)
+   subroutine halve(fem, bodies, heaviest, list)
       type(fem_t), intent(in) :: fem
+      type(body_work_t), intent(in) :: bodies(:)
       integer(ip), intent(in) :: heaviest
       type(share_t), allocatable, intent(inout) :: list(:)
       type(share_t), allocatable :: others(:)
@@ -344,7 +404,7 @@ contains
       end do
       call move_share(list(heaviest), part)
       call move_alloc(others, list)
-      call append(fem, part, [0.5_wp, 0.5_wp], list)
+      call append(fem, bodies(part%body), part, [0.5_wp, 0.5_wp], list)
    end subroutine halve
 
    !> Puts the parts of each body one after the other, and finds what they have in common.
