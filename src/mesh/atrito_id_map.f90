@@ -1,7 +1,8 @@
 !> From the user's numbers (any positive integers) to places in an array.
 !>
 !> As long as the numbers come one after the other, as do their places, their beginning tells all. From the first that does not on
-!> there is a hash table that doubles.
+!> there is a table: of all numbers up to the greatest, where many of these are there, else a hash table. Either becomes the other
+!> when it is full.
 module atrito_id_map
    use atrito_kinds, only: ip, lp
    implicit none (type, external)
@@ -11,8 +12,13 @@ module atrito_id_map
    type :: id_map_t
       integer(ip) :: n = 0
       integer(ip), private :: first_id = 0, first_place = 0         !< of the sequence
-      integer(ip), allocatable, private :: key(:), place(:)         !< of the table, if there is one; key 0: free
+      integer(ip), private :: greatest = 0                          !< id of the table
+      integer(ip), allocatable, private :: place(:)                 !< of the table, if there is one
+      integer(ip), allocatable, private :: key(:)                   !< of the hash table; 0: free. Else place(id), 0: not there
    end type id_map_t
+
+   !> Numbers up to the greatest over those that are there, at the most, in a table of all: no more memory than hashing takes.
+   integer(lp), parameter :: MOST_OVER_ALL = 4_lp
 
 contains
 
@@ -24,7 +30,7 @@ contains
       logical, intent(out) :: known
       integer(ip) :: slot
 
-      if (.not. allocated(map%key)) then
+      if (.not. allocated(map%place)) then
          known = is_in_sequence(map, id)
          if (known) return
          if (map%n == 0) then
@@ -35,14 +41,13 @@ contains
             map%n = map%n + 1
             return
          end if
-         call leave_sequence(map)
       end if
-      if (2*map%n >= size(map%key)) call grow_table(map)
-      slot = find_slot(map, id)
-      known = map%key(slot) == id
+      if (.not. has_room(map, id)) call grow_table(map, id)
+      slot = id
+      if (allocated(map%key)) slot = find_slot(map, id)
+      known = map%place(slot) > 0
       if (known) return
-      map%key(slot) = id
-      map%place(slot) = place
+      call put_id(map, id, place)
       map%n = map%n + 1
    end subroutine add_id
 
@@ -56,7 +61,7 @@ contains
 
       if (n < 1) return
       call add_id(map, first_id, first_place, known)
-      if (.not. allocated(map%key)) then
+      if (.not. allocated(map%place)) then
          map%n = map%n + n - 1             ! the first goes on with the sequence, and so do the others
       else
          do i = 1, n - 1
@@ -76,6 +81,8 @@ contains
       if (allocated(map%key)) then
          slot = find_slot(map, id)
          if (map%key(slot) == id) place = map%place(slot)
+      else if (allocated(map%place)) then
+         if (id <= size(map%place)) place = map%place(id)
       else if (is_in_sequence(map, id)) then
          place = map%first_place + (id - map%first_id)
       end if
@@ -88,45 +95,87 @@ contains
       is_in_sequence = id >= map%first_id .and. id - map%first_id < map%n
    end function is_in_sequence
 
-   !> From the sequence to a table.
-   pure subroutine leave_sequence(map)
-      type(id_map_t), intent(inout) :: map
-      integer(ip) :: i, slot, length
+   !> Whether the table, if there is one, takes another id.
+   pure logical function has_room(map, id)
+      type(id_map_t), intent(in) :: map
+      integer(ip), intent(in) :: id
 
-      length = 64
-      do while (length <= 2*map%n)
+      has_room = .false.
+      if (allocated(map%key)) then
+         has_room = 2_lp*map%n < size(map%key, kind=lp)
+      else if (allocated(map%place)) then
+         has_room = id <= size(map%place)
+      end if
+   end function has_room
+
+   !> A larger table, of the kind that fits, for what is there and another id.
+   pure subroutine grow_table(map, id)
+      type(id_map_t), intent(inout) :: map
+      integer(ip), intent(in) :: id
+      type(id_map_t) :: larger
+      integer(ip) :: i
+      integer(lp) :: greatest
+
+      greatest = max(int(map%greatest, lp), int(id, lp))
+      if (.not. allocated(map%place)) greatest = max(greatest, int(map%first_id, lp) + map%n - 1)
+      call make_table(larger, map%n + 1_ip, greatest)
+      if (.not. allocated(map%place)) then
+         do i = 0, map%n - 1
+            call put_id(larger, map%first_id + i, map%first_place + i)
+         end do
+      else
+         do i = lbound(map%place, 1, ip), ubound(map%place, 1, ip)
+            if (map%place(i) == 0) cycle
+            if (allocated(map%key)) call put_id(larger, map%key(i), map%place(i))
+            if (.not. allocated(map%key)) call put_id(larger, i, map%place(i))
+         end do
+      end if
+      larger%n = map%n
+      call move_table(larger, map)
+   end subroutine grow_table
+
+   !> An empty table for so many ids, with room for as many more.
+   pure subroutine make_table(map, n, greatest)
+      type(id_map_t), intent(inout) :: map
+      integer(ip), intent(in) :: n
+      integer(lp), intent(in) :: greatest        !< id
+      integer(lp) :: length
+
+      if (greatest <= MOST_OVER_ALL*n) then
+         length = min(greatest + greatest/2, int(huge(1_ip), lp))
+         allocate (map%place(length), source=0_ip)
+         return
+      end if
+      length = 64_lp
+      do while (length <= 2_lp*n)
          length = 2*length
       end do
-      call make_table(map, length)
-      do i = 0, map%n - 1
-         slot = find_slot(map, map%first_id + i)
-         map%key(slot) = map%first_id + i
-         map%place(slot) = map%first_place + i
-      end do
-   end subroutine leave_sequence
-
-   pure subroutine make_table(map, length)
-      type(id_map_t), intent(inout) :: map
-      integer(ip), intent(in) :: length   !< a power of two
-
       allocate (map%key(0:length - 1), map%place(0:length - 1), source=0_ip)
    end subroutine make_table
 
-   pure subroutine grow_table(map)
-      type(id_map_t), intent(inout) :: map
-      type(id_map_t) :: larger
-      integer(ip) :: i, slot
+   pure subroutine move_table(from, to)
+      type(id_map_t), intent(inout) :: from, to
 
-      call make_table(larger, 2*size(map%key, kind=ip))
-      do i = 0, size(map%key, kind=ip) - 1
-         if (map%key(i) == 0) cycle
-         slot = find_slot(larger, map%key(i))
-         larger%key(slot) = map%key(i)
-         larger%place(slot) = map%place(i)
-      end do
-      call move_alloc(larger%key, map%key)
-      call move_alloc(larger%place, map%place)
-   end subroutine grow_table
+      if (allocated(to%key)) deallocate (to%key)
+      if (allocated(from%key)) call move_alloc(from%key, to%key)
+      call move_alloc(from%place, to%place)
+      to%greatest = from%greatest
+   end subroutine move_table
+
+   !> Puts an id that is not there into the table, which has room for it.
+   pure subroutine put_id(map, id, place)
+      type(id_map_t), intent(inout) :: map
+      integer(ip), intent(in) :: id, place
+      integer(ip) :: slot
+
+      slot = id
+      if (allocated(map%key)) then
+         slot = find_slot(map, id)
+         map%key(slot) = id
+      end if
+      map%place(slot) = place
+      map%greatest = max(map%greatest, id)
+   end subroutine put_id
 
    !> The slot of an id, or the free slot where it would go (linear probing after a multiplicative hash).
    pure integer(ip) function find_slot(map, id) result(slot)
