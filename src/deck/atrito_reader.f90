@@ -16,9 +16,10 @@ module atrito_reader
    use atrito_items, only: has_option, option_text, option_word
    use atrito_keyword, only: keyword_t, KIND_TEXT
    use atrito_keyword_table, only: keyword_table
-   use atrito_lexer, only: line_t, items_t, take_line, split_items, LINE_KEYWORD, LINE_DATA
+   use atrito_lexer, only: line_t, items_t, take_line, split_items, LINE_COMMENT, LINE_KEYWORD, LINE_DATA
    use atrito_memory, only: available_memory, memory_text
    use atrito_note_edits, only: note_edits
+   use atrito_plain_lines, only: take_plain_lines
    use atrito_parameters, only: settings_t, read_settings, define_parameter, check_settings
    use atrito_status, only: status_t, is_ok
    use atrito_strings, only: string_t, to_text, count_symbol
@@ -46,6 +47,7 @@ module atrito_reader
       type(order_t) :: order
       integer :: mode = MODE_NO_KEYWORD
       integer :: depth = 0                         !< of includes
+      logical :: may_be_plain = .false.            !< the next lines may be a run of plain ones
       type(items_t) :: items                       !< work space
    end type reading_t
 
@@ -113,6 +115,10 @@ contains
       end if
       cursor%position = after_byte_order_mark(deck%sources(source)%text)
       do while (cursor%position <= len(deck%sources(source)%text))
+         if (reading%may_be_plain) then
+            call read_plain_lines(deck, reading, cursor)
+            cycle
+         end if
          call next_line(deck, cursor, line)
          select case (line%kind)
          case (LINE_KEYWORD)
@@ -120,6 +126,7 @@ contains
          case (LINE_DATA)
             call read_data_line(deck, reading, cursor, line)
          end select
+         reading%may_be_plain = reading%mode == MODE_ITEMS .and. (line%kind == LINE_KEYWORD .or. line%kind == LINE_COMMENT)
       end do
       deck%sources(source)%n_lines = cursor%line
       do i = source + 1, deck%n_sources
@@ -127,6 +134,19 @@ contains
          deck%sources(source)%n_lines = deck%sources(source)%n_lines + deck%sources(i)%n_lines
       end do
    end subroutine read_source
+
+   !> Takes many data lines at once, where they are plain; what ends them is read line by line.
+   subroutine read_plain_lines(deck, reading, cursor)
+      type(deck_t), intent(inout) :: deck
+      type(reading_t), intent(inout) :: reading
+      type(cursor_t), intent(inout) :: cursor
+
+      reading%may_be_plain = .false.
+      call take_plain_lines(deck, cursor%source, cursor%position, cursor%line)
+      associate (card => deck%cards(deck%n_cards))
+         card%n_lines = deck%n_lines - card%first_line + 1
+      end associate
+   end subroutine read_plain_lines
 
    !> Takes the next line and reports a control character in it.
    subroutine next_line(deck, cursor, line)

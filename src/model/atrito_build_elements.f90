@@ -11,6 +11,7 @@ module atrito_build_elements
    use atrito_model, only: model_t
    use atrito_model_memory, only: fits_memory
    use atrito_number_list, only: number_list_t, add_number, add_numbers, numbers_of
+   use atrito_plain_numbers, only: read_plain_elements, SLICE
    use atrito_references, only: get_id, find_one_node, find_one_element
    use atrito_sets, only: grow_set
    use atrito_strings, only: to_text
@@ -54,15 +55,39 @@ contains
          if (ok) ok = fits_memory(card%place, context, 0_lp, int(card%n_lines, lp), 'ELEMENT', n_nodes)
          if (ok) call note_membrane(card, context)
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (ok .and. context%deck%lines(i)%ok) then
-               call read_element_line(context%deck%lines(i), n_nodes, state, context)
-            else
-               call spoil_number(context%deck, context%deck%lines(i), context%elements)
-            end if
+            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
          end do
+         if (ok) call read_element_lines(card%first_line, card%first_line + card%n_lines - 1, n_nodes, state, context)
          call put_named_set(context%deck, card, context%model, [(i, i=first, context%model%mesh%n_elements)])
       end associate
    end subroutine read_element_card
+
+   subroutine read_element_lines(first, last, n_nodes, state, context)
+      integer(ip), intent(in) :: first, last           !< lines of the deck
+      integer(ip), intent(in) :: n_nodes, state
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: begin, i, k
+      integer(ip), allocatable :: id(:), nodes(:, :)
+      logical, allocatable :: is_plain(:)
+      logical :: ok
+
+      k = min(SLICE, max(last - first + 1, 0_ip))
+      allocate (id(k), nodes(n_nodes, k), is_plain(k))
+      do begin = first, last, SLICE
+         call read_plain_elements(context%deck, context%model%mesh, context%deck%lines(begin:min(last, begin + SLICE - 1)), &
+                                  id, nodes, is_plain)
+         do i = begin, min(last, begin + SLICE - 1)
+            k = i - begin + 1
+            ok = is_plain(k)
+            if (ok) then
+               call place_element(context, id(k), state, nodes(:, k), context%deck%lines(i)%first_token, ok, 'ELEMENT')
+            else if (context%deck%lines(i)%ok) then
+               call read_element_line(context%deck%lines(i), n_nodes, state, context, ok)
+            end if
+            if (.not. ok) call spoil_number(context%deck, context%deck%lines(i), context%elements)
+         end do
+      end do
+   end subroutine read_element_lines
 
    !> Membranes are taken as plane stress, which is told once.
    subroutine note_membrane(card, context)
@@ -77,12 +102,13 @@ contains
                        keyword='ELEMENT')
    end subroutine note_membrane
 
-   subroutine read_element_line(line, n_nodes, state, context)
+   subroutine read_element_line(line, n_nodes, state, context, good)
       type(data_line_t), intent(in) :: line
       integer(ip), intent(in) :: n_nodes, state
       type(build_context_t), intent(inout) :: context
+      logical, intent(out) :: good                     !< .false. when reported
       integer(ip) :: id, nodes(n_nodes), i
-      logical :: good, ok
+      logical :: ok
 
       call get_id(context%deck, context%deck%tokens(line%first_token), 'element number', id, good, 'ELEMENT')
       do i = 1, n_nodes
@@ -91,7 +117,6 @@ contains
          if (ok) good = is_new_corner(context%deck, line, nodes(:i)) .and. good
       end do
       if (good) call place_element(context, id, state, nodes, line%first_token, good, 'ELEMENT')
-      if (.not. good) call spoil_number(context%deck, line, context%elements)
    end subroutine read_element_line
 
    !> The last of an element's nodes so far is none of the earlier ones.

@@ -9,6 +9,7 @@ module atrito_build_nodes
    use atrito_mesh, only: add_node, find_node
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
+   use atrito_plain_numbers, only: read_plain_nodes, SLICE
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_sets, only: grow_set, set_count
    use atrito_strings, only: to_text
@@ -29,15 +30,51 @@ contains
       associate (card => context%deck%cards(i_card))
          fits = fits_memory(card%place, context, int(card%n_lines, lp), 0_lp, 'NODE')
          do i = card%first_line, card%first_line + card%n_lines - 1
-            if (fits) then
-               call read_node_line(context%deck%lines(i), context)
-            else
-               call spoil_number(context%deck, context%deck%lines(i), context%nodes)
-            end if
+            if (.not. fits) call spoil_number(context%deck, context%deck%lines(i), context%nodes)
          end do
+         if (fits) call read_node_lines(card%first_line, card%first_line + card%n_lines - 1, context)
       end associate
       call put_named_set(i_card, context, [(i, i=first, context%model%mesh%n_nodes)])
    end subroutine read_node_card
+
+   subroutine read_node_lines(first, last, context)
+      integer(ip), intent(in) :: first, last           !< lines of the deck
+      type(build_context_t), intent(inout) :: context
+      integer(ip) :: begin, i, k
+      integer(ip), allocatable :: id(:)
+      real(wp), allocatable :: x(:, :)
+      logical, allocatable :: is_plain(:)
+
+      k = min(SLICE, max(last - first + 1, 0_ip))
+      allocate (id(k), x(2, k), is_plain(k))
+      do begin = first, last, SLICE
+         call read_plain_nodes(context%deck, context%deck%lines(begin:min(last, begin + SLICE - 1)), id, x, is_plain)
+         do i = begin, min(last, begin + SLICE - 1)
+            k = i - begin + 1
+            if (is_plain(k)) then
+               call place_moved_node(context, id(k), x(:, k), context%deck%lines(i)%first_token)
+            else
+               call read_node_line(context%deck%lines(i), context)
+            end if
+         end do
+      end do
+   end subroutine read_node_lines
+
+   !> Adds a node that stands in a line of its own; that of an instance where the instance is.
+   subroutine place_moved_node(context, id, x, token)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: id
+      real(wp), intent(in) :: x(2)                     !< as it stands there [L]
+      integer(ip), intent(in) :: token                 !< of the deck: its number
+      real(wp) :: place(2)
+      logical :: ok
+
+      place = x
+      associate (scope => context%deck%tokens(token)%scope)
+         if (scope > 0) place = moved(context%motions(scope), x)
+      end associate
+      call place_node(context, id, place, token, ok, 'NODE')
+   end subroutine place_moved_node
 
    subroutine read_node_line(line, context)
       type(data_line_t), intent(in) :: line
@@ -62,10 +99,7 @@ contains
          end if
       end if
       if (all(ok)) then
-         associate (scope => context%deck%tokens(line%first_token)%scope)
-            if (scope > 0) x = moved(context%motions(scope), x)
-         end associate
-         call place_node(context, id, x, line%first_token, ok(1), 'NODE')
+         call place_moved_node(context, id, x, line%first_token)
       else
          call spoil_number(context%deck, line, context%nodes)
       end if

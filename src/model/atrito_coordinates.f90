@@ -7,7 +7,7 @@ module atrito_coordinates
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: get_coordinate
+   public :: get_coordinate, is_coordinate
 
    !> Areas and their squares must be numbers, too.
    real(wp), parameter :: LARGEST_COORDINATE = 1.0e60_wp
@@ -25,10 +25,17 @@ contains
       real(wp), intent(in), optional :: default        !< of an empty item [L]
 
       call get_real(deck, token, what, x, ok, default, keyword)
-      if (.not. ok .or. abs(x) <= LARGEST_COORDINATE) return
+      if (.not. ok .or. is_coordinate(x)) return
       ok = .false.
       call report_error(deck, token, 'E-VALUE', 'a coordinate of '//to_text(x), expected=what//', at most '// &
                         to_text(LARGEST_COORDINATE), keyword=keyword)
    end subroutine get_coordinate
+
+   !> Whether a number may be one.
+   pure logical function is_coordinate(x)
+      real(wp), intent(in) :: x                        !< [L]
+
+      is_coordinate = abs(x) <= LARGEST_COORDINATE
+   end function is_coordinate
 
 end module atrito_coordinates
