@@ -38,6 +38,7 @@ module atrito_command_line
       real(wp) :: limit_tolerance = 1.0e-6_wp       !< of a limit
       integer(ip) :: watched(2) = 0                 !< of a limit: node and dof; 0: the largest displacement
       integer(ip) :: threads = 1
+      integer(ip) :: n_on_host = 1                  !< ranks of the first one's host, itself among them: no option
       integer(ip) :: refine = 0                     !< levels: each element into 4**refine
       integer(ip) :: shape = 0                      !< nodes of all elements, set by a study; 0: as in the deck
       integer(ip) :: state = 0                      !< and their state

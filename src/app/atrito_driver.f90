@@ -41,7 +41,8 @@ module atrito_driver
 contains
 
    !> Runs the program on its command line; code is the exit code.
-   subroutine run_program(code)
+   subroutine run_program(n_on_host, code)
+      integer(ip), intent(in) :: n_on_host          !< ranks of the first one's host, itself among them
       integer, intent(out) :: code                  !< one of STATUS_*
       type(string_t), allocatable :: arguments(:)
       type(command_t) :: command
@@ -52,6 +53,7 @@ contains
 
       call fetch_arguments(arguments)
       call parse_command(arguments, command, ok, error)
+      command%n_on_host = n_on_host
       code = STATUS_USAGE
       if (.not. ok) then
          call print_wrong(error, 'atrito --help', wants_json(arguments))

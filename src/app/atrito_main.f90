@@ -2,20 +2,23 @@
 program atrito_main
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use atrito_driver, only: begin_program, run_program
-   use atrito_mpi, only: begin_ranks, end_ranks, has_mpi, own_rank, rank_count
+   use atrito_kinds, only: ip
+   use atrito_mpi, only: begin_ranks, end_ranks, has_mpi, own_rank, rank_count, ranks_on_host
    use atrito_rank_services, only: dismiss_ranks
    use atrito_service, only: serve
    use atrito_status, only: STATUS_INTERNAL, STATUS_OK
    use atrito_system, only: be_rank, forgive_faults, guard_exit, release_exit
    implicit none (type, external)
+   integer(ip) :: n_on_host
    integer :: code
 
    call guard_exit(STATUS_INTERNAL)
    call begin_ranks()
    call begin_program()
    if (rank_count() > 1) call be_rank(int(own_rank()))
+   n_on_host = ranks_on_host()
    if (own_rank() == 0) then
-      call run_program(code)
+      call run_program(n_on_host, code)
       call dismiss_ranks()
    else
       call serve()

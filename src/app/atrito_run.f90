@@ -39,7 +39,8 @@ module atrito_run
                             STATUS_NOT_CONVERGED
    use atrito_strings, only: string_t, upper_case
    use atrito_study_errors, only: run_facts_t
-   use atrito_threads, only: set_threads
+   use atrito_system, only: address_space_limit
+   use atrito_threads, only: lent_threads, set_threads
    use atrito_timers, only: start_phase, stop_phase
    use atrito_write_plots, only: write_plots, plot_names
    use atrito_write_results, only: write_results
@@ -63,7 +64,7 @@ contains
       type(status_t) :: status
       integer(ip) :: told
 
-      call set_threads(command%threads)
+      call take_threads(command)                    ! the other ranks have nothing to do yet
       reporter%quiet = command%quiet .or. command%json
       call load_model(command, reporter, model, told, code, keeps_deck=.true.)
       if (code == STATUS_OK) call prepare_observations(command, model, observations, code)
@@ -75,6 +76,7 @@ contains
          code = status%code
          return
       end if
+      call set_threads(command%threads)
       call solve_history(model, solve_options(command), reporter, history, status, store, recorder, observations)
       call print_messages(command%quiet, told + 1, command%json)
       associate (n => last_frame(history))
@@ -82,6 +84,7 @@ contains
          if (.not. is_ok(status)) call print_status(status, model%deck_path, command%json)
          code = status%code
          if (n == 0) return
+         call take_threads(command)                 ! they have nothing more to do
          call write_run(command, reporter, model, history, code)
          if (.not. present(facts)) return
          facts = facts_of(model, history%frames(n))
@@ -89,6 +92,15 @@ contains
          facts%is_whole = facts%is_written .and. .not. history%ending%is_early
       end associate
    end subroutine run_deck
+
+   !> The threads of this run, with those of ranks that wait on the same host: not where `ulimit -v` counts what each reserves.
+   subroutine take_threads(command)
+      type(command_t), intent(in) :: command
+      logical :: is_alone
+
+      is_alone = command%on_one_rank .or. address_space_limit() >= 0
+      call set_threads(lent_threads(command%threads, merge(1_ip, command%n_on_host, is_alone)))
+   end subroutine take_threads
 
    pure type(run_facts_t) function facts_of(model, results) result(facts)
       type(model_t), intent(in) :: model

@@ -6,13 +6,14 @@ module atrito_mpi
    use, intrinsic :: iso_fortran_env, only: int8
    use atrito_kinds, only: ip, lp, wp
    use atrito_parcel, only: parcel_t, make_parcel, parcel_bytes, parcel_length
-   use mpi_f08, only: MPI_Abort, MPI_Allreduce, MPI_ANY_SOURCE, MPI_Bcast, MPI_BYTE, MPI_Comm_rank, MPI_Comm_size, MPI_COMM_SELF, &
-                      MPI_COMM_WORLD, MPI_DOUBLE_PRECISION, MPI_Finalize, MPI_Get_library_version, MPI_Init_thread, MPI_INTEGER, &
+   use mpi_f08, only: MPI_Abort, MPI_Allreduce, MPI_ANY_SOURCE, MPI_Bcast, MPI_BYTE, MPI_Comm, MPI_Comm_free, MPI_Comm_rank, &
+                      MPI_COMM_SELF, MPI_Comm_size, MPI_Comm_split_type, MPI_COMM_TYPE_SHARED, MPI_COMM_WORLD, &
+                      MPI_DOUBLE_PRECISION, MPI_Finalize, MPI_Get_library_version, MPI_INFO_NULL, MPI_Init_thread, MPI_INTEGER, &
                       MPI_INTEGER8, MPI_Iprobe, MPI_MAX, MPI_MAX_LIBRARY_VERSION_STRING, MPI_Recv, MPI_Reduce, MPI_Send, &
                       MPI_Status, MPI_STATUS_IGNORE, MPI_SUM, MPI_THREAD_FUNNELED
    implicit none (type, external)
    private
-   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ANY_RANK
+   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
    public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
    public :: spread_from_first, all_ranks_communicator, own_communicator, has_mpi, mpi_name
 
@@ -58,6 +59,17 @@ contains
       call MPI_Comm_size(MPI_COMM_WORLD, ranks)
       n = int(ranks, ip)
    end function rank_count
+
+   !> Ranks that share the memory of this one's host, itself among them. All ranks call it.
+   integer(ip) function ranks_on_host() result(n)
+      type(MPI_Comm) :: host
+      integer :: ranks
+
+      call MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, host)
+      call MPI_Comm_size(host, ranks)
+      call MPI_Comm_free(host)
+      n = int(ranks, ip)
+   end function ranks_on_host
 
    !> Comes back when the parcel may be changed.
    subroutine send_parcel(parcel, to)

@@ -7,11 +7,11 @@
 !> Long lists are shared out in chunks of a fixed length. Whatever depends on how far a piece of work reaches - a sum, an element
 !> that is compared with the one before - begins anew with each chunk, whoever does it.
 module atrito_threads
-   use omp_lib, only: omp_get_max_threads, omp_get_thread_num, omp_set_num_threads
+   use omp_lib, only: omp_get_max_threads, omp_get_num_procs, omp_get_thread_num, omp_set_num_threads
    use atrito_kinds, only: ip
    implicit none (type, external)
    private
-   public :: set_threads, n_threads, this_thread, is_shared, chunk_count, find_chunk, CHUNK_LENGTH
+   public :: set_threads, lent_threads, n_threads, this_thread, is_shared, chunk_count, find_chunk, CHUNK_LENGTH
 
    integer(ip), parameter :: CHUNK_LENGTH = 1024
    !> Fewer pieces than this are done by one thread: to wake others takes as long.
@@ -25,6 +25,14 @@ contains
 
       call omp_set_num_threads(int(max(n, 1_ip)))
    end subroutine set_threads
+
+   !> Threads for what one of several processes does while the others wait: theirs, too, where it may run on as many processors.
+   integer(ip) function lent_threads(n, n_processes)
+      integer(ip), intent(in) :: n              !< >= 1, of each
+      integer(ip), intent(in) :: n_processes    !< >= 1, of the machine
+
+      lent_threads = max(n, min(n*n_processes, int(omp_get_num_procs(), ip)))
+   end function lent_threads
 
    !> Threads that a parallel region would take.
    integer(ip) function n_threads()

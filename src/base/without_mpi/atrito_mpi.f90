@@ -5,7 +5,7 @@ module atrito_mpi
    use atrito_parcel, only: parcel_t
    implicit none (type, external)
    private
-   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ANY_RANK
+   public :: begin_ranks, end_ranks, abort_ranks, own_rank, rank_count, ranks_on_host, ANY_RANK
    public :: send_parcel, receive_parcel, has_message, sum_to_first, largest_of_ranks
    public :: spread_from_first, all_ranks_communicator, own_communicator, has_mpi, mpi_name
 
@@ -33,6 +33,10 @@ contains
    integer(ip) function rank_count()
       rank_count = 1
    end function rank_count
+
+   integer(ip) function ranks_on_host()
+      ranks_on_host = 1
+   end function ranks_on_host
 
    subroutine send_parcel(parcel, to)
       type(parcel_t), intent(in), target :: parcel
