@@ -25,10 +25,10 @@ module atrito_plain_lines
    !> Characters of a piece, and of a run that is worth it.
    integer(ip), parameter :: PIECE = 65536_ip, LEAST = 2*PIECE
 
-   integer, parameter :: WORD = 0, BLANK = 1, COMMA = 2, LINE_END = 3, RETURN = 4, ODD = 5
+   integer, parameter :: WORD = 0, BLANK = 1, COMMA = 2, LINE_END = 3, CARRIAGE = 4, ODD = 5
    !> Characters with a meaning of their own; all other control characters are odd.
    character(len=*), parameter :: SPECIAL = achar(9)//' ,'//achar(10)//achar(13)//'"<*'//achar(127)
-   integer, parameter :: MEANING(9) = [BLANK, BLANK, COMMA, LINE_END, RETURN, ODD, ODD, ODD, ODD]
+   integer, parameter :: OF_SPECIAL(9) = [BLANK, BLANK, COMMA, LINE_END, CARRIAGE, ODD, ODD, ODD, ODD]
 
 contains
 
@@ -39,18 +39,18 @@ contains
       integer(ip), intent(inout) :: position       !< first character of a line
       integer(ip), intent(inout) :: line           !< number of the line before it
       type(piece_t), allocatable :: pieces(:)
-      integer :: class(0:255)
+      integer :: meaning(0:255)
       integer(ip) :: last, i
 
       last = end_of_run(deck%sources(source)%text, position)
       if (last - position + 1 < LEAST) return
-      class = classes()
+      meaning = meanings()
       call cut_run(deck%sources(source)%text, position, last, pieces)
       call make_room(deck, sum(pieces%n_tokens), sum(pieces%n_lines))
       associate (text => deck%sources(source)%text, n_tokens => deck%n_tokens, n_lines => deck%n_lines)
          !$omp parallel do schedule(dynamic) if (n_threads() > 1)
          do i = 1, size(pieces, kind=ip)
-            call split_piece(text, class, source, line, n_tokens, pieces(i), &
+            call split_piece(text, meaning, source, line, n_tokens, pieces(i), &
                              deck%tokens(n_tokens + pieces(i)%token + 1:n_tokens + pieces(i)%token + pieces(i)%n_tokens), &
                              deck%lines(n_lines + pieces(i)%line + 1:n_lines + pieces(i)%line + pieces(i)%n_lines))
          end do
@@ -65,15 +65,15 @@ contains
    end subroutine take_plain_lines
 
    !> What characters are, by their codes.
-   pure function classes() result(class)
-      integer :: class(0:255), i
+   pure function meanings() result(meaning)
+      integer :: meaning(0:255), i
 
-      class = WORD
-      class(:31) = ODD
+      meaning = WORD
+      meaning(:31) = ODD
       do i = 1, len(SPECIAL)
-         class(iachar(SPECIAL(i:i))) = MEANING(i)
+         meaning(iachar(SPECIAL(i:i))) = OF_SPECIAL(i)
       end do
-   end function classes
+   end function meanings
 
    !> The end of the last whole line before the next star; position - 1: there is none.
    pure integer(ip) function end_of_run(text, position) result(last)
@@ -125,9 +125,9 @@ contains
    end subroutine cut_run
 
    !> Splits the lines of a piece as far as they are plain.
-   pure subroutine split_piece(text, class, source, line, n_tokens, piece, tokens, lines)
+   pure subroutine split_piece(text, meaning, source, line, n_tokens, piece, tokens, lines)
       character(len=*), intent(in) :: text
-      integer, intent(in) :: class(0:255)
+      integer, intent(in) :: meaning(0:255)
       integer(ip), intent(in) :: source
       integer(ip), intent(in) :: line              !< number of the line before the run
       integer(ip), intent(in) :: n_tokens          !< of the deck before the run
@@ -140,7 +140,7 @@ contains
       piece%next = piece%first
       do while (piece%next <= piece%last)
          n = piece%tokens_taken
-         call split_line(text, class, source, line + piece%line + piece%lines_taken + 1, piece%next, n, tokens, next, is_plain)
+         call split_line(text, meaning, source, line + piece%line + piece%lines_taken + 1, piece%next, n, tokens, next, is_plain)
          if (.not. is_plain) exit
          piece%lines_taken = piece%lines_taken + 1
          lines(piece%lines_taken) = data_line_t(n_tokens + piece%token + piece%tokens_taken + 1, n - piece%tokens_taken)
@@ -150,9 +150,9 @@ contains
    end subroutine split_piece
 
    !> Adds the items of a line.
-   pure subroutine split_line(text, class, source, line, start, n, tokens, next, is_plain)
+   pure subroutine split_line(text, meaning, source, line, start, n, tokens, next, is_plain)
       character(len=*), intent(in) :: text
-      integer, intent(in) :: class(0:255)          !< of characters, by their codes
+      integer, intent(in) :: meaning(0:255)          !< of characters, by their codes
       integer(ip), intent(in) :: source, line
       integer(ip), intent(in) :: start             !< its first character
       integer(ip), intent(inout) :: n
@@ -168,10 +168,10 @@ contains
       i = start - 1
       do
          i = i + 1
-         select case (class(ichar(text(i:i))))
+         select case (meaning(ichar(text(i:i))))
          case (WORD)
             if (first == 0) first = i
-            do while (class(ichar(text(i + 1:i + 1))) == WORD)
+            do while (meaning(ichar(text(i + 1:i + 1))) == WORD)
                i = i + 1
             end do
             last = i
@@ -186,7 +186,7 @@ contains
             first = 0
          case (LINE_END)
             exit
-         case (RETURN)
+         case (CARRIAGE)
             if (text(i + 1:min(i + 1, len(text, kind=ip))) /= achar(10)) return
          case (ODD)
             return

@@ -1,10 +1,10 @@
 !> The shares of the ranks in one scene: whole bodies by their predicted work (atrito_part_work), and bodies with more of it than a
 !> fair share in pieces.
 !>
-!> Fair is the same work for all ranks, of many but the first (fair_share); what a body takes depends on how it is cut, and
-!> with it what is fair. A body that has more is cut into pieces that are fair and what is left of it. Pieces of a fair share have a rank of their own,
-!> all others are shared out over the contact graph. As long as one rank has far more than the mean, its heaviest piece is halved.
-!> The same scene and number of ranks give the same shares.
+!> Fair is the same work for all ranks, of many but the first (fair_share); what a body takes depends on how it is cut, and with it
+!> what is fair. A body that has more is cut into pieces that are fair and what is left of it. Pieces of a fair share have a rank of
+!> their own, all others are shared out over the contact graph. As long as one rank has far more than the mean, its heaviest piece
+!> is halved. The same scene and number of ranks give the same shares.
 module atrito_shares
    use atrito_assembly, only: fem_t, body_profile
    use atrito_bodies, only: body_t
