@@ -54,6 +54,8 @@ module atrito_shares
 
    !> Scenes of less work, some 2e5 displacements in one body or 0.3 s of one process, are not shared out.
    real(wp), parameter :: LEAST_WORK = 1.0e10_wp
+   !> What each body counts for besides: of many bodies it is the contact between them that takes long.
+   real(wp), parameter :: WORK_BESIDES = 1.0e7_wp
    !> A piece with this share of what is fair has a rank of its own; less than this share of a piece is no piece of its own.
    real(wp), parameter :: NEARLY_FAIR = 0.9_wp, LEAST_REST = 0.1_wp
    !> What the first of many ranks has besides, over the work of all.
@@ -98,7 +100,10 @@ contains
       integer, intent(in) :: asked               !< SHARE_*
 
       is_worth_sharing = n_ranks > 1 .and. asked /= SHARE_NONE
-      if (is_worth_sharing .and. asked == SHARE_AUTO) is_worth_sharing = sum(predict_work(fem)) >= LEAST_WORK
+      if (.not. is_worth_sharing .or. asked /= SHARE_AUTO) return
+      associate (n_bodies => real(count(.not. fem%bodies%list(:fem%bodies%n)%is_rigid), wp))
+         is_worth_sharing = sum(predict_work(fem)) + WORK_BESIDES*n_bodies >= LEAST_WORK
+      end associate
    end function is_worth_sharing
 
    !> Whether several ranks have a part.
