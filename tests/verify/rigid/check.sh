@@ -68,7 +68,7 @@ done
 both turned punch n=24 "step=*CLOAD/1000, 2, -1./*BOUNDARY/1000, 1/1000, 6, 6, $(rigid eccentric-dense ur)"
 near 'rotation prescribed: moment of the reaction' "$(rigid turned-dense moment)" 0.3 1e-9
 
-# 3. With friction, all free; turned by 30 degrees, and in other units: the same, in as many iterations.
+# 3. With friction, all free; turned by 30 degrees, and in other units: the same, in as many (outer) iterations.
 both free punch n=16 'friction=*FRICTION/0.3' 'step=*CLOAD/1000, 1, 0.1/1000, 2, -1./1000, 6, 0.2'
 c=$(value 'sqrt(3)/2')
 both inclined punch n=16 angle=30 'friction=*FRICTION/0.3' \
@@ -79,9 +79,10 @@ near_share 'inclined: displacement' "$(value "$c*($(rigid inclined-dense u1)) + 
 both units punch n=16 unit=1000 force=9.81 'friction=*FRICTION/0.3' 'step=*CLOAD/1000, 1, 0.981/1000, 2, -9.81/1000, 6, 1962.'
 near_share 'other units: rotation' "$(rigid units-dense ur)" "$(rigid free-dense ur)" 1e-9
 near_share 'other units: displacement' "$(rigid units-sparse u2)" "$(value "1000*($(rigid free-sparse u2))")" 1e-9
-for other in inclined units; do
-   near "$other: iterations" "$(grep -vc '^#' $other-dense/iterations.tab)" "$(grep -vc '^#' free-dense/iterations.tab)" 0
-done
+near 'units: iterations' "$(grep -vc '^#' units-dense/iterations.tab)" "$(grep -vc '^#' free-dense/iterations.tab)" 0
+# Turned, two digits more are lost in the coordinates: on some processors an inner loop takes a last step among round-off more.
+outer() { awk '!/^#/ { n = $2 } END { print n }' "$1/iterations.tab"; }
+near 'inclined: outer iterations' "$(outer inclined-dense)" "$(outer free-dense)" 0
 near 'units, sparse: iterations' "$(grep -vc '^#' units-sparse/iterations.tab)" "$(grep -vc '^#' free-sparse/iterations.tab)" 0
 
 # 4. Pushed sideways by a displacement past what friction takes: the reaction is nu N, whatever the displacement.
