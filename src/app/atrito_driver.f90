@@ -1,7 +1,7 @@
 !> Does what the command line asks for: reads, solves, writes, and tells how it went.
 module atrito_driver
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-   use atrito_blas_info, only: set_blas_threads
+   use atrito_blas_info, only: choose_blas_kernels, set_blas_threads
    use atrito_body_cache, only: body_cache_t
    use atrito_screen, only: compose_check
    use atrito_check_plots, only: write_check_plots
@@ -92,6 +92,7 @@ contains
       call keep_freed_memory()
       call guard_interrupts(STATUS_INTERNAL)
       call set_blas_threads(1_ip)
+      call choose_blas_kernels()
       call set_threads(1_ip)
       call clear_messages()
       call reset_timers()

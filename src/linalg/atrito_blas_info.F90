@@ -1,15 +1,17 @@
-!> Which BLAS and LAPACK the program was linked with, and how many threads BLAS takes.
+!> Which BLAS and LAPACK the program was linked with, which of its kernels BLAS takes, and how many threads.
 !>
-!> CMake looks for OpenBLAS's own functions in the libraries that it found (ATRITO_OPENBLAS) and says where these are
-!> (ATRITO_BLAS_LIBRARY). The reference BLAS costs a factor of three, hence the question.
+!> CMake looks for OpenBLAS's own functions in the libraries that it found (ATRITO_OPENBLAS, ATRITO_BLAS_SHUTDOWN,
+!> ATRITO_BLAS_KERNELS) and says where these are (ATRITO_BLAS_LIBRARY). The reference BLAS costs a factor of three, hence the
+!> question.
 module atrito_blas_info
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_associated, c_f_pointer
+   use atrito_files, only: read_system_line
    use atrito_kinds, only: ip
    use atrito_lapack, only: ilaver
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: blas_name, lapack_version, is_reference_blas, set_blas_threads
+   public :: blas_name, lapack_version, is_reference_blas, set_blas_threads, choose_blas_kernels, kernels_with
 
 #ifdef ATRITO_OPENBLAS
    logical, parameter :: HAS_OPENBLAS = .true.
@@ -26,6 +28,17 @@ module atrito_blas_info
       integer(c_int) function blas_thread_shutdown() bind(C, name='blas_thread_shutdown_')
          import :: c_int
       end function blas_thread_shutdown
+#endif
+#ifdef ATRITO_BLAS_KERNELS
+      subroutine gotoblas_dynamic_init() bind(C, name='gotoblas_dynamic_init')
+      end subroutine gotoblas_dynamic_init
+      subroutine gotoblas_dynamic_quit() bind(C, name='gotoblas_dynamic_quit')
+      end subroutine gotoblas_dynamic_quit
+      integer(c_int) function setenv(name, value, overwrites) bind(C, name='setenv')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: name(*), value(*)
+         integer(c_int), value :: overwrites
+      end function setenv
 #endif
    end interface
 #else
@@ -81,6 +94,44 @@ contains
       if (n < 1) return
 #endif
    end subroutine set_blas_threads
+
+   !> Has OpenBLAS take the kernels of an earlier processor with the same instructions, where it does not know this one and takes
+   !> its oldest, which are half as fast. Who has set OPENBLAS_CORETYPE has chosen. Before BLAS is called, and by one thread.
+   subroutine choose_blas_kernels()
+#ifdef ATRITO_BLAS_KERNELS
+      character(len=*), parameter :: OLDEST = ' Prescott ', CHOICE = 'OPENBLAS_CORETYPE'
+      character(len=:), allocatable :: flags, kernels
+      logical :: found
+      integer :: length
+
+      call get_environment_variable(CHOICE, length=length)
+      if (length > 0 .or. index(blas_name(), OLDEST) == 0) return
+      call read_system_line('/proc/cpuinfo', 'flags', flags, found)
+      if (.not. found) return
+      kernels = kernels_with(flags)
+      if (len(kernels) == 0) return
+      if (setenv(CHOICE//c_null_char, kernels//c_null_char, 1_c_int) /= 0_c_int) return
+      call gotoblas_dynamic_quit()
+      call gotoblas_dynamic_init()
+#endif
+   end subroutine choose_blas_kernels
+
+   !> The kernels of OpenBLAS that need no more than these instructions; '' for its oldest.
+   pure function kernels_with(flags) result(kernels)
+      character(len=*), intent(in) :: flags      !< as in /proc/cpuinfo, with blanks between them
+      character(len=:), allocatable :: kernels
+
+      kernels = ''
+      if (.not. (has('avx2') .and. has('fma'))) return
+      kernels = 'Haswell'
+      if (has('avx512f') .and. has('avx512dq') .and. has('avx512bw') .and. has('avx512vl')) kernels = 'SkylakeX'
+   contains
+      pure logical function has(flag)
+         character(len=*), intent(in) :: flag
+
+         has = index(' '//flags//' ', ' '//flag//' ') > 0
+      end function has
+   end function kernels_with
 
 #ifdef ATRITO_OPENBLAS
    !> A C string; empty for a null pointer.

@@ -46,8 +46,8 @@ module atrito_ranked_parts
       procedure :: solving_of_ranks
    end type ranked_parts_t
 
-   !> Unknowns of a top that is a full matrix, at most. All ranks together are as fast from some 500 on, a quarter faster from 1,200 on,
-   !> with less on the first rank.
+   !> Unknowns of a top that is a full matrix, at most. All ranks together are as fast from some 500 on, a quarter faster from 1,200
+   !> on, with less on the first rank.
    integer(ip), parameter :: MOST_FULL = 1000_ip
 
 contains

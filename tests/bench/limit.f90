@@ -11,7 +11,7 @@
 !> Exit codes are those of atrito; bodies that cannot be glued are 1.
 program limit
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use atrito_blas_info, only: set_blas_threads
+   use atrito_blas_info, only: choose_blas_kernels, set_blas_threads
    use atrito_command_line, only: command_t, fetch_arguments
    use atrito_console, only: print_status
    use atrito_kinds, only: ip, lp, wp
@@ -41,6 +41,7 @@ program limit
 
    call system_clock(begun)
    call set_blas_threads(1_ip)
+   call choose_blas_kernels()
    call set_threads(1_ip)
    call clear_messages()
    call reset_timers()
