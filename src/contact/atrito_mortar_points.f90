@@ -109,6 +109,8 @@ contains
          end if
          s = s + rule%s(rule%n)
       end do
+      allocate (points%piece(0))
+      if (allocated(segments%piece)) points%piece = segments%piece(:segments%first(slave%n + 1) - 1)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], &
                           segments%first(2:) > segments%first(:slave%n))
       call finish_points(mesh, rows%slave, rows%master, points)

@@ -174,12 +174,14 @@ contains
       real(wp) :: round_off
       integer(ip) :: i
 
+      allocate (points%piece(points%n))
       if (points%n == 0) return
       round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
       do i = 1, points%n
          sight = look_along(points%x(:, i), points%normal(:, i), 2*points%length(i), master)
          ! where two faces meet at an angle, the mean normal may miss the end of the master
          if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master, any_side=.true.)
+         points%piece(i) = sight%piece
          points%gap(i) = sight%distance
          if (curvature(i) > 0.0_wp) call turn_to_common_normal(master, sight, curvature(i), points%x(:, i), points%length(i), &
                                                                points%normal(:, i), points%gap(i))

@@ -6,7 +6,19 @@ module atrito_points
    use atrito_mesh, only: mesh_t
    implicit none (type, external)
    private
-   public :: contact_points_t, allocate_points, add_point, add_entries, trim_points
+   public :: contact_points_t, sliding_t, allocate_points, add_point, add_entries, trim_points
+
+   !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
+   type :: sliding_t
+      logical :: exists = .false.
+      logical :: is_round = .false.                 !< a rotation about the centre; else a translation
+      logical :: is_convex = .false.                !< of the side that it was found by: the centre lies inside its body
+      real(wp) :: direction(2) = 0.0_wp             !< of a translation, unit vector
+      real(wp) :: centre(2) = 0.0_wp                !< [L]
+      real(wp) :: radius = 0.0_wp                   !< [L]
+      real(wp) :: extent = 0.0_wp                   !< the radius, or the length of the straight side [L]
+      real(wp) :: grain = 0.0_wp                    !< to which its nodes are known [L]
+   end type sliding_t
 
    !> The points of a pair as constraints: the relative displacement of point j is the sum over its entries k, from first(j) to
    !> first(j+1) - 1, of coefficient(k) u(entry(k)), of which the slave's are positive and the master's negative.
@@ -25,6 +37,8 @@ module atrito_points
       integer(ip) :: n_faces = 0, n_left_out = 0    !< slave faces; those of them that find no master
       integer(ip) :: n_seeing = 0                   !< NODAL, where all are left out: those that see it with a part of them
       integer(lp), allocatable :: faces(:)          !< a number of its own for each of the slave's faces that are not left out
+      integer(ip), allocatable :: piece(:)          !< of the master, that are seen; some more than once
+      type(sliding_t) :: sliding                    !< that both sides have, if they have one
       logical :: matching = .false.                 !< every point faces a master node and the orders are equal
       logical :: rigid = .false.
       logical :: is_mortar = .false.

@@ -26,6 +26,8 @@ module atrito_bodies
       real(wp) :: size = 1.0_wp                !< [L], largest distance from the centre
       real(wp) :: slenderness = 1.0_wp         !< shorter over longer side of the box round the nodes
       real(wp), allocatable :: modes(:, :)     !< (3, n_modes): translations along 1 and 2, rotation about the centre at `size`
+      real(wp), allocatable :: slides(:, :)    !< (4, n) motions in which its contacts let it slide, as modes; the work of loads on
+      !< each that is none, over their sizes
       logical :: is_rigid = .false.            !< a rigid surface that moves: no elements, no equations, its nodes carry its motion
       logical :: is_touched = .false.          !< of a rigid one: a contact point sees it
    end type body_t

@@ -1,14 +1,17 @@
 !> Pairs of a model: their slaves in order, and their points.
 module atrito_pairing
    use atrito_faces, only: face_list_t, chain_report_t, order_chain
-   use atrito_kinds, only: ip, wp
+   use atrito_kinds, only: ip, lp, wp
    use atrito_master, only: master_t, master_of_faces, master_of_segments, turn_master
    use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_mortar_points, only: pair_by_mortar
    use atrito_nodal_points, only: pair_with_master
    use atrito_plane_state, only: compliance_matrix, COMPONENTS
-   use atrito_points, only: contact_points_t
+   use atrito_points, only: contact_points_t, sliding_t
+   use atrito_mesh, only: mesh_t, is_revolved
    use atrito_section_elasticity, only: elasticity_of
+   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, turn_points, is_along, serves, adopted
+   use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
    public :: order_slaves, pair_all, pair_surfaces, element_thickness, make_master
@@ -39,17 +42,50 @@ contains
    subroutine pair_all(model, points)
       type(model_t), intent(in) :: model
       type(contact_points_t), allocatable, intent(out) :: points(:)
+      type(chords_t), allocatable :: chords(:)
 
-      call pair_surfaces(model, model%pairs%slave, model%pairs%master, model%pairs%quadrature, points)
+      call pair_surfaces(model, model%pairs%slave, model%pairs%master, model%pairs%quadrature, points, chords=chords)
+      if (.not. is_revolved(model%mesh)) call let_slide(model%mesh, chords, points)
    end subroutine pair_all
 
+   !> Turns the rows of pairs along the motions in which their sides slide along themselves. Pairs that have the same one but for
+   !> digits, as rings in rings, take that of the one with the most chords.
+   subroutine let_slide(mesh, chords, points)
+      type(mesh_t), intent(in) :: mesh
+      type(chords_t), intent(in) :: chords(:)
+      type(contact_points_t), intent(inout) :: points(:)
+      type(sliding_t) :: motions(size(points))
+      integer(ip) :: order(size(points)), i, k, n
+
+      order = sorted_places(int(-chords%n, lp))
+      n = 0
+      do i = 1, size(points, kind=ip)
+         associate (own => chords(order(i)), pair => points(order(i)))
+            if (pair%n == 0) cycle
+            call find_sliding(own, pair%sliding)
+            if (.not. pair%sliding%exists) cycle
+            do k = 1, n
+               if (serves(own, motions(k), pair%sliding)) exit
+            end do
+            if (k <= n) then
+               pair%sliding = adopted(motions(k), pair%sliding)
+            else
+               n = n + 1
+               motions(n) = pair%sliding
+            end if
+            if (.not. is_along(pair%sliding, mesh, pair)) call turn_points(pair%sliding, mesh, pair)
+         end associate
+      end do
+   end subroutine let_slide
+
    !> The same of any pairs of surfaces, by their places.
-   subroutine pair_surfaces(model, slaves, partners, quadrature, points, from_behind)
+   subroutine pair_surfaces(model, slaves, partners, quadrature, points, from_behind, chords)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: slaves(:), partners(:) !< slaves and masters
       integer(ip), intent(in) :: quadrature(:)         !< QUADRATURE_*
       type(contact_points_t), allocatable, intent(out) :: points(:)
       logical, intent(in), optional :: from_behind(:)  !< the master's outside is taken for its inside; default: nowhere
+      type(chords_t), allocatable, intent(out), optional :: chords(:) !< of the pairs
       type(master_t), allocatable :: masters(:)        ! of the surfaces
       type(master_t) :: turned
       logical :: is_master(size(model%surfaces)), turns
@@ -57,6 +93,7 @@ contains
       integer(ip) :: i
 
       allocate (points(size(slaves)), masters(size(model%surfaces)))
+      if (present(chords)) allocate (chords(size(slaves)))
       if (size(points) == 0) return
       thickness = element_thickness(model)
       is_master = .false.
@@ -76,6 +113,7 @@ contains
             else
                call make_points(model, thickness, quadrature(i), slave, surface%faces, master, points(i))
             end if
+            if (present(chords)) call list_chords(model%mesh, slave, surface%faces, master, points(i), chords(i))
          end associate
       end do
    end subroutine pair_surfaces

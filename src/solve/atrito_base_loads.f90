@@ -32,7 +32,8 @@ module atrito_base_loads
 contains
 
    !> The bases of a step, where it has more increments than they are; else none. Surfaces that move have loads beside the nodes of
-   !> the mesh: with them there are none, either.
+   !> the mesh: with them there are none, either, nor where loads are
+   !> balanced to the digits of the deck (atrito_sliding_loads).
    subroutine build_bases(model, step, released, fem, bases)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step
@@ -43,6 +44,8 @@ contains
       logical, allocatable :: acts(:)
       integer(ip) :: i
 
+      ! what balances in their sum alone does not balance in the bases
+      if (any([(allocated(fem%bodies%list(i)%slides), i=1, fem%bodies%n)])) return
       if (step%increments%period < (size(list_bases(step)) + 1)*step%increments%initial .or. has_moving_surfaces(model)) return
       allocate (bases)
       bases%base = list_bases(step)

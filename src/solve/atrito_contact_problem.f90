@@ -12,6 +12,7 @@ module atrito_contact_problem
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
    use atrito_model, only: model_t, interaction_t
    use atrito_points, only: contact_points_t
+   use atrito_row_entries, only: first_motions, loads_on_motions
    use atrito_surface_average, only: average_rule_t, average_surfaces, count_surface_entries
    implicit none (type, external)
    private
@@ -197,7 +198,7 @@ contains
       do b = 1, fem%bodies%n
          call add_displacements(fem, b, condensed(b), rows, line, problem)
       end do
-      call add_loads_on_motions(fem, f, problem)
+      call loads_on_motions(fem, f, problem%h, problem%h_size)
    end subroutine set_right_hand_sides
 
    pure function direction_of(problem, rows, line, i) result(d)
@@ -335,7 +336,7 @@ contains
       type(bound_qp_t), intent(inout) :: problem
       integer(ip) :: column(fem%bodies%n + 1), b, i, k
 
-      column = first_motions(fem)
+      column = first_motions(fem%bodies)
       do i = 1, problem%m
          do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
             b = fem%bodies%of_node(rows%node(k))
@@ -346,34 +347,6 @@ contains
       end do
       call clear_round_off(problem%g)
    end subroutine add_motions
-
-   !> The loads on the rigid motions: h = Z' f.
-   subroutine add_loads_on_motions(fem, f, problem)
-      type(fem_t), intent(in) :: fem
-      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) [F]
-      type(bound_qp_t), intent(inout) :: problem
-      integer(ip) :: column(fem%bodies%n + 1), b, j
-
-      column = first_motions(fem)
-      do b = 1, fem%bodies%n
-         do j = column(b), column(b + 1) - 1
-            call work_of_load(fem, b, fem%bodies%list(b)%modes(:, j - column(b) + 1), f, problem%h(j), problem%h_size(j))
-         end do
-         call clear_balanced_load(problem%h_size(column(b):column(b + 1) - 1), problem%h(column(b):column(b + 1) - 1))
-      end do
-   end subroutine add_loads_on_motions
-
-   !> The column of the first motion of each body in G, and behind the last one.
-   pure function first_motions(fem) result(column)
-      type(fem_t), intent(in) :: fem
-      integer(ip) :: column(fem%bodies%n + 1)
-      integer(ip) :: b
-
-      column(1) = 1
-      do b = 1, fem%bodies%n
-         column(b + 1) = column(b) + size(fem%bodies%list(b)%modes, 2, kind=ip)
-      end do
-   end function first_motions
 
    !> What one entry of a row adds to the row of G: the motions of the body that has the node.
    pure subroutine add_motion_row(fem, b, node, coefficient, direction, g)
@@ -395,15 +368,6 @@ contains
       end associate
    end subroutine add_motion_row
 
-   !> A body whose forces balance but for round-off rests: it has no load.
-   pure subroutine clear_balanced_load(size_of_load, load)
-      real(wp), intent(in) :: size_of_load(:)
-      real(wp), intent(inout) :: load(:)
-      real(wp), parameter :: ROUND_OFF = 1.0e-14_wp
-
-      if (all(abs(load) <= ROUND_OFF*size_of_load)) load = 0.0_wp
-   end subroutine clear_balanced_load
-
    !> Motions are of size one: what is below rounding of that is no motion.
    pure subroutine clear_round_off(g)
       real(wp), intent(inout) :: g(:, :)
@@ -411,30 +375,6 @@ contains
 
       where (abs(g) < ROUND_OFF) g = 0.0_wp
    end subroutine clear_round_off
-
-   !> The work of the forces on a motion, and of their sizes.
-   pure subroutine work_of_load(fem, i_body, mode, f, work, size_of_work)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i_body
-      real(wp), intent(in) :: mode(3), f(:, :)
-      real(wp), intent(out) :: work, size_of_work    !< [F]
-      integer(ip) :: i, dof, node
-      real(wp) :: z
-
-      work = 0.0_wp
-      size_of_work = 0.0_wp
-      associate (body => fem%bodies%list(i_body))
-         do i = 1, size(body%nodes, kind=ip)
-            node = body%nodes(i)
-            do dof = 1, 2
-               if (fem%bodies%equation(dof, node) == 0) cycle
-               z = mode_at(body, mode, fem%mesh%x(:, node), dof)
-               work = work + f(dof, node)*z
-               size_of_work = size_of_work + abs(f(dof, node)*z)
-            end do
-         end do
-      end associate
-   end subroutine work_of_load
 
    !> The body that moves most in a motion of amplitudes a, and its motion as translations and rotation.
    pure subroutine motion_body(fem, a, i_body, mode)

@@ -8,7 +8,7 @@ module atrito_row_entries
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: build_constraint_rows, motions_of_row, first_motions, direction_of, work_on_motion
+   public :: build_constraint_rows, motions_of_row, first_motions, direction_of, loads_on_motions
 
    integer(ip), parameter :: MOST_MODES = 3_ip   !< of a body
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp !< motions are of size one: what is below rounding of that is no motion
@@ -168,7 +168,32 @@ contains
       if (line%normal(line%point(i)) == i) d = rows%normal(:, line%point(i))
    end function direction_of
 
-   !> What forces work on a rigid motion, over the free dofs; and the size of what that is the sum of.
+   !> What forces work on the rigid motions of all bodies, h = Z' f over the free dofs, and the size of what that is the sum of. Work
+   !> that is round-off of its terms is none; and the place where a force acts is known to rounding of the coordinates alone, so what
+   !> turns a body has a size though all forces act at its centre.
+   pure subroutine loads_on_motions(fem, f, work, work_size)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) [F]
+      real(wp), intent(out) :: work(:), work_size(:) !< (k) [F]
+      real(wp), parameter :: BALANCED = 1.0e-13_wp, LEVER = 0.1_wp
+      integer(ip) :: first(fem%bodies%n + 1), b, m
+      real(wp) :: all_forces
+
+      first = first_motions(fem%bodies)
+      do b = 1, fem%bodies%n
+         associate (body => fem%bodies%list(b))
+            all_forces = 0.0_wp
+            if (first(b + 1) > first(b)) all_forces = sum(norm2(f(:, body%nodes), dim=1))
+            do m = first(b), first(b + 1) - 1
+               call work_on_motion(fem, body, m - first(b) + 1_ip, f, work(m), work_size(m))
+               work_size(m) = max(work_size(m), LEVER*abs(body%modes(3, m - first(b) + 1))*all_forces &
+                                  *max(1.0_wp, maxval(abs(body%centre))/body%size))
+               if (abs(work(m)) <= BALANCED*work_size(m)) work(m) = 0.0_wp
+            end do
+         end associate
+      end do
+   end subroutine loads_on_motions
+
    pure subroutine work_on_motion(fem, body, mode, f, work, work_size)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body

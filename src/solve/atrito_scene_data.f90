@@ -25,6 +25,7 @@ module atrito_scene_data
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_shared_scene, only: shared_scene_t
    use atrito_shares, only: shares_t, is_over_ranks, is_worth_sharing, share_out, SHARE_NONE
+   use atrito_sliding_loads, only: note_sliding, balance_loads
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
@@ -104,6 +105,7 @@ contains
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
+      call note_sliding(data%points, data%fem)
       call build_rows(data%points, data%rows, model%bilateral)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &
@@ -128,6 +130,7 @@ contains
 
       call nodal_loads(data%model, acting, data%f)
       if (has_moving_surfaces(data%model)) call add_rigid_loads(data%model, acting%rigid_loads, data%f)
+      call balance_loads(data%fem, data%f)
       if (allocated(data%thermal)) deallocate (data%thermal)
       if (.not. allocated(data%fem%heating)) return
       allocate (data%thermal, mold=data%f)
@@ -148,7 +151,10 @@ contains
       data%rigid_prescribed = now%rigid_prescribed
       call move_alloc(now%heating, data%fem%heating)        ! which only some steps have
       call take_forces(data, now)
-      if (allocated(data%released) .and. share < 1.0_wp) data%f = data%f + (1.0_wp - share)*data%released
+      if (allocated(data%released) .and. share < 1.0_wp) then
+         data%f = data%f + (1.0_wp - share)*data%released
+         call balance_loads(data%fem, data%f)
+      end if
       if (data%asks_for_bases) call build_bases(data%model, data%step, data%released, data%fem, data%bases)
       data%asks_for_bases = .false.
       if (allocated(data%bases)) call set_factors(data%model, data%step, moment, data%bases)

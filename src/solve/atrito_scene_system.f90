@@ -2,12 +2,11 @@
 !> right hand sides of the rows, and the loads.
 module atrito_scene_system
    use atrito_assembly, only: fem_t
-   use atrito_bodies, only: mode_at
    use atrito_contact_line, only: contact_line_t, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
    use atrito_contact_system, only: contact_system_t
    use atrito_kinds, only: ip, lp, wp
-   use atrito_row_entries, only: direction_of
+   use atrito_row_entries, only: direction_of, loads_on_motions
    use atrito_scene_elimination, only: scene_numbering_t
    implicit none (type, external)
    private
@@ -30,9 +29,6 @@ module atrito_scene_system
       end function count_solving_bytes
 
    end interface
-
-   !> A load on a motion of at most this share of what it is the sum of is none.
-   real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp
 
 contains
 
@@ -111,8 +107,7 @@ contains
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :), free_load(:, :) !< (2, n_nodes) [F]
       class(scene_system_t), intent(inout) :: scene
-      integer(ip) :: node, dof, b, k, mode, motion
-      real(wp) :: part
+      integer(ip) :: node, dof, b, k
 
       if (allocated(scene%load)) deallocate (scene%load, scene%size_of_load)
       allocate (scene%load(scene%n), scene%size_of_load(scene%n), source=0.0_wp)
@@ -120,23 +115,14 @@ contains
          b = fem%bodies%of_node(node)
          if (b == 0) cycle
          do dof = 1, 2
-            if (fem%bodies%equation(dof, node) == 0) cycle
-            if (fem%bodies%equation(dof, node) > 0) then
-               k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
-               scene%load(k) = free_load(dof, node)
-               scene%size_of_load(k) = abs(free_load(dof, node))
-            end if
-            do mode = 1, scene%numbering%n_motions(b)
-               motion = scene%numbering%first_motion(b) + mode - 1
-               part = f(dof, node)*mode_at(fem%bodies%list(b), fem%bodies%list(b)%modes(:, mode), fem%mesh%x(:, node), dof)
-               scene%load(motion) = scene%load(motion) + part
-               scene%size_of_load(motion) = scene%size_of_load(motion) + abs(part)
-            end do
+            if (fem%bodies%equation(dof, node) <= 0) cycle
+            k = scene%numbering%before(b) + fem%bodies%equation(dof, node)
+            scene%load(k) = free_load(dof, node)
+            scene%size_of_load(k) = abs(free_load(dof, node))
          end do
       end do
-      associate (motions => scene%load(scene%n - scene%k + 1:))
-         where (abs(motions) <= LOAD_ROUND_OFF*scene%size_of_load(scene%n - scene%k + 1:)) motions = 0.0_wp
-      end associate
+      k = scene%n - scene%k + 1
+      call loads_on_motions(fem, f, scene%load(k:), scene%size_of_load(k:))
    end subroutine set_scene_load
 
    !> Displacements without rigid motions at the free dofs, (2, n_nodes).

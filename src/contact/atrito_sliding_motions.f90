@@ -1,0 +1,428 @@
+!> Motions in which both sides of a pair slide along themselves: a translation along straight sides, a rotation about the common
+!> centre of round ones. Nothing but friction resists them.
+!>
+!> In the exact shapes n . v = 0 at every point, n being the normal and v the motion. Of shapes that are given by nodes with a few
+!> digits, or by chords of a curve, n . v is a small number of either sign, and a body that is free to slide would be held by it:
+!> by contact forces as large as the loads over that number. So the motion is found from the chords, and the rows of the points are
+!> turned until it moves no point along its normal.
+!>
+!> Chords tell more than normals at nodes do: the perpendicular bisectors of all chords of a circle meet in its centre, however long
+!> the chords are. A motion v(x) = t + w perp(x - o), perp(a) = (-a2, a1), is wanted with n_f . v(x_f) = 0 at the middle x_f of each
+!> chord f, n_f its normal: three unknowns, and the least eigenvalue of
+!>
+!>     A = sum_f h_f^2 r_f r_f',    r_f = (n_f, n_f . perp(x_f - o)/L),     h_f the length of the chord
+!>
+!> has it as its vector, since a node that is off by g turns a chord by g/h_f. It is one that is meant when at each chord |n . v|/|v|
+!> is less than what the printed digits, or the resolution of a curve of radius R by chords, leave in doubt:
+!>
+!>     3 g/h_f   or   (h_f/R)^2/100
+module atrito_sliding_motions
+   use atrito_dense, only: eigen_symmetric
+   use atrito_element_table, only: MOST_SIDES
+   use atrito_faces, only: face_list_t
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
+   use atrito_master, only: master_t
+   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_pieces, only: place_at, normal_at
+   use atrito_points, only: contact_points_t, sliding_t
+   use atrito_slave_faces, only: clear_small_component
+   implicit none (type, external)
+   private
+   public :: chords_t, list_chords, find_sliding, turn_points, is_along, serves, adopted, velocity, printed_grain
+
+   !> The chords of both sides of a pair.
+   type :: chords_t
+      integer(ip) :: n = 0
+      real(wp), allocatable :: place(:, :)          !< (2, n) their middles [L]
+      real(wp), allocatable :: normal(:, :)         !< (2, n) unit vectors out of their bodies
+      real(wp), allocatable :: length(:)            !< (n) [L]
+      logical, allocatable :: of_slave(:)           !< (n)
+      real(wp) :: grain = 0.0_wp                    !< to which the nodes are known [L]
+   end type chords_t
+
+   real(wp), parameter :: DIGITS_TURN = 3.0_wp      !< by what a chord may be turned, in grains over its length
+   real(wp), parameter :: CURVE_TURN = 0.01_wp      !< the same of chords of a curve, in squares of the angle they span
+   integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
+   real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
+   real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
+   real(wp), parameter :: MOST_TURN = 0.3_wp        !< of a row [rad]: more is not of the digits
+   real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
+   real(wp), parameter :: CONCENTRIC = 0.02_wp      !< distance of the centres of a pin and its hole, in radii
+
+contains
+
+   !> The chords of the faces that take part: those of the slave that are not left out, and those that its points see.
+   pure subroutine list_chords(mesh, slave, faces, master, points, chords)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave
+      type(face_list_t), intent(in) :: faces        !< of the master; n = 0: it is rigid
+      type(master_t), intent(in) :: master
+      type(contact_points_t), intent(in) :: points
+      type(chords_t), intent(out) :: chords
+      logical :: is_seen(master%n)
+      real(wp), allocatable :: ends(:, :)           ! all places that chords go through
+      integer(ip) :: i, used, n_ends
+
+      i = 3*(slave%n + master%n)
+      allocate (chords%place(2, i), chords%normal(2, i), chords%length(i), chords%of_slave(i), ends(2, 3*i))
+      n_ends = 0
+      used = 1
+      do i = 1, slave%n                             ! the list of those that are used has the same order
+         if (used > size(points%faces)) exit
+         if (points%faces(used) /= int(slave%element(i), lp)*MOST_SIDES + slave%face(i)) cycle
+         used = used + 1
+         call add_face(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), .true., chords, ends, n_ends)
+      end do
+      is_seen = .false.
+      is_seen(pack(points%piece, points%piece > 0)) = .true.
+      do i = 1, master%n
+         if (.not. is_seen(i)) cycle
+         if (master%rigid) then
+            call add_piece(master, i, chords, ends, n_ends)
+         else
+            call add_face(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), .false., chords, ends, n_ends)
+         end if
+      end do
+      chords%place = chords%place(:, :chords%n)
+      chords%normal = chords%normal(:, :chords%n)
+      chords%length = chords%length(:chords%n)
+      chords%of_slave = chords%of_slave(:chords%n)
+      chords%grain = printed_grain(ends(:, :n_ends))
+   end subroutine list_chords
+
+   !> One chord of a straight face, two of a bent one.
+   pure subroutine add_face(x, of_slave, chords, ends, n_ends)
+      real(wp), intent(in) :: x(:, :)               !< (2, 2 or 3) ends and middle [L]
+      logical, intent(in) :: of_slave
+      type(chords_t), intent(inout) :: chords
+      real(wp), intent(inout) :: ends(:, :)
+      integer(ip), intent(inout) :: n_ends
+      logical :: is_bent
+
+      ends(:, n_ends + 1:n_ends + size(x, 2)) = x
+      n_ends = n_ends + size(x, 2, kind=ip)
+      is_bent = size(x, 2) == 3
+      if (is_bent) is_bent = norm2(x(:, 3) - 0.5_wp*(x(:, 1) + x(:, 2))) > FLAT*norm2(x(:, 2) - x(:, 1))
+      if (is_bent) then
+         call add_chord(x(:, 1), x(:, 3), of_slave, chords)
+         call add_chord(x(:, 3), x(:, 2), of_slave, chords)
+      else
+         call add_chord(x(:, 1), x(:, 2), of_slave, chords)
+      end if
+   end subroutine add_face
+
+   !> The outside lies at the right of the direction of travel.
+   pure subroutine add_chord(a, b, of_slave, chords)
+      real(wp), intent(in) :: a(2), b(2)            !< [L]
+      logical, intent(in) :: of_slave
+      type(chords_t), intent(inout) :: chords
+
+      chords%n = chords%n + 1
+      chords%place(:, chords%n) = 0.5_wp*a + 0.5_wp*b
+      chords%length(chords%n) = norm2(b - a)
+      chords%normal(:, chords%n) = [b(2) - a(2), a(1) - b(1)]/chords%length(chords%n)
+      chords%of_slave(chords%n) = of_slave
+   end subroutine add_chord
+
+   !> A rigid segment is a chord; three of an arc say that it is round.
+   pure subroutine add_piece(master, i, chords, ends, n_ends)
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i
+      type(chords_t), intent(inout) :: chords
+      real(wp), intent(inout) :: ends(:, :)
+      integer(ip), intent(inout) :: n_ends
+      real(wp), parameter :: THIRDS(3) = [1.0_wp, 3.0_wp, 5.0_wp]/6.0_wp
+      integer(ip) :: k, n
+
+      n = merge(3_ip, 1_ip, abs(master%sweep(i)) > 0.0_wp)
+      do k = 1, n
+         chords%n = chords%n + 1
+         chords%place(:, chords%n) = place_at(master, i, merge(THIRDS(k), 0.5_wp, n == 3))
+         chords%normal(:, chords%n) = normal_at(master, i, merge(THIRDS(k), 0.5_wp, n == 3))
+         chords%length(chords%n) = norm2(master%d(:, i))/n
+         chords%of_slave(chords%n) = .false.
+      end do
+      ends(:, n_ends + 1) = master%a(:, i)
+      ends(:, n_ends + 2) = master%a(:, i) + master%d(:, i)
+      n_ends = n_ends + 2
+   end subroutine add_piece
+
+   !> Half a unit of the last printed digit of coordinates [L], by those that are large: small ones may have more decimals. Two digits
+   !> are a round number that is meant as it is.
+   pure real(wp) function printed_grain(x) result(grain)
+      real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
+      integer, parameter :: MOST_DIGITS = 13, ROUND = 2
+      real(wp), parameter :: LARGE = 0.1_wp, SPARE = 1.0e-3_wp
+      real(wp) :: most, unit
+      integer :: digit
+
+      most = 0.0_wp
+      if (size(x) > 0) most = maxval(abs(x))
+      grain = EPS_MACH*most
+      if (.not. most > 0.0_wp) return
+      do digit = ROUND, MOST_DIGITS
+         unit = 10.0_wp**(floor(log10(most)) + 1 - digit)
+         if (any(abs(x) > LARGE*most .and. abs(x/unit - anint(x/unit)) > SPARE)) cycle
+         if (digit > ROUND) grain = max(grain, 0.5_wp*unit)
+         return
+      end do
+   end function printed_grain
+
+   !> The sliding motion of a pair, where there is one: of both sides, or of a pin in a hole with some clearance, whose centres differ,
+   !> that of the pin.
+   subroutine find_sliding(chords, motion)
+      type(chords_t), intent(in) :: chords
+      type(sliding_t), intent(out) :: motion
+      type(sliding_t) :: own(2)
+
+      if (.not. (any(chords%of_slave) .and. any(.not. chords%of_slave))) return
+      call find_straight(chords, motion)
+      if (motion%exists .or. min(count(chords%of_slave), count(.not. chords%of_slave)) < LEAST_CHORDS) return
+      call find_round(spread(.true., 1, chords%n), chords, motion)
+      if (motion%exists) return
+      call find_round(chords%of_slave, chords, own(1))
+      call find_round(.not. chords%of_slave, chords, own(2))
+      if (.not. (own(1)%exists .and. own(2)%exists)) return
+      if (own(1)%is_convex .eqv. own(2)%is_convex) return
+      if (norm2(own(1)%centre - own(2)%centre) > CONCENTRIC*min(own(1)%radius, own(2)%radius)) return
+      motion = merge_pin(own)
+   end subroutine find_sliding
+
+   pure type(sliding_t) function merge_pin(own) result(pin)
+      type(sliding_t), intent(in) :: own(2)         !< of the slave and of the master
+
+      pin = own(merge(1, 2, own(1)%is_convex))
+   end function merge_pin
+
+   !> A translation, where all chords are parallel.
+   pure subroutine find_straight(chords, motion)
+      type(chords_t), intent(in) :: chords
+      type(sliding_t), intent(inout) :: motion
+      real(wp) :: n(2)
+      integer(ip) :: i
+
+      n = 0.0_wp
+      do i = 1, chords%n
+         n = n + merge(1.0_wp, -1.0_wp, chords%of_slave(i))*chords%length(i)**2*chords%normal(:, i)
+      end do
+      if (.not. norm2(n) > 0.0_wp) return
+      motion%extent = sum(chords%length, mask=chords%of_slave)
+      motion%grain = chords%grain
+      n = n/norm2(n)
+      where (abs(n) <= DIGITS_TURN*motion%grain/motion%extent) n = 0.0_wp
+      motion%direction = [-n(2), n(1)]/norm2(n)
+      motion%exists = agrees(chords, motion)
+   end subroutine find_straight
+
+   !> A rotation, where the bisectors of some chords meet.
+   subroutine find_round(asked, chords, motion)
+      logical, intent(in) :: asked(:)               !< (n) the chords that are looked at
+      type(chords_t), intent(in) :: chords
+      type(sliding_t), intent(out) :: motion
+      real(wp) :: a(3, 3), values(3), row(3), origin(2), length
+      integer(ip) :: i, info
+
+      origin = sum(chords%place, dim=2, mask=spread(asked, 1, 2))/count(asked)
+      length = maxval(abs(chords%place - spread(origin, 2, chords%n)), mask=spread(asked, 1, 2))
+      a = 0.0_wp
+      do i = 1, chords%n
+         if (.not. asked(i)) cycle
+         row(:2) = chords%normal(:, i)
+         row(3) = dot_product(row(:2), perp(chords%place(:, i) - origin))/length
+         a = a + chords%length(i)**2*spread(row, 1, 3)*spread(row, 2, 3)
+      end do
+      call eigen_symmetric(a, values, info)
+      if (info /= 0 .or. .not. abs(a(3, 1)) > EPS_MACH) return
+      motion%is_round = .true.
+      motion%centre = origin + perp(a(:2, 1))*(length/a(3, 1))
+      ! a centre with as few digits as the nodes have is the one that is meant
+      if (chords%grain > EXACT*length) motion%centre = anint(motion%centre/(2*chords%grain))*(2*chords%grain)
+      motion%radius = sum(norm2(chords%place - spread(motion%centre, 2, chords%n), dim=1), mask=asked)/count(asked)
+      motion%extent = motion%radius
+      motion%grain = chords%grain
+      motion%is_convex = is_convex(findloc(asked, .true., dim=1, kind=ip), chords, motion%centre)
+      motion%exists = agrees(only(asked, chords), motion)
+   end subroutine find_round
+
+   !> Whether the side of a chord bulges away from a centre.
+   pure logical function is_convex(i, chords, centre)
+      integer(ip), intent(in) :: i
+      type(chords_t), intent(in) :: chords
+      real(wp), intent(in) :: centre(2)
+
+      is_convex = dot_product(chords%normal(:, i), chords%place(:, i) - centre) > 0.0_wp
+   end function is_convex
+
+   pure type(chords_t) function only(asked, chords) result(some)
+      logical, intent(in) :: asked(:)
+      type(chords_t), intent(in) :: chords
+      integer(ip) :: i
+
+      associate (list => pack([(i, i=1, chords%n)], asked))
+         some%n = size(list, kind=ip)
+         some%place = chords%place(:, list)
+         some%normal = chords%normal(:, list)
+         some%length = chords%length(list)
+         some%of_slave = chords%of_slave(list)
+      end associate
+      some%grain = chords%grain
+   end function only
+
+   !> Whether all chords slide along themselves in a motion, but for the digits of their ends and the resolution of the curve.
+   pure logical function agrees(chords, motion)
+      type(chords_t), intent(in) :: chords
+      type(sliding_t), intent(in) :: motion
+      real(wp) :: v(2), doubt
+      integer(ip) :: i
+
+      agrees = .true.
+      do i = 1, chords%n
+         v = velocity(motion, chords%place(:, i))
+         doubt = DIGITS_TURN*max(chords%grain, motion%grain)/chords%length(i)
+         if (motion%is_round) doubt = max(doubt, CURVE_TURN*(chords%length(i)/norm2(v))**2)
+         agrees = abs(dot_product(v, chords%normal(:, i))) <= doubt*norm2(v)
+         if (.not. agrees) return
+      end do
+   end function agrees
+
+   !> Whether the motion of another pair serves as well as a pair's own. A pin with clearance asks for that of its own side alone.
+   pure logical function serves(chords, other, own)
+      type(chords_t), intent(in) :: chords
+      type(sliding_t), intent(in) :: other, own
+      logical :: is_own(chords%n)
+      integer(ip) :: i
+
+      serves = other%is_round .eqv. own%is_round
+      if (.not. serves) return
+      is_own = .true.
+      if (own%is_round .and. .not. agrees(chords, own)) then
+         is_own = [(is_convex(i, chords, own%centre) .eqv. own%is_convex, i=1, chords%n)]
+      end if
+      serves = agrees(only(is_own, chords), other)
+   end function serves
+
+   !> The motion of another pair with the size of a pair's own.
+   pure type(sliding_t) function adopted(other, own) result(motion)
+      type(sliding_t), intent(in) :: other, own
+
+      motion = own
+      motion%direction = other%direction
+      motion%centre = other%centre
+   end function adopted
+
+   !> The motion at a place, of any size.
+   pure function velocity(motion, x) result(v)
+      type(sliding_t), intent(in) :: motion
+      real(wp), intent(in) :: x(2)                  !< [L]
+      real(wp) :: v(2)
+
+      v = motion%direction
+      if (motion%is_round) v = perp(x - motion%centre)
+   end function velocity
+
+   !> Turns the rows of a pair along a motion that both sides have. The normal of a point becomes the one across the motion where the
+   !> force acts on the slave; where the master's share acts, the motion may have a part along that, and some of the force passes
+   !> from the nodes on one side of that place to those on the other.
+   pure subroutine turn_points(motion, mesh, points)
+      type(sliding_t), intent(in) :: motion
+      type(mesh_t), intent(in) :: mesh
+      type(contact_points_t), intent(inout) :: points
+      real(wp) :: normal(2, points%n), v(2)
+      integer(ip) :: j, k, m
+
+      do j = 1, points%n
+         v = velocity(motion, force_place(mesh, points, j))
+         if (.not. norm2(v) > 0.0_wp) return
+         normal(:, j) = [v(2), -v(1)]/norm2(v)
+         normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
+         if (norm2(normal(:, j) - points%normal(:, j)) > MOST_TURN) return
+      end do
+      do j = 1, points%n
+         points%normal(:, j) = normal(:, j)
+         call clear_small_component(points%x(:, j), points%length(j), points%normal(:, j))
+         if (.not. motion%is_round) cycle
+         k = first_of_master(points, j)
+         m = points%first(j + 1) - 1
+         if (m > k) call shift_force(motion, mesh, points%normal(:, j), points%entry(k:m), points%coefficient(k:m))
+      end do
+   end subroutine turn_points
+
+   !> Whether no point moves along its normal as it is.
+   pure logical function is_along(motion, mesh, points)
+      type(sliding_t), intent(in) :: motion
+      type(mesh_t), intent(in) :: mesh
+      type(contact_points_t), intent(in) :: points
+      real(wp) :: moved(2)                          ! by what is the slave's and what is the master's
+      integer(ip) :: i, j, k
+
+      is_along = .false.
+      do j = 1, points%n
+         moved = 0.0_wp
+         do k = points%first(j), points%first(j + 1) - 1
+            i = merge(1, 2, k < first_of_master(points, j))
+            moved(i) = moved(i) + points%coefficient(k)*dot_product(points%normal(:, j), &
+                                                                    velocity(motion, mesh%x(:, points%entry(k))))
+         end do
+         if (any(abs(moved) > NO_PART*merge(motion%radius, 1.0_wp, motion%is_round))) return
+      end do
+      is_along = .true.
+   end function is_along
+
+   !> The first of the master's entries of a point: those of the slave are positive, and add up to one.
+   pure integer(ip) function first_of_master(points, j) result(k)
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(in) :: j
+      real(wp), parameter :: NEARLY = 1 - 1.0e-9_wp
+      real(wp) :: total
+
+      total = 0.0_wp
+      do k = points%first(j), points%first(j + 1) - 1
+         if (total > NEARLY) return
+         total = total + points%coefficient(k)
+      end do
+   end function first_of_master
+
+   !> Where the force of a point acts on the slave [L].
+   pure function force_place(mesh, points, j) result(x)
+      type(mesh_t), intent(in) :: mesh
+      type(contact_points_t), intent(in) :: points
+      integer(ip), intent(in) :: j
+      real(wp) :: x(2), o(2), away(2)
+      integer(ip) :: k
+
+      o = mesh%x(:, points%entry(points%first(j)))
+      away = 0.0_wp
+      do k = points%first(j), first_of_master(points, j) - 1
+         away = away + points%coefficient(k)*(mesh%x(:, points%entry(k)) - o)
+      end do
+      x = o + away
+   end function force_place
+
+   !> The least change of the master's coefficients, weighted by themselves, that keeps their sum and leaves no motion along n.
+   pure subroutine shift_force(motion, mesh, n, node, coefficient)
+      type(sliding_t), intent(in) :: motion
+      type(mesh_t), intent(in) :: mesh
+      real(wp), intent(in) :: n(2)
+      integer(ip), intent(in) :: node(:)            !< of the master
+      real(wp), intent(inout) :: coefficient(:)     !< their sum is -1
+      real(wp) :: along(size(node)), mean, spread_of
+      integer(ip) :: k
+
+      do k = 1, size(node, kind=ip)
+         along(k) = dot_product(n, velocity(motion, mesh%x(:, node(k))))
+      end do
+      mean = sum(abs(coefficient)*along)/sum(abs(coefficient))
+      spread_of = sum(abs(coefficient)*(along - mean)**2)
+      if (.not. spread_of > (EPS_MACH*motion%extent)**2) return
+      coefficient = coefficient - abs(coefficient)*(along - mean)*(sum(coefficient*along)/spread_of)
+   end subroutine shift_force
+
+   !> A vector turned by +90 degrees.
+   pure function perp(a)
+      real(wp), intent(in) :: a(2)
+      real(wp) :: perp(2)
+
+      perp = [-a(2), a(1)]
+   end function perp
+
+end module atrito_sliding_motions
