@@ -334,7 +334,7 @@ contains
       integer(ip), intent(in) :: k, increment
       real(wp), intent(in) :: to                     !< time of the step
       type(body_cache_t), intent(inout) :: store
-      type(run_t), intent(inout) :: run
+      type(run_t), intent(inout), target :: run
       type(results_t), intent(out) :: results
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
@@ -346,6 +346,8 @@ contains
       results%time = run%began + to
       results%ends_step = to >= run%data%step%increments%period
       run%data%is_printed = is_wanted(run%data%step%requests, increment, results%ends_step)
+      nullify (run%data%before)
+      if (run%has_last) run%data%before => run%last%u
       call set_time(run%data, moment_t(to, results%time))
       call check_known_points(run%data, status)
       if (is_ok(status)) call solve_increment(run%data, run%options%contact_form, store, results, solution, status)

@@ -14,6 +14,7 @@ module atrito_increment
    use atrito_final_check, only: check_equilibrium, check_balance, check_law, equilibrium_t
    use atrito_force_sums, only: sum_forces
    use atrito_joint_sums, only: sum_joints
+   use atrito_idle_motions, only: settle_idle_motions
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: find_large
    use atrito_mesh, only: is_revolved
@@ -152,6 +153,7 @@ contains
       call stop_phase('iterate')
       if (.not. is_ok(status)) return
       call start_phase('recover')
+      if (solution%converged) call settle_idle_motions(data, u, data%before, solution)
       if (data%is_printed) call begin_early(data, solution, u, store%errand, fields)
       call recover(data, solution, u, results)
       call stop_phase('recover')

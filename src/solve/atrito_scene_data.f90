@@ -67,6 +67,7 @@ module atrito_scene_data
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
       type(bound_qp_t), allocatable :: flexibility          !< C and G of the bodies that are factored
       type(contact_solution_t), allocatable :: last         !< of the increment before, to start from
+      real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]
    end type scene_data_t
 
    !> What the user asks for.

@@ -1,0 +1,292 @@
+!> Rigid motions that nothing holds and no load drives: of all displacements that differ by them the least are given, in either form of
+!> the contact system and whatever solver the bodies have.
+!>
+!> A motion v of the bodies is idle where no row that takes a force sees it: N v = 0 at closed points, T v = 0 at those that stick, b v = 0 in
+!> bilateral rows. Bodies are joined by such rows into groups, and the idle motions of a group are the null space of its rows.
+!> From the displacements u that were found, and u' of the increment before, the sum over all nodes of (u + V s - u')^2 is made
+!> least, V being the idle motions, under the conditions that no point that is open closes beyond its gap and none that slips goes back.
+module atrito_idle_motions
+   use atrito_assembly, only: fem_t
+   use atrito_bodies, only: mode_at, reduce_columns
+   use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER
+   use atrito_contact_solution, only: contact_solution_t
+   use atrito_dense, only: eigen_symmetric
+   use atrito_incidence, only: list_holders
+   use atrito_kinds, only: ip, wp
+   use atrito_motion_rows, only: motion_rows_t, motion_rates
+   use atrito_motion_system, only: build_motion_rows
+   use atrito_scene_data, only: scene_data_t
+   implicit none (type, external)
+   private
+   public :: settle_idle_motions
+
+   integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
+   real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
+   integer(ip), parameter :: MOST_SWEEPS = 1000_ip
+   real(wp), parameter :: SEEN = 1.0e-20_wp         !< square of what a row sees of the motions, of the largest
+   real(wp), parameter :: BACK = 1.0e-13_wp         !< what rounding leaves of a way and the way back
+   real(wp), parameter :: SETTLED = 1.0e-14_wp
+
+contains
+
+   !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there is none;
+   !> groups of many motions have what their form of the contact system found.
+   subroutine settle_idle_motions(data, u, before, solution)
+      type(scene_data_t), intent(in) :: data
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
+      real(wp), pointer, intent(in) :: before(:, :) !< (2, n_nodes) of the increment before [L]; null: there is none
+      type(contact_solution_t), intent(inout) :: solution
+      type(motion_rows_t) :: rows
+      logical :: holds(size(solution%state%state))
+      integer(ip), allocatable :: group(:)
+      real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
+      integer(ip) :: i
+
+      call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
+      if (rows%k == 0) return
+      holds = [(is_holding(data, solution, i), i=1, rows%m)]
+      call join_motions(rows, holds, group)
+      if (largest_group(group) > MOST_MOTIONS) return
+      call find_idle(rows, holds, group, idle)
+      if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
+      if (size(idle, 2) == 0) return
+      solution%inner%undetermined = simplest(idle)
+      ! a closed point without force may open
+      associate (state => solution%state, n => count(data%line%normal > 0, kind=ip))
+         where (state%state(:n) == FREE .and. .not. holds(:n)) state%state(:n) = AT_LOWER
+      end associate
+      if (size(idle, 2) > MOST_MOTIONS) return
+      call measure_motions(data%fem, u, before, solution%state%a, off, metric)
+      call take_least(data%fem, rows, idle, off, metric, solution)
+   end subroutine settle_idle_motions
+
+   !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
+   pure logical function is_holding(data, solution, i)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      integer(ip), intent(in) :: i                  !< unknown force
+
+      associate (state => solution%state, line => data%line)
+         is_holding = state%state(i) == FREE
+         if (is_holding .and. line%normal(line%point(i)) == i .and. line%point(i) <= line%n - line%n_bilateral) then
+            is_holding = state%q(i) > 0.0_wp
+         end if
+      end associate
+   end function is_holding
+
+   !> Groups of motions that rows join: the number of each, that of its first motion.
+   pure subroutine join_motions(rows, holds, group)
+      type(motion_rows_t), intent(in) :: rows
+      logical, intent(in) :: holds(:)               !< (m)
+      integer(ip), allocatable, intent(out) :: group(:) !< (k)
+      integer(ip) :: i, e, one, other
+
+      group = [(i, i=1, rows%k)]
+      do i = 1, rows%m
+         if (.not. holds(i)) cycle
+         do e = rows%first(i) + 1, rows%first(i + 1) - 1
+            one = root_of(group, rows%motion(e - 1))
+            other = root_of(group, rows%motion(e))
+            group(max(one, other)) = min(one, other)
+         end do
+      end do
+      do i = 1, rows%k
+         group(i) = root_of(group, i)
+      end do
+   end subroutine join_motions
+
+   pure integer(ip) function root_of(group, i) result(root)
+      integer(ip), intent(in) :: group(:), i
+
+      root = i
+      do while (group(root) /= root)
+         root = group(root)
+      end do
+   end function root_of
+
+   pure integer(ip) function largest_group(group) result(n)
+      integer(ip), intent(in) :: group(:)
+      integer(ip) :: members(size(group)), i
+
+      members = 0
+      do i = 1, size(group, kind=ip)
+         members(group(i)) = members(group(i)) + 1
+      end do
+      n = maxval(members)
+   end function largest_group
+
+   !> The null space of the rows that hold, group by group.
+   subroutine find_idle(rows, holds, group, idle)
+      type(motion_rows_t), intent(in) :: rows
+      logical, intent(in) :: holds(:)               !< (m)
+      integer(ip), intent(in) :: group(:)           !< (k)
+      real(wp), allocatable, intent(out) :: idle(:, :) !< (k, motions), columns of length one
+      real(wp) :: found(size(group), size(group))
+      real(wp), allocatable :: a(:, :), values(:)
+      integer(ip), allocatable :: first(:), member(:), of_group(:), list(:)
+      integer(ip) :: place(size(group)), g, i, j, n, info
+
+      n = 0
+      of_group = [(merge(group(rows%motion(rows%first(i))), 0_ip, holds(i) .and. rows%first(i + 1) > rows%first(i)), i=1, rows%m)]
+      call list_holders(rows%k, reshape(of_group, [1_ip, rows%m]), first, member)
+      do g = 1, rows%k
+         if (group(g) /= g) cycle
+         list = pack([(i, i=1, rows%k)], group == g)
+         place(list) = [(i, i=1, size(list, kind=ip))]
+         allocate (a(size(list), size(list)), source=0.0_wp)
+         do j = first(g), first(g + 1) - 1
+            call add_row(rows, member(j), place, a)
+         end do
+         allocate (values(size(list)))
+         call eigen_symmetric(a, values, info)
+         do j = 1, size(list, kind=ip)
+            if (info /= 0 .or. values(j) > NULL_MOTION*values(size(list))) exit
+            n = n + 1
+            found(:, n) = 0.0_wp
+            found(list, n) = a(:, j)
+         end do
+         deallocate (a, values)
+      end do
+      idle = found(:, :n)
+   end subroutine find_idle
+
+   !> Adds G_i' G_i of a row to the matrix of its group.
+   pure subroutine add_row(rows, i, place, a)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: place(:)           !< (k) of the motions in their group
+      real(wp), intent(inout) :: a(:, :)
+      integer(ip) :: d, e
+
+      do d = rows%first(i), rows%first(i + 1) - 1
+         do e = rows%first(i), rows%first(i + 1) - 1
+            a(place(rows%motion(d)), place(rows%motion(e))) = a(place(rows%motion(d)), place(rows%motion(e))) &
+                                                              + rows%value(d)*rows%value(e)
+         end do
+      end do
+   end subroutine add_row
+
+   !> The motion with the fewest amplitudes.
+   pure function simplest(idle) result(motion)
+      real(wp), intent(in) :: idle(:, :)
+      real(wp) :: motion(size(idle, 1)), reduced(size(idle, 1), size(idle, 2))
+      real(wp), parameter :: ROUND_OFF = 1.0e-6_wp
+
+      reduced = idle
+      call reduce_columns(reduced, ROUND_OFF)
+      motion = reduced(:, 1)
+      where (abs(motion) < ROUND_OFF*maxval(abs(motion))) motion = 0.0_wp
+   end function simplest
+
+   !> Of the displacements since the increment before, the sums over the nodes of each body with its motions: Z'(u + Z a - u') and Z'Z.
+   pure subroutine measure_motions(fem, u, before, a, off, metric)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: u(:, :)
+      real(wp), pointer, intent(in) :: before(:, :)
+      real(wp), intent(in) :: a(:)                  !< (k)
+      real(wp), allocatable, intent(out) :: off(:)  !< (k) [L]
+      real(wp), allocatable, intent(out) :: metric(:, :, :) !< (3, 3, bodies)
+      real(wp) :: z(2, 3), moved(2)
+      integer(ip) :: b, i, j, n, dof, first
+
+      allocate (off(size(a)), metric(3, 3, fem%bodies%n), source=0.0_wp)
+      first = 1
+      do b = 1, fem%bodies%n
+         associate (body => fem%bodies%list(b))
+            n = size(body%modes, 2, kind=ip)
+            do i = 1, merge(size(body%nodes, kind=ip), 0_ip, n > 0)
+               associate (node => body%nodes(i))
+                  z = 0.0_wp
+                  do dof = 1, 2
+                     if (fem%bodies%equation(dof, node) == 0) cycle
+                     z(dof, :n) = [(mode_at(body, body%modes(:, j), fem%mesh%x(:, node), dof), j=1, n)]
+                  end do
+                  moved = u(:, node) + matmul(z(:, :n), a(first:first + n - 1))
+                  if (associated(before)) then
+                     if (node <= size(before, 2)) moved = moved - before(:, node)
+                  end if
+               end associate
+               off(first:first + n - 1) = off(first:first + n - 1) + matmul(moved, z(:, :n))
+               metric(:, :, b) = metric(:, :, b) + matmul(transpose(z), z)
+            end do
+            first = first + n
+         end associate
+      end do
+   end subroutine measure_motions
+
+   !> Least squares over the idle motions, V' M V s = -V' off, and the same within the conditions of the rows that do not hold.
+   subroutine take_least(fem, rows, idle, off, metric, solution)
+      type(fem_t), intent(in) :: fem
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: idle(:, :)            !< (k, motions)
+      real(wp), intent(in) :: off(:)                !< (k) [L]
+      real(wp), intent(in) :: metric(:, :, :)
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2)), way(rows%k)
+      real(wp) :: rate(rows%m)
+      integer(ip) :: j, info
+
+      gram = matmul(transpose(idle), times_metric(fem, metric, idle))
+      call eigen_symmetric(gram, values, info)
+      if (info /= 0) return
+      basis = matmul(idle, gram)
+      do j = 1, size(values, kind=ip)
+         basis(:, j) = basis(:, j)/sqrt(max(values(j), tiny(1.0_wp)))
+      end do
+      way = matmul(basis, within_conditions(rows, basis, -matmul(off, basis), solution))
+      ! a body that comes back to where it was is there
+      way = merge(way, -solution%state%a, abs(solution%state%a + way) > BACK*abs(way))
+      solution%state%a = solution%state%a + way
+      rate = motion_rates(rows, way, .false.)
+      where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
+   end subroutine take_least
+
+   pure function times_metric(fem, metric, v) result(product)
+      type(fem_t), intent(in) :: fem
+      real(wp), intent(in) :: metric(:, :, :), v(:, :)
+      real(wp) :: product(size(v, 1), size(v, 2))
+      integer(ip) :: b, first, n
+
+      first = 1
+      do b = 1, fem%bodies%n
+         n = size(fem%bodies%list(b)%modes, 2, kind=ip)
+         product(first:first + n - 1, :) = matmul(metric(:n, :n, b), v(first:first + n - 1, :))
+         first = first + n
+      end do
+   end function times_metric
+
+   !> The point s nearest to the wanted one at which no row that is at a bound would have to leave it: r + A s <= 0 at the lower bound,
+   !> >= 0 at the upper one. By Hildreth's method: projections onto one condition after the other, each with a multiplier >= 0.
+   pure function within_conditions(rows, basis, wanted, solution) result(s)
+      type(motion_rows_t), intent(in) :: rows
+      real(wp), intent(in) :: basis(:, :), wanted(:)
+      type(contact_solution_t), intent(in) :: solution
+      real(wp) :: s(size(wanted)), a(size(wanted), rows%m), bound(rows%m), multiplier(rows%m), size_of(rows%m), step, most
+      integer(ip) :: i, j, sweep
+
+      do j = 1, size(wanted, kind=ip)
+         a(j, :) = motion_rates(rows, basis(:, j), .false.)
+      end do
+      bound = max(-solution%state%r, 0.0_wp)
+      where (solution%state%state == AT_UPPER) bound = max(solution%state%r, 0.0_wp)
+      do i = 1, rows%m
+         if (solution%state%state(i) == AT_UPPER) a(:, i) = -a(:, i)
+         size_of(i) = sum(a(:, i)**2)
+         if (all(solution%state%state(i) /= [AT_LOWER, AT_UPPER])) size_of(i) = 0.0_wp
+      end do
+      s = wanted
+      multiplier = 0.0_wp
+      do sweep = 1, MOST_SWEEPS
+         most = 0.0_wp
+         do i = 1, rows%m
+            if (size_of(i) <= SEEN*maxval(size_of)) cycle
+            step = max(-multiplier(i), (dot_product(a(:, i), s) - bound(i))/size_of(i))
+            multiplier(i) = multiplier(i) + step
+            s = s - step*a(:, i)
+            most = max(most, abs(step)*sqrt(size_of(i)))
+         end do
+         if (most <= SETTLED*norm2(wanted)) exit
+      end do
+   end function within_conditions
+
+end module atrito_idle_motions
