@@ -45,7 +45,7 @@ module atrito_sliding_motions
    integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
-   real(wp), parameter :: MOST_TURN = 0.3_wp        !< of a row [rad]: more is not of the digits
+   real(wp), parameter :: MOST_TURN = 0.6_wp        !< of a row [rad]: more than coarse chords make of a curve
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
    real(wp), parameter :: CONCENTRIC = 0.02_wp      !< distance of the centres of a pin and its hole, in radii
 
@@ -60,49 +60,45 @@ contains
       type(contact_points_t), intent(in) :: points
       type(chords_t), intent(out) :: chords
       logical :: is_seen(master%n)
-      real(wp), allocatable :: ends(:, :)           ! all places that chords go through
-      integer(ip) :: i, used, n_ends
+      integer(ip) :: i, used
 
       i = 3*(slave%n + master%n)
-      allocate (chords%place(2, i), chords%normal(2, i), chords%length(i), chords%of_slave(i), ends(2, 3*i))
-      n_ends = 0
+      allocate (chords%place(2, i), chords%normal(2, i), chords%length(i), chords%of_slave(i))
+      is_seen = .false.
+      is_seen(pack(points%piece, points%piece > 0)) = .true.
+      chords%grain = printed_grain(reshape([mesh%x(:, points%entry), master%a(:, pack([(i, i=1, master%n)], is_seen))], &
+                                           [2, size(points%entry) + count(is_seen)]))
       used = 1
       do i = 1, slave%n                             ! the list of those that are used has the same order
          if (used > size(points%faces)) exit
          if (points%faces(used) /= int(slave%element(i), lp)*MOST_SIDES + slave%face(i)) cycle
          used = used + 1
-         call add_face(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), .true., chords, ends, n_ends)
+         call add_face(mesh%x(:, face_nodes(mesh, slave%element(i), slave%face(i))), .true., chords)
       end do
-      is_seen = .false.
-      is_seen(pack(points%piece, points%piece > 0)) = .true.
       do i = 1, master%n
          if (.not. is_seen(i)) cycle
          if (master%rigid) then
-            call add_piece(master, i, chords, ends, n_ends)
+            call add_piece(master, i, chords)
          else
-            call add_face(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), .false., chords, ends, n_ends)
+            call add_face(mesh%x(:, face_nodes(mesh, faces%element(i), faces%face(i))), .false., chords)
          end if
       end do
       chords%place = chords%place(:, :chords%n)
       chords%normal = chords%normal(:, :chords%n)
       chords%length = chords%length(:chords%n)
       chords%of_slave = chords%of_slave(:chords%n)
-      chords%grain = printed_grain(ends(:, :n_ends))
    end subroutine list_chords
 
    !> One chord of a straight face, two of a bent one.
-   pure subroutine add_face(x, of_slave, chords, ends, n_ends)
+   pure subroutine add_face(x, of_slave, chords)
       real(wp), intent(in) :: x(:, :)               !< (2, 2 or 3) ends and middle [L]
       logical, intent(in) :: of_slave
       type(chords_t), intent(inout) :: chords
-      real(wp), intent(inout) :: ends(:, :)
-      integer(ip), intent(inout) :: n_ends
       logical :: is_bent
 
-      ends(:, n_ends + 1:n_ends + size(x, 2)) = x
-      n_ends = n_ends + size(x, 2, kind=ip)
       is_bent = size(x, 2) == 3
-      if (is_bent) is_bent = norm2(x(:, 3) - 0.5_wp*(x(:, 1) + x(:, 2))) > FLAT*norm2(x(:, 2) - x(:, 1))
+      if (is_bent) is_bent = norm2(x(:, 3) - 0.5_wp*(x(:, 1) + x(:, 2))) &
+                             > max(FLAT*norm2(x(:, 2) - x(:, 1)), DIGITS_TURN*chords%grain)
       if (is_bent) then
          call add_chord(x(:, 1), x(:, 3), of_slave, chords)
          call add_chord(x(:, 3), x(:, 2), of_slave, chords)
@@ -125,12 +121,10 @@ contains
    end subroutine add_chord
 
    !> A rigid segment is a chord; three of an arc say that it is round.
-   pure subroutine add_piece(master, i, chords, ends, n_ends)
+   pure subroutine add_piece(master, i, chords)
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i
       type(chords_t), intent(inout) :: chords
-      real(wp), intent(inout) :: ends(:, :)
-      integer(ip), intent(inout) :: n_ends
       real(wp), parameter :: THIRDS(3) = [1.0_wp, 3.0_wp, 5.0_wp]/6.0_wp
       integer(ip) :: k, n
 
@@ -142,9 +136,6 @@ contains
          chords%length(chords%n) = norm2(master%d(:, i))/n
          chords%of_slave(chords%n) = .false.
       end do
-      ends(:, n_ends + 1) = master%a(:, i)
-      ends(:, n_ends + 2) = master%a(:, i) + master%d(:, i)
-      n_ends = n_ends + 2
    end subroutine add_piece
 
    !> Half a unit of the last printed digit of coordinates [L], by those that are large: small ones may have more decimals. Two digits
