@@ -35,6 +35,7 @@ module atrito_restart_state
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest so far
       real(wp) :: grain = 0.0_wp                    !< to which stiffnesses are taken as equal
+      real(wp), allocatable :: had_motion(:), had_force(:) !< (bodies) the largest so far [L], [F]
       integer(ip) :: contact_form = 0               !< CONTACT_*, of the scene
       character(len=:), allocatable :: contact_reason !< why
       real(wp), allocatable :: from(:)              !< prescribed, at the beginning of the step [L]; not allocated: the deck's

@@ -161,6 +161,8 @@ contains
       call exchange(archive, 'began', state%began)
       call exchange(archive, 'condition', state%condition)
       call exchange(archive, 'grain', state%grain)
+      call exchange(archive, 'had_motion', state%had_motion)
+      call exchange(archive, 'had_force', state%had_force)
       call exchange(archive, 'contact_form', state%contact_form)
       call exchange(archive, 'contact_reason', state%contact_reason)
       call exchange(archive, 'from', state%from)

@@ -5,7 +5,14 @@ module atrito_contact_scales
    use atrito_kinds, only: ip, wp, EPS_MACH
    implicit none (type, external)
    private
-   public :: contact_scales_t, measure_places, printed_as_none, usual_growth
+   public :: contact_scales_t, had_t, measure_places, printed_as_none, usual_growth, widen, had_motion, had_force, force_round_off
+
+   !> The largest that a history has had so far, body by body: what is left of it when loads go is round-off of that, however little
+   !> else there is.
+   type :: had_t
+      real(wp), allocatable :: motion(:)         !< (bodies) displacement [L]; not allocated: nothing yet
+      real(wp), allocatable :: force(:)          !< (bodies) load, contact force or reaction at a node [F]
+   end type had_t
 
    type :: contact_scales_t
       real(wp) :: friction = 0.0_wp              !< largest friction bound [F/L^2]
@@ -17,6 +24,7 @@ module atrito_contact_scales
    real(wp), parameter :: CONDITION_A_DOF = 10.0_wp    !< of fine meshes
    real(wp), parameter :: ROUND_OFFS = 8.0_wp          !< EPS_MACH of the largest coordinate in an initial distance
 
+   real(wp), parameter, public :: NONE_OF_HAD = 1.0e-13_wp !< of what a history has had: displacements and forces that are none
    real(wp), parameter :: PRINTED_ZERO = 1.0e-14_wp    !< of the largest displacement: it is printed as none (atrito_number_text)
 
 contains
@@ -28,6 +36,46 @@ contains
 
       printed_as_none = merge(PRINTED_ZERO*of_all, 0.0_wp, of_body <= PRINTED_ZERO*of_all)
    end function printed_as_none
+
+   !> Takes another increment into account.
+   pure subroutine widen(had, motion, force)
+      type(had_t), intent(inout) :: had
+      real(wp), intent(in) :: motion(:), force(:) !< (bodies) [L], [F]
+
+      if (.not. allocated(had%motion)) then
+         had%motion = motion
+         had%force = force
+         return
+      end if
+      had%motion = max(had%motion, motion)
+      had%force = max(had%force, force)
+   end subroutine widen
+
+   !> [L] of body b; 0 at the beginning.
+   pure real(wp) function had_motion(had, b) result(motion)
+      type(had_t), intent(in) :: had
+      integer(ip), intent(in) :: b
+
+      motion = 0.0_wp
+      if (allocated(had%motion)) motion = had%motion(b)
+   end function had_motion
+
+   !> [F] of body b; 0 at the beginning.
+   pure real(wp) function had_force(had, b) result(force)
+      type(had_t), intent(in) :: had
+      integer(ip), intent(in) :: b
+
+      force = 0.0_wp
+      if (allocated(had%force)) force = had%force(b)
+   end function had_force
+
+   !> The force at a node that is round-off of those that the bodies have had [F].
+   pure real(wp) function force_round_off(had) result(force)
+      type(had_t), intent(in) :: had
+
+      force = 0.0_wp
+      if (allocated(had%force)) force = NONE_OF_HAD*maxval(had%force)
+   end function force_round_off
 
    !> By how much round-off grows in the displacements of a body.
    elemental real(wp) function usual_growth(n, digits_lost) result(growth)

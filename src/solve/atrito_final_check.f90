@@ -6,7 +6,8 @@ module atrito_final_check
    use atrito_bodies, only: body_t, mode_at
    use atrito_contact_line, only: contact_line_t, last_of_pair, rest_of, friction_bound
    use atrito_contact_rows, only: contact_rows_t, row_value, bodies_of_row
-   use atrito_contact_scales, only: contact_scales_t, measure_places, printed_as_none, usual_growth
+   use atrito_contact_scales, only: contact_scales_t, had_t, measure_places, printed_as_none, usual_growth, had_motion, &
+                                    had_force, force_round_off, NONE_OF_HAD
    use atrito_friction_law, only: friction_stress, sticking_slip, FRICTION_NONE
    use atrito_internal_forces, only: internal_forces, internal_force_sizes
    use atrito_kinds, only: ip, wp, EPS_MACH
@@ -41,7 +42,7 @@ module atrito_final_check
 contains
 
    !> K u_e - f + B'q of all elements, assembled again: reactions at the prescribed dofs, residual at the free ones.
-   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes, thermal)
+   subroutine check_equilibrium(fem, u, f, contact, held, reaction, equilibrium, sizes, thermal, had)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)           !< u_e, without rigid motions, (2, n_nodes) [L]
       real(wp), intent(in) :: f(:, :)           !< applied forces (2, n_nodes) [F]
@@ -51,6 +52,7 @@ contains
       type(equilibrium_t), intent(out) :: equilibrium
       type(contact_sizes_t), intent(in), optional :: sizes
       real(wp), intent(in), optional :: thermal(:, :) !< forces of the temperatures (2, n_nodes) [F]
+      type(had_t), intent(in), optional :: had  !< of the increments before
       type(extremes_t) :: found(chunk_count(fem%mesh%n_nodes))
       real(wp) :: allowed
       integer(ip) :: run, first, last, node
@@ -73,14 +75,15 @@ contains
       equilibrium%largest_force = maxval([found%largest_force, 0.0_wp])
       if (present(thermal)) equilibrium%largest_force = max(equilibrium%largest_force, maxval(abs(thermal)))
       allowed = FORCE_TOLERANCE*equilibrium%largest_force
+      if (present(had)) allowed = allowed + force_round_off(had)
       ! the round-off is asked for where it matters
       if (equilibrium%residual > allowed) allowed = allowed + ROUND_OFFS*EPS_MACH*largest_size(fem, u)
       equilibrium%holds = equilibrium%residual <= allowed .and. all(found%finite)
       if (equilibrium%holds .and. present(sizes)) then
          if (present(thermal)) then
-            equilibrium%holds = weak_parts_hold(fem, u, f + thermal, contact, held, reaction, sizes)
+            equilibrium%holds = weak_parts_hold(fem, u, f + thermal, contact, held, reaction, sizes, had)
          else
-            equilibrium%holds = weak_parts_hold(fem, u, f, contact, held, reaction, sizes)
+            equilibrium%holds = weak_parts_hold(fem, u, f, contact, held, reaction, sizes, had)
          end if
       end if
       !$omp parallel do schedule(static) if (is_shared(fem%mesh%n_nodes))
@@ -128,10 +131,11 @@ contains
 
    !> Z'(f - B'q) of every rigid motion, relative to the forces on the body; the worst. A body without load rests: what is round-off
    !> of the forces on those that touch it, directly or by others without load, counts as none.
-   real(wp) function check_balance(fem, f, contact, rows) result(worst)
+   real(wp) function check_balance(fem, f, contact, rows, had) result(worst)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :), contact(:, :) !< (2, n_nodes) [F]
       type(contact_rows_t), intent(in), optional :: rows !< what touches; without it nothing does
+      type(had_t), intent(in), optional :: had  !< of the increments before
       real(wp) :: work(3, fem%bodies%n), size_of_work(fem%bodies%n), around(fem%bodies%n)
       logical :: is_loaded(fem%bodies%n)
       integer(ip) :: b, j
@@ -148,6 +152,9 @@ contains
       do b = 1, fem%bodies%n
          do j = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
             if (abs(work(j, b)) <= merge(0.0_wp, ROUND_OFF_BESIDE*around(b), is_loaded(b))) cycle
+            if (present(had)) then
+               if (abs(work(j, b)) <= NONE_OF_HAD*had_force(had, b)) cycle
+            end if
             worst = max(worst, abs(work(j, b))/size_of_work(b))
          end do
       end do
@@ -227,13 +234,15 @@ contains
 
    !> Signs, complementarity, friction bound and direction at every point, with the final displacements. Sets results%law_holds
    !> and, where a converged solution breaks it, the verdict.
-   subroutine check_law(rows, line, tolerance, results, of_node, growth)
+   subroutine check_law(rows, line, tolerance, results, of_node, growth, had, condition)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tolerance          !< that the outer loop stopped at
       type(results_t), intent(inout) :: results
       integer(ip), intent(in), optional :: of_node(:) !< (n_nodes) body of each; without it there is one
       real(wp), intent(in), optional :: growth(:) !< (bodies) of round-off in the displacements; without it that of small bodies
+      type(had_t), intent(in), optional :: had   !< of the increments before
+      real(wp), intent(in), optional :: condition !< of the equations of the contact line
       real(wp), allocatable :: uncertain(:)
       real(wp) :: p(line%n), gap(line%n), slip(line%n), t(line%n), tau(line%n)
       type(contact_scales_t) :: scales
@@ -254,8 +263,8 @@ contains
          return
       end if
       tau = friction_bound(line, p)
-      call find_uncertain_displacements(results%u, of_node, growth, uncertain)
-      call check_bilateral_rows(rows, line, uncertain, results, rows_hold)
+      call find_uncertain_displacements(results%u, of_node, growth, had, uncertain)
+      call check_bilateral_rows(rows, line, uncertain, condition, results, rows_hold)
       if (.not. rows_hold) return
       last = 0
       do j = 1, line%n - line%n_bilateral
@@ -278,16 +287,19 @@ contains
    end subroutine check_law
 
    !> Every bilateral row with the final displacements: vector . u = value + compliance q, within what round-off leaves open.
-   subroutine check_bilateral_rows(rows, line, uncertain, results, holds)
+   subroutine check_bilateral_rows(rows, line, uncertain, condition, results, holds)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: uncertain(:)       !< (n_nodes) [L]
+      real(wp), intent(in), optional :: condition !< of the equations of the rows: digits that their forces have lost (W-DIGITS)
       type(results_t), intent(inout) :: results
       logical, intent(out) :: holds
-      real(wp) :: moved, asked, allowed, q
+      real(wp) :: moved, asked, allowed, q, lost
       integer(ip) :: i, j, k
 
       holds = .true.
+      lost = 0.0_wp
+      if (present(condition)) lost = min(EPS_MACH*condition, ROW_TOLERANCE)
       do i = 1, rows%n_bilateral
          j = rows%n - rows%n_bilateral + i
          q = results%row_force(i)
@@ -295,7 +307,9 @@ contains
          moved = row_value(rows, j, [0.0_wp, 0.0_wp], results%u)
          allowed = ROW_TOLERANCE*(abs(rows%gap(j)) + abs(asked))
          do k = rows%first(j), rows%first(j + 1) - 1
-            allowed = allowed + sum(abs(rows%vector(:, k - rows%before_vectors)))*uncertain(rows%node(k))
+            associate (vector => rows%vector(:, k - rows%before_vectors), node => rows%node(k))
+               allowed = allowed + sum(abs(vector))*uncertain(node) + lost*sum(abs(vector*results%u(:, node)))
+            end associate
          end do
          holds = abs(moved - asked) <= allowed .and. ieee_is_finite(q)
          if (holds) cycle
@@ -309,10 +323,11 @@ contains
    end subroutine check_bilateral_rows
 
    !> What round-off may do to the displacements of the body of each node [L].
-   pure subroutine find_uncertain_displacements(u, of_node, growth, uncertain)
+   pure subroutine find_uncertain_displacements(u, of_node, growth, had, uncertain)
       real(wp), intent(in) :: u(:, :)            !< (2, n_nodes) [L]
       integer(ip), intent(in), optional :: of_node(:)
       real(wp), intent(in), optional :: growth(:)
+      type(had_t), intent(in), optional :: had
       real(wp), allocatable, intent(out) :: uncertain(:)
       real(wp), allocatable :: largest(:)
       real(wp) :: of_all
@@ -325,6 +340,7 @@ contains
          largest(of_node(i)) = max(largest(of_node(i)), maxval(abs(u(:, i))))
       end do
       of_all = maxval(largest)
+      if (present(had)) largest(1:) = max(largest(1:), [(had_motion(had, i), i=1, ubound(largest, 1))])
       if (present(growth)) then
          largest(1:) = largest(1:)*growth*EPS_MACH + printed_as_none(largest(1:), of_all)
       else

@@ -5,6 +5,7 @@
 !> and nothing else.
 module atrito_history
    use atrito_body_cache, only: body_cache_t, release_bodies
+   use atrito_contact_scales, only: had_t, widen
    use atrito_contact_solution, only: contact_solution_t
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
    use atrito_history_rows, only: row_of_pair
@@ -25,7 +26,7 @@ module atrito_history
    use atrito_scene_data, only: check_known_points, drop_assembled, scene_data_t, set_time
    use atrito_scene_forecast, only: forecast_memory
    use atrito_slip_memory, only: begin_memory, put_memory, put_rest, remember_slips, slip_memory_t, take_memory
-   use atrito_solution_warnings, only: warn
+   use atrito_solution_warnings, only: warn, idle_text
    use atrito_solve, only: begin_scene, note_method, solve_options_t, solve_static, CONTACT_SPARSE
    use atrito_status, only: is_ok, reword_status, set_status, status_t, STATUS_NOT_CONVERGED, STATUS_SINGULAR
    use atrito_step_change, only: begin_from, changes_form
@@ -49,6 +50,8 @@ module atrito_history
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest of the contact line
       integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
+      character(len=:), allocatable :: idle         !< the first motion of a printed increment that nothing determines, and when
+      integer(ip) :: n_idle = 0                     !< printed increments with one
       class(recorder_t), pointer :: recorder => null()
       class(observer_t), pointer :: observer => null() !< not associated: nothing is observed
    end type run_t
@@ -155,6 +158,7 @@ contains
          run%data%asks_for_bases = .true.
          if (allocated(state%released)) run%data%released = state%released
          run%data%fem%grain = state%grain
+         if (allocated(state%had_motion)) call widen(run%data%had, state%had_motion, state%had_force)
          call take_memory(state, run%memory)
          call put_rest(run%memory, run%data%line)
          run%last = state%last
@@ -186,6 +190,10 @@ contains
       state%began = run%began
       state%condition = run%condition
       state%grain = run%data%fem%grain
+      if (allocated(run%data%had%motion)) then
+         state%had_motion = run%data%had%motion
+         state%had_force = run%data%had%force
+      end if
       state%contact_form = int(run%data%contact_form, ip)
       state%contact_reason = run%data%reason
       if (associated(run%data%step, run%step)) then
@@ -245,6 +253,7 @@ contains
       type(status_t), intent(out) :: status
       logical, allocatable :: held(:, :), before(:, :)
       real(wp), allocatable :: value(:, :), released(:, :)
+      type(had_t) :: had
 
       if (k == 1) then
          call begin_scene(model, run%options, store, .false., run%data, run%scene, status)
@@ -266,8 +275,10 @@ contains
          call begin_from(before, run%last%u, run%step)
          call begin_motions_from(model, run%data%rigid_prescribed, run%last%rigid, run%step%rigid_prescribed)
          released = released_forces(run%data, run%last, held, model%steps(k)%rigid_prescribed)
+         had = run%data%had
          call begin_scene(model, run%options, store, .false., run%data, run%scene, status, run%step)
          if (.not. is_ok(status)) return
+         run%data%had = had
          if (changes_form(model, k)) call note_method(run%data, model%steps(k:k))
          call move_alloc(released, run%data%released)
          call put_rest(run%memory, run%data%line)
@@ -375,6 +386,7 @@ contains
       integer(ip) :: i
 
       run%data%last = solution
+      call widen(run%data%had, solution%body_motion, solution%body_force)
       run%condition = max(run%condition, solution%inner%condition)
       run%scene%bodies = results%scene%bodies        ! as they were factored
       call remember_slips(run%data%line, results%contact, run%memory)
@@ -388,11 +400,32 @@ contains
       if (associated(run%observer)) call note_observed(run%observer, run%data, results, history%observed)
       if (run%data%is_printed) then
          results%scene%memory = forecast_memory(model, run%data, results%scene)
+         call note_idle(results, idle_text(run%data, solution), run)
          call add_frame(results, run%n_frames, history%frames)
       end if
       call move_frame(results, run%last)
       run%has_last = .true.
    end subroutine keep_increment
+
+   pure subroutine note_idle(results, text, run)
+      type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: text           !< idle_text of the increment
+      type(run_t), intent(inout) :: run
+
+      if (len(text) == 0) return
+      if (run%n_idle == 0) run%idle = text//' (step '//to_text(results%step)//', increment '//to_text(results%increment)
+      run%n_idle = run%n_idle + 1
+   end subroutine note_idle
+
+   !> What is told of them in the end; '' where there was none.
+   pure function idle_increments(run) result(text)
+      type(run_t), intent(in) :: run
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (run%n_idle > 0) text = run%idle//')'
+      if (run%n_idle > 1) text = run%idle//' and '//to_text(run%n_idle - 1_ip)//' more of those printed)'
+   end function idle_increments
 
    !> Why an increment has no solution, as a status.
    pure subroutine explain(results, status)
@@ -460,7 +493,7 @@ contains
          run%last%contraction = max(run%last%contraction, history%frames(i)%contraction)
          run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
       end do
-      call warn(run%data, run%data%last, run%last)
+      call warn(run%data, run%data%last, run%last, idle_increments(run))
    end subroutine finish
 
    pure subroutine take_larger(one, largest)

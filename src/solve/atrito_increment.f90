@@ -6,7 +6,8 @@ module atrito_increment
    use atrito_condensed_body, only: body_text, how_it_moves
    use atrito_contact_form, only: can_be_dense, contact_form_name, CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_problem, only: motion_body
-   use atrito_contact_scales, only: usual_growth
+   use atrito_contact_rows, only: bodies_of_row
+   use atrito_contact_scales, only: usual_growth, force_round_off, NONE_OF_HAD
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense_form, only: solve_dense_form
    use atrito_extremes, only: find_extremes
@@ -155,16 +156,51 @@ contains
       call start_phase('recover')
       if (solution%converged) call settle_idle_motions(data, u, data%before, solution)
       if (data%is_printed) call begin_early(data, solution, u, store%errand, fields)
+      if (allocated(data%had%motion)) call clear_what_is_left(data, solution, u)
       call recover(data, solution, u, results)
       call stop_phase('recover')
       if (data%is_printed) call complete_results(data, results, fields)
       call start_phase('check')
       call check_law(data%rows, data%line, max(controls%tolerance, solution%residual), results, data%fem%bodies%of_node, &
-                     growth_of_bodies(data, results%scene))
+                     growth_of_bodies(data, results%scene), data%had, solution%inner%condition)
       call judge_failed_check(data, results, status)
       call stop_phase('check')
       call take_rigid_results(data, solution, results)
    end subroutine solve_one_form
+
+   !> Where nothing acts on a body any more, what is left of its displacements and of the forces on it is round-off of what it had.
+   pure subroutine clear_what_is_left(data, solution, u)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), intent(inout) :: u(:, :)                    !< without rigid motions, (2, n_nodes) [L]
+      logical :: is_still(data%fem%bodies%n)
+      integer(ip) :: b, i, j, first, n
+
+      is_still = .false.
+      first = 1
+      do b = 1, data%fem%bodies%n
+         associate (body => data%fem%bodies%list(b), a => solution%state%a)
+            n = size(body%modes, 2, kind=ip)
+            is_still(b) = maxval(abs(u(:, body%nodes))) + sum(abs(a(first:first + n - 1))) <= NONE_OF_HAD*data%had%motion(b)
+            is_still(b) = is_still(b) .and. all(data%f(:, body%nodes) == 0.0_wp)
+            if (is_still(b)) then
+               u(:, body%nodes) = 0.0_wp
+               a(first:first + n - 1) = 0.0_wp
+            end if
+            first = first + n
+         end associate
+      end do
+      do i = 1, size(data%line%point, kind=ip)
+         j = data%line%point(i)
+         associate (of_row => bodies_of_row(data%rows, j, data%fem%bodies%of_node))
+            if (.not. all(is_still(pack(of_row, of_row > 0)))) cycle
+            if (abs(solution%state%q(i)) > NONE_OF_HAD*maxval(data%had%force(pack(of_row, of_row > 0)))) cycle
+         end associate
+         solution%state%q(i) = 0.0_wp
+         if (data%line%normal(j) == i) solution%p(j) = 0.0_wp
+         if (data%line%tangential(j) == i) solution%t(j) = 0.0_wp
+      end do
+   end subroutine clear_what_is_left
 
    !> By how much round-off grows in the displacements of each body, as far as its factorisation tells.
    pure function growth_of_bodies(data, scene) result(growth)
@@ -373,7 +409,7 @@ contains
    !> Displacements, reactions, contact fields, energies and balances.
    subroutine recover(data, solution, u, results)
       type(scene_data_t), intent(in) :: data
-      type(contact_solution_t), intent(in) :: solution
+      type(contact_solution_t), intent(inout) :: solution
       real(wp), allocatable, intent(inout) :: u(:, :)      !< without rigid motions, (2, n_nodes) [L]; moved to the results
       type(results_t), intent(inout) :: results
       real(wp), allocatable :: contact(:, :)
@@ -384,8 +420,8 @@ contains
       call move_alloc(u, results%u)
       allocate (results%reaction, mold=results%u)
       call check_equilibrium(data%fem, results%u, data%f, contact, data%held, results%reaction, equilibrium, &
-                             sizes_at_points(data, solution), data%thermal)
-      imbalance = check_balance(data%fem, data%f, contact, data%rows)
+                             sizes_at_points(data, solution), data%thermal, data%had)
+      imbalance = check_balance(data%fem, data%f, contact, data%rows, data%had)
       results%strain_energy = elastic_energy(data%fem, results%u, equilibrium%energy)
       if (allocated(data%step%requests%cuts)) then          ! rigid motions would cost digits
          call sum_cuts(data, moment_t(results%step_time, results%time), results%u, results%reaction - contact, results%cuts)
@@ -393,7 +429,9 @@ contains
       call add_rigid_motions(data%fem, solution%state%a, results%u)
       results%converged = solution%converged
       results%law_holds = equilibrium%holds .and. imbalance <= 1.0e-8_wp
-      if (equilibrium%largest_force > 0.0_wp) results%equilibrium_residual = equilibrium%residual/equilibrium%largest_force
+      associate (force => max(equilibrium%largest_force, force_round_off(data%had)/NONE_OF_HAD))
+         if (force > 0.0_wp) results%equilibrium_residual = equilibrium%residual/force
+      end associate
       if (.not. results%law_holds) results%verdict = 'the bodies are not in equilibrium: residual ' &
                                                      //to_text(results%equilibrium_residual, 3)//', imbalance ' &
                                                      //to_text(imbalance, 3)
@@ -411,7 +449,27 @@ contains
       if (data%step%requests%bodies) call sum_bodies(data%fem, results%u, data%f, results%reaction, contact, results%bodies)
       call recover_contact(data%line, data%rows, data%points, solution, results%u, results%contact)
       call copy_history(solution, results)
+      call measure_sizes(data, contact, results, solution)
    end subroutine recover
+
+   !> The largest displacement of each body, and the largest force at a node of it.
+   pure subroutine measure_sizes(data, contact, results, solution)
+      type(scene_data_t), intent(in) :: data
+      real(wp), intent(in) :: contact(:, :)                 !< (2, n_nodes) [F]
+      type(results_t), intent(in) :: results
+      type(contact_solution_t), intent(inout) :: solution
+      integer(ip) :: b
+
+      solution%body_motion = [(0.0_wp, b=1, data%fem%bodies%n)]
+      solution%body_force = solution%body_motion
+      do b = 1, data%fem%bodies%n
+         associate (nodes => data%fem%bodies%list(b)%nodes)
+            solution%body_motion(b) = maxval(abs(results%u(:, nodes)))
+            solution%body_force(b) = max(maxval(abs(data%f(:, nodes))), maxval(abs(contact(:, nodes))), &
+                                        maxval(abs(results%reaction(:, nodes))))
+         end associate
+      end do
+   end subroutine measure_sizes
 
    !> The forces at the contact points and their pairs, and the rigid motions of the bodies.
    pure function sizes_at_points(data, solution) result(sizes)

@@ -10,6 +10,7 @@ module atrito_scene_data
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: average_entries, build_line, set_known_points
    use atrito_contact_rows, only: contact_rows_t, allow_overlap, build_rows
+   use atrito_contact_scales, only: had_t
    use atrito_contact_solution, only: contact_solution_t
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
@@ -67,6 +68,7 @@ module atrito_scene_data
       real(wp), allocatable :: released(:, :)               !< (2, n_nodes) of supports that the step does not have; they fade [F]
       type(bound_qp_t), allocatable :: flexibility          !< C and G of the bodies that are factored
       type(contact_solution_t), allocatable :: last         !< of the increment before, to start from
+      type(had_t) :: had                                    !< the largest so far
       real(wp), pointer :: before(:, :) => null()           !< (2, n_nodes) displacements of the increment before [L]
    end type scene_data_t
 

@@ -15,7 +15,7 @@ module atrito_solution_warnings
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: warn
+   public :: warn, idle_text
 
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
    real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
@@ -24,20 +24,16 @@ module atrito_solution_warnings
 contains
 
    !> What a careful user should know of a solution.
-   subroutine warn(data, solution, results)
+   subroutine warn(data, solution, results, idle)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
       type(results_t), intent(in) :: results
+      character(len=*), intent(in) :: idle                 !< which motions nothing determines (idle_text); '': none
       integer(ip) :: b
-      real(wp) :: mode(3)
 
       if (is_reference_blas()) call add_warning('W-BLAS', 'this program was linked with the reference BLAS; with OpenBLAS' &
                                                 //' it is about three times as fast')
-      if (allocated(solution%inner%undetermined)) then
-         call motion_body(data%fem, solution%inner%undetermined, b, mode)
-         call add_warning('W-IDLE', motion_text(data%fem, b, mode)//': no load does it and nothing prevents it; the least' &
-                          //' motion is given')
-      end if
+      if (len(idle) > 0) call add_warning('W-IDLE', idle//': no load does it and nothing prevents it; the least motion is given')
       do b = 1, size(results%scene%bodies, kind=ip)
          associate (body => results%scene%bodies(b))
             if (body%digits_lost > MANY_DIGITS) call add_warning('W-DIGITS', 'body '//body%name//': the pivot of node ' &
@@ -53,6 +49,20 @@ contains
       call warn_of_others(data%model, results)
       call warn_of_large(results, data%model%asks_nlgeom)
    end subroutine warn
+
+   !> 'body BLOCK is free to move along x1', where a motion of a solution is not determined; else ''.
+   function idle_text(data, solution) result(text)
+      type(scene_data_t), intent(in) :: data
+      type(contact_solution_t), intent(in) :: solution
+      character(len=:), allocatable :: text
+      real(wp) :: mode(3)
+      integer(ip) :: b
+
+      text = ''
+      if (.not. allocated(solution%inner%undetermined)) return
+      call motion_body(data%fem, solution%inner%undetermined, b, mode)
+      text = motion_text(data%fem, b, mode)
+   end function idle_text
 
    !> Whether there may be other solutions.
    subroutine warn_of_others(model, results)

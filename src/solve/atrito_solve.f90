@@ -14,7 +14,7 @@ module atrito_solve
    use atrito_scene_forecast, only: forecast_memory
    use atrito_shares, only: is_over_ranks, SHARE_AUTO, SHARE_ALL, SHARE_NONE
    use atrito_scene_survey, only: describe_scene, describe_order, count_fronts, check_scene
-   use atrito_solution_warnings, only: warn
+   use atrito_solution_warnings, only: warn, idle_text
    use atrito_solver_choice, only: SOLVER_SKYLINE, SOLVER_BANDED, SOLVER_SPARSE, SOLVER_MUMPS
    use atrito_status, only: status_t, is_ok
    use atrito_timers, only: start_phase, stop_phase
@@ -128,7 +128,7 @@ contains
       ! with the fronts that the bodies have in place of those that were expected
       results%scene%memory = forecast_memory(model, data, results%scene)
       call report_unsettled(data%fem%mesh, data%points, data%rows, data%line, solution, results)
-      call warn(data, solution, results)
+      call warn(data, solution, results, idle_text(data, solution))
    end subroutine solve_static
 
    !> Methods that the form of the scene does not have.
