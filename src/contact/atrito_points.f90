@@ -38,6 +38,7 @@ module atrito_points
       integer(ip) :: n_seeing = 0                   !< NODAL, where all are left out: those that see it with a part of them
       integer(lp), allocatable :: faces(:)          !< a number of its own for each of the slave's faces that are not left out
       integer(ip), allocatable :: piece(:)          !< of the master, that are seen; some more than once
+      real(wp), allocatable :: doubt(:)             !< (n) by what the normals may be off [rad]; not allocated: round-off
       type(sliding_t) :: sliding                    !< that both sides have, if they have one
       logical :: matching = .false.                 !< every point faces a master node and the orders are equal
       logical :: rigid = .false.

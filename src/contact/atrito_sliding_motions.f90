@@ -25,10 +25,10 @@ module atrito_sliding_motions
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_pieces, only: place_at, normal_at
    use atrito_points, only: contact_points_t, sliding_t
-   use atrito_slave_faces, only: clear_small_component
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, clear_small_component
    implicit none (type, external)
    private
-   public :: chords_t, list_chords, find_sliding, turn_points, is_along, serves, adopted, velocity, printed_grain
+   public :: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted, velocity, printed_grain
 
    !> The chords of both sides of a pair.
    type :: chords_t
@@ -372,6 +372,27 @@ contains
          total = total + points%coefficient(k)
       end do
    end function first_of_master
+
+   !> By what normals may be off: by the digits of the nodes; and at an end of a chain, where a curve goes on that the faces do not
+   !> show, as at a line of symmetry, by half of the turn from one straight face to the next.
+   pure subroutine note_doubt(mesh, slave, grain, points)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
+      real(wp), intent(in) :: grain                 !< [L]
+      type(contact_points_t), intent(inout) :: points
+      type(nodal_rule_t) :: rule
+      integer(ip) :: i, k, j
+      real(wp), parameter :: HALF = 0.6_wp          !< with some reserve
+
+      points%doubt = DIGITS_TURN*grain/points%length(:points%n)
+      do k = 1, 2
+         i = merge(1_ip, slave%n, k == 1)
+         rule = nodal_rule(mesh, slave%element(i), slave%face(i))
+         if (rule%n /= 2) cycle
+         j = findloc(points%node(:points%n), rule%node(k), dim=1, kind=ip)
+         if (j > 0) points%doubt(j) = max(points%doubt(j), HALF*asin(turn_at(mesh, slave, i, rule)))
+      end do
+   end subroutine note_doubt
 
    !> Where the force of a point acts on the slave [L].
    pure function force_place(mesh, points, j) result(x)

@@ -10,7 +10,7 @@ module atrito_pairing
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_mesh, only: mesh_t, is_revolved
    use atrito_section_elasticity, only: elasticity_of
-   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, turn_points, is_along, serves, adopted
+   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
@@ -113,7 +113,10 @@ contains
             else
                call make_points(model, thickness, quadrature(i), slave, surface%faces, master, points(i))
             end if
-            if (present(chords)) call list_chords(model%mesh, slave, surface%faces, master, points(i), chords(i))
+            if (present(chords)) then
+               call list_chords(model%mesh, slave, surface%faces, master, points(i), chords(i))
+               call note_doubt(model%mesh, slave, chords(i)%grain, points(i))
+            end if
          end associate
       end do
    end subroutine pair_surfaces

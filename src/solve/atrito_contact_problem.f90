@@ -106,22 +106,26 @@ contains
       end if
    end function law_of
 
-   !> True when the row of a point has an entry on a free dof. (A matrix entry could vanish by cancellation; the row tells.)
+   !> True when the row of a point has entries on free dofs. What the supports leave of a row whose normal is known to some digits, or to
+   !> the resolution of a curve, is nothing where it is no more than that: a node held along the normal of a line of symmetry.
    pure logical function has_unknown(fem, rows, j, direction)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j
       real(wp), intent(in) :: direction(2)
       integer(ip) :: k, dof
-      real(wp) :: along(2)
+      real(wp) :: along(2), left, whole
 
-      has_unknown = .false.
+      left = 0.0_wp
+      whole = 0.0_wp
       do k = rows%first(j), rows%first(j + 1) - 1
-         along = direction_of_entry(rows, j, k, direction)
+         along = rows%coefficient(k)*direction_of_entry(rows, j, k, direction)
          do dof = 1, 2
-            has_unknown = has_unknown .or. (along(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) /= 0)
+            whole = whole + along(dof)**2
+            if (fem%bodies%equation(dof, rows%node(k)) /= 0) left = left + along(dof)**2
          end do
       end do
+      has_unknown = left > rows%doubt(j)**2*whole
    end function has_unknown
 
    !> What the contact line knows of points whose dofs are prescribed.

@@ -18,6 +18,8 @@ module atrito_contact_rows
       real(wp), allocatable :: normal(:, :)          !< (2, n) n
       real(wp), allocatable :: tangent(:, :)         !< (2, n) T, n turned by +90 degrees
       real(wp), allocatable :: gap(:)                !< (n) initial distance s_j, and overlap that is allowed [L]
+      real(wp), allocatable :: doubt(:)              !< (n) by what the normal may be off [rad]
+      real(wp), allocatable :: reach(:)              !< (n) length that the point stands for [L]
       real(wp), allocatable :: allowed(:)            !< (n) that overlap [L]; not allocated: none
       integer(ip) :: n_bilateral = 0
       integer(ip) :: before_vectors = 0              !< entries of the rows before
@@ -37,7 +39,7 @@ contains
       if (present(bilateral)) rows%n_bilateral = bilateral%n
       rows%n = rows%n + rows%n_bilateral
       allocate (rows%first(rows%n + 1), source=1_ip)
-      allocate (rows%normal(2, rows%n), rows%tangent(2, rows%n), rows%gap(rows%n), &
+      allocate (rows%normal(2, rows%n), rows%tangent(2, rows%n), rows%gap(rows%n), rows%doubt(rows%n), rows%reach(rows%n), &
                 source=0.0_wp)
       m = 0
       do i = 1, size(points, kind=ip)
@@ -46,6 +48,8 @@ contains
             rows%normal(:, m) = points(i)%normal(:, j)
             rows%tangent(:, m) = [-points(i)%normal(2, j), points(i)%normal(1, j)]
             rows%gap(m) = points(i)%gap(j)
+            rows%reach(m) = points(i)%length(j)
+            if (allocated(points(i)%doubt)) rows%doubt(m) = points(i)%doubt(j)
             rows%first(m + 1) = rows%first(m) + (points(i)%first(j + 1) - points(i)%first(j))
             rows%longest = max(rows%longest, rows%first(m + 1) - rows%first(m))
          end do

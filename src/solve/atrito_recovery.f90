@@ -175,8 +175,7 @@ contains
       end do
    end subroutine recover_contact
 
-   !> Gap and slip of a point: of an active one from its law, of a free one from the displacements (without friction there is no
-   !> unknown to tell them).
+   !> Gap and slip of a point: where a force acts from its law, elsewhere from the displacements.
    pure subroutine place_of_point(line, rows, solution, u, j, gap, slip)
       type(contact_line_t), intent(in) :: line
       type(contact_rows_t), intent(in) :: rows
@@ -192,10 +191,12 @@ contains
       else if (solution%state%state(i) == FREE) then
          gap = -line%delta(j)*solution%p(j)
       else
-         gap = -solution%state%r(i)
+         gap = rows%gap(j) - row_value(rows, j, rows%normal(:, j), u)
       end if
       i = line%tangential(j)
       if (i == 0) then
+         slip = row_value(rows, j, rows%tangent(:, j), u)
+      else if (solution%state%state(i) /= FREE .and. .not. abs(solution%state%q(i)) > 0.0_wp) then
          slip = row_value(rows, j, rows%tangent(:, j), u)
       else if (abs(solution%state%q(i)) < tiny(slip)/epsilon(slip) .and. solution%bounds%d(i) > 0.0_wp) then
          ! the force has lost its digits at the end of the range of numbers

@@ -299,7 +299,7 @@ contains
             if (is_ok(status)) cycle
             return
          end if
-         if (data%line%known_overlap(j) <= 1.0e-12_wp*(maxval(abs(data%fem%mesh%x)))) cycle
+         if (data%line%known_overlap(j) <= 1.0e-12_wp*(maxval(abs(data%fem%mesh%x))) + data%rows%doubt(j)*data%rows%reach(j)) cycle
          call set_status(status, STATUS_DECK, 'node '//to_text(data%fem%mesh%node_id(data%rows%node(data%rows%first(j)))) &
                          //' is prescribed to penetrate a hard contact by '//to_text(data%line%known_overlap(j)) &
                          //' [L]; a penalty (PRESSURE-OVERCLOSURE=LINEAR) could take it')

@@ -1,0 +1,75 @@
+# check.sh ATRITO CASE_FOLDER INPUT_FOLDER
+. "$(dirname "$0")/../lib.sh"
+# pin NAME CODE "VARIABLES" [options]: a pin as pin.awk has it.
+pin() {
+   name=$1
+   code=$2
+   variables=$3
+   shift 3
+   set -- "$@" --digits 17 --quiet
+   : >"$name.vars"
+   eval "awk -v digits=17 -v angle=0 -v faces=24 -v holes=24 -v moment=0 -v gap=0 -v type=CPE4 -v force=10 -v hold=0 -v nu=0 $variables -f '$here/pin.awk'" \
+      </dev/null >"$name.inp"
+   run "$code" "$name.inp" "$name" "$@"
+}
+# turned NAME: the mean rotation of the pin, by its displacements across the radii.
+turned() {
+   awk '/^# columns:/ { for (i = 3; i <= NF; i++) place[$i] = i - 2; next } /^#/ { next }
+      $2 < 10000 { x = $place["x"]; y = $place["y"]; m += x*$place["u2"] - y*$place["u1"]; r += x*x + y*y }
+      END { printf "%.17g", m/r }' "$1/nodes.tab"
+}
+# carried NAME: the largest pressure, and that the motion is told and least. Statics give the reaction of the lug.
+carried() {
+   grep -q 'W-IDLE.*free to rotate about' "$1.err" || complain "$1: the rotation is not told"
+   near "$1 turns by" "$(turned "$1")" 0 1e-9
+   near "$1 reaction" "$(awk '!/^#/ { a += $(NF - 1); b += $NF } END { printf "%.17g", sqrt(a*a + b*b) }' "$1.sum")" 10 2e-3
+}
+reaction() {
+   awk '/^# columns:/ { for (i = 3; i <= NF; i++) place[$i] = i - 2; next } /^#/ { next }
+      { print $place["r1"], $place["r2"] }' "$1/reactions.tab" >"$1.sum"
+}
+most() { column "$1/contact.tab" pressure | awk '$1 > m { m = $1 } END { printf "%.17g", m }'; }
+
+# A pin that its load does not turn: the same pressures to the digits, whatever digits, angle, elements, roles, quadrature, form, solver.
+pin plain 0 ""
+reaction plain
+carried plain
+for digits in 4 6 8 10 12; do
+   for angle in 0 30 57.3 114.6; do
+      pin free-$digits-$angle 0 "-v digits=$digits -v angle=$angle"
+      reaction free-$digits-$angle
+      carried free-$digits-$angle
+      near "free-$digits-$angle pressure" "$(most free-$digits-$angle)" "$(most plain)" "$(value "10*30*10^-$digits*24 + 1e-9")"
+   done
+done
+for options in "--contact sparse" "--contact dense --solver sparse" "--contact dense --solver banded" "--contact dense --solver skyline"; do
+   name=form-$(echo "$options" | tr -d ' -')
+   pin "$name" 0 "-v digits=6 -v angle=57.3" $options
+   reaction "$name"
+   carried "$name"
+   near "$name pressure" "$(most "$name")" "$(most free-6-57.3)" 1e-8
+done
+n=0
+for variables in "-v slave=LUG" "-v type=CPE3" "-v holes=26" "-v holes=26 -v slave=LUG" "-v holes=26 -v quadrature=NODAL" "-v gap=0.001" "-v gap=0.001 -v holes=32"; do
+   n=$((n + 1))
+   for digits in 5 17; do
+      pin "kind-$n-$digits" 0 "-v digits=$digits -v angle=57.3 $variables"
+      reaction "kind-$n-$digits"
+      carried "kind-$n-$digits"
+   done
+done
+# A moment turns it: there is no equilibrium, however large the forces that rounded coordinates could hold it with.
+n=0
+for variables in "" "-v digits=6" "-v digits=6 -v holes=26" "-v digits=10 -v slave=LUG -v angle=30" "-v digits=5 -v type=CPE3" "-v digits=6 -v moment=-0.1"; do
+   n=$((n + 1))
+   for form in dense sparse; do
+      pin "moment-$n-$form" 4 "-v moment=0.1 $variables" --contact $form
+      says "moment $n $form" "moment-$n-$form.err" 'free to rotate about'
+   done
+done
+# Friction, or a support, takes the moment.
+pin rough 0 "-v digits=6 -v moment=0.1 -v nu=0.3"
+grep -q W-IDLE rough.err && complain "rough: W-IDLE"
+pin held 0 "-v digits=6 -v moment=0.1 -v hold=1"
+grep -q W-IDLE held.err && complain "held: W-IDLE"
+finish
