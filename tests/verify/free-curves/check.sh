@@ -39,7 +39,7 @@ for digits in 4 6 8 10 12; do
       pin free-$digits-$angle 0 "-v digits=$digits -v angle=$angle"
       reaction free-$digits-$angle
       carried free-$digits-$angle
-      near "free-$digits-$angle pressure" "$(most free-$digits-$angle)" "$(most plain)" "$(value "10*30*10^-$digits*24 + 1e-9")"
+      near "free-$digits-$angle pressure" "$(most free-$digits-$angle)" "$(most plain)" "$(value "10^(1 - $digits) + 1e-9")"
    done
 done
 for options in "--contact sparse" "--contact dense --solver sparse" "--contact dense --solver banded" "--contact dense --solver skyline"; do
