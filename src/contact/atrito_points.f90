@@ -11,6 +11,7 @@ module atrito_points
    !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
    type :: sliding_t
       logical :: exists = .false.
+      logical :: is_of_both = .true.                !< both sides slide along themselves; else one that is straight
       logical :: is_round = .false.                 !< a rotation about the centre; else a translation
       logical :: is_convex = .false.                !< of the side that it was found by: the centre lies inside its body
       real(wp) :: direction(2) = 0.0_wp             !< of a translation, unit vector

@@ -46,6 +46,7 @@ module atrito_sliding_motions
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
    real(wp), parameter :: MOST_TURN = 0.6_wp        !< of a row [rad]: more than coarse chords make of a curve
+   real(wp), parameter :: LITTLE_TURN = 0.05_wp     !< the same where one side alone is straight
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
    real(wp), parameter :: CONCENTRIC = 0.02_wp      !< distance of the centres of a pin and its hole, in radii
 
@@ -159,8 +160,8 @@ contains
       end do
    end function printed_grain
 
-   !> The sliding motion of a pair, where there is one: of both sides, or of a pin in a hole with some clearance, whose centres differ,
-   !> that of the pin.
+   !> The sliding motion of a pair, where there is one: of both sides; of a pin in a hole with some clearance, whose centres differ,
+   !> that of the pin; of a curve on a straight side, whose normal counts, the translation along that.
    subroutine find_sliding(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(out) :: motion
@@ -168,7 +169,14 @@ contains
 
       if (.not. (any(chords%of_slave) .and. any(.not. chords%of_slave))) return
       call find_straight(chords, motion)
-      if (motion%exists .or. min(count(chords%of_slave), count(.not. chords%of_slave)) < LEAST_CHORDS) return
+      if (motion%exists) return
+      call find_straight(only(chords%of_slave, chords), own(1))
+      call find_straight(only(.not. chords%of_slave, chords), own(2))
+      if (own(1)%exists .neqv. own(2)%exists) then
+         motion = own(merge(1, 2, own(1)%exists))
+         motion%is_of_both = .false.
+      end if
+      if (any(own%exists) .or. min(count(chords%of_slave), count(.not. chords%of_slave)) < LEAST_CHORDS) return
       call find_round(spread(.true., 1, chords%n), chords, motion)
       if (motion%exists) return
       call find_round(chords%of_slave, chords, own(1))
@@ -192,12 +200,13 @@ contains
       real(wp) :: n(2)
       integer(ip) :: i
 
+      motion = sliding_t()
       n = 0.0_wp
       do i = 1, chords%n
          n = n + merge(1.0_wp, -1.0_wp, chords%of_slave(i))*chords%length(i)**2*chords%normal(:, i)
       end do
       if (.not. norm2(n) > 0.0_wp) return
-      motion%extent = sum(chords%length, mask=chords%of_slave)
+      motion%extent = sum(chords%length, mask=chords%of_slave .eqv. chords%of_slave(1))
       motion%grain = chords%grain
       n = n/norm2(n)
       where (abs(n) <= DIGITS_TURN*motion%grain/motion%extent) n = 0.0_wp
@@ -259,37 +268,43 @@ contains
       some%grain = chords%grain
    end function only
 
-   !> Whether all chords slide along themselves in a motion, but for the digits of their ends and the resolution of the curve.
+   !> Whether all chords slide along themselves in a motion.
    pure logical function agrees(chords, motion)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(in) :: motion
-      real(wp) :: v(2), doubt
       integer(ip) :: i
 
       agrees = .true.
       do i = 1, chords%n
-         v = velocity(motion, chords%place(:, i))
-         doubt = DIGITS_TURN*max(chords%grain, motion%grain)/chords%length(i)
-         if (motion%is_round) doubt = max(doubt, CURVE_TURN*(chords%length(i)/norm2(v))**2)
-         agrees = abs(dot_product(v, chords%normal(:, i))) <= doubt*norm2(v)
+         agrees = slides(chords, i, motion)
          if (.not. agrees) return
       end do
    end function agrees
 
-   !> Whether the motion of another pair serves as well as a pair's own. A pin with clearance asks for that of its own side alone.
+   !> Whether a chord slides along itself, but for the digits of its ends and the resolution of the curve.
+   pure logical function slides(chords, i, motion)
+      type(chords_t), intent(in) :: chords
+      integer(ip), intent(in) :: i
+      type(sliding_t), intent(in) :: motion
+      real(wp) :: v(2), doubt
+
+      v = velocity(motion, chords%place(:, i))
+      doubt = DIGITS_TURN*max(chords%grain, motion%grain)/chords%length(i)
+      if (motion%is_round) doubt = max(doubt, CURVE_TURN*(chords%length(i)/norm2(v))**2)
+      slides = abs(dot_product(v, chords%normal(:, i))) <= doubt*norm2(v)
+   end function slides
+
+   !> Whether the motion of another pair serves as well as a pair's own, at all chords that its own serves at.
    pure logical function serves(chords, other, own)
       type(chords_t), intent(in) :: chords
       type(sliding_t), intent(in) :: other, own
-      logical :: is_own(chords%n)
       integer(ip) :: i
 
       serves = other%is_round .eqv. own%is_round
-      if (.not. serves) return
-      is_own = .true.
-      if (own%is_round .and. .not. agrees(chords, own)) then
-         is_own = [(is_convex(i, chords, own%centre) .eqv. own%is_convex, i=1, chords%n)]
-      end if
-      serves = agrees(only(is_own, chords), other)
+      do i = 1, chords%n
+         if (.not. serves) return
+         serves = slides(chords, i, other) .or. .not. slides(chords, i, own)
+      end do
    end function serves
 
    !> The motion of another pair with the size of a pair's own.
@@ -326,7 +341,7 @@ contains
          if (.not. norm2(v) > 0.0_wp) return
          normal(:, j) = [v(2), -v(1)]/norm2(v)
          normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
-         if (norm2(normal(:, j) - points%normal(:, j)) > MOST_TURN) return
+         if (norm2(normal(:, j) - points%normal(:, j)) > merge(MOST_TURN, LITTLE_TURN, motion%is_of_both)) return
       end do
       do j = 1, points%n
          points%normal(:, j) = normal(:, j)

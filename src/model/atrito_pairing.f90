@@ -8,9 +8,9 @@ module atrito_pairing
    use atrito_nodal_points, only: pair_with_master
    use atrito_plane_state, only: compliance_matrix, COMPONENTS
    use atrito_points, only: contact_points_t, sliding_t
-   use atrito_mesh, only: mesh_t, is_revolved
+   use atrito_mesh, only: is_revolved
    use atrito_section_elasticity, only: elasticity_of
-   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted
+   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, serves, adopted
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
@@ -45,13 +45,12 @@ contains
       type(chords_t), allocatable :: chords(:)
 
       call pair_surfaces(model, model%pairs%slave, model%pairs%master, model%pairs%quadrature, points, chords=chords)
-      if (.not. is_revolved(model%mesh)) call let_slide(model%mesh, chords, points)
+      if (.not. is_revolved(model%mesh)) call let_slide(chords, points)
    end subroutine pair_all
 
-   !> Turns the rows of pairs along the motions in which their sides slide along themselves. Pairs that have the same one but for
-   !> digits, as rings in rings, take that of the one with the most chords.
-   subroutine let_slide(mesh, chords, points)
-      type(mesh_t), intent(in) :: mesh
+   !> The motions in which the sides of pairs slide along themselves. Pairs that have the same one but for digits, as rings in rings, take
+   !> that of the one with the most chords.
+   subroutine let_slide(chords, points)
       type(chords_t), intent(in) :: chords(:)
       type(contact_points_t), intent(inout) :: points(:)
       type(sliding_t) :: motions(size(points))
@@ -73,7 +72,6 @@ contains
                n = n + 1
                motions(n) = pair%sliding
             end if
-            if (.not. is_along(pair%sliding, mesh, pair)) call turn_points(pair%sliding, mesh, pair)
          end associate
       end do
    end subroutine let_slide

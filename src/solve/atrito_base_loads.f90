@@ -33,7 +33,7 @@ contains
 
    !> The bases of a step, where it has more increments than they are; else none. Surfaces that move have loads beside the nodes of
    !> the mesh: with them there are none, either, nor where loads are
-   !> balanced to the digits of the deck (atrito_sliding_loads).
+   !> balanced to the digits of the deck (atrito_sliding_bodies).
    subroutine build_bases(model, step, released, fem, bases)
       type(model_t), intent(in) :: model
       type(step_t), intent(in) :: step

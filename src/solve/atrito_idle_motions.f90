@@ -24,6 +24,7 @@ module atrito_idle_motions
    real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
    integer(ip), parameter :: MOST_SWEEPS = 1000_ip
    real(wp), parameter :: SEEN = 1.0e-20_wp         !< square of what a row sees of the motions, of the largest
+   real(wp), parameter :: NO_WAY = 1.0e-12_wp       !< of the displacements: it is rounding that is not least
    real(wp), parameter :: BACK = 1.0e-13_wp         !< what rounding leaves of a way and the way back
    real(wp), parameter :: SETTLED = 1.0e-14_wp
 
@@ -57,7 +58,7 @@ contains
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
-      call take_least(data%fem, rows, idle, off, metric, solution)
+      call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), solution)
    end subroutine settle_idle_motions
 
    !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
@@ -215,12 +216,13 @@ contains
    end subroutine measure_motions
 
    !> Least squares over the idle motions, V' M V s = -V' off, and the same within the conditions of the rows that do not hold.
-   subroutine take_least(fem, rows, idle, off, metric, solution)
+   subroutine take_least(fem, rows, idle, off, metric, largest, solution)
       type(fem_t), intent(in) :: fem
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: idle(:, :)            !< (k, motions)
       real(wp), intent(in) :: off(:)                !< (k) [L]
       real(wp), intent(in) :: metric(:, :, :)
+      real(wp), intent(in) :: largest               !< displacement [L]
       type(contact_solution_t), intent(inout) :: solution
       real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2)), way(rows%k)
       real(wp) :: rate(rows%m)
@@ -234,6 +236,7 @@ contains
          basis(:, j) = basis(:, j)/sqrt(max(values(j), tiny(1.0_wp)))
       end do
       way = matmul(basis, within_conditions(rows, basis, -matmul(off, basis), solution))
+      if (maxval(abs(way)) <= NO_WAY*max(maxval(abs(solution%state%a)), largest)) return
       ! a body that comes back to where it was is there
       way = merge(way, -solution%state%a, abs(solution%state%a + way) > BACK*abs(way))
       solution%state%a = solution%state%a + way

@@ -26,7 +26,7 @@ module atrito_scene_data
    use atrito_scene_memory, only: check_average_memory, most_average_entries
    use atrito_shared_scene, only: shared_scene_t
    use atrito_shares, only: shares_t, is_over_ranks, is_worth_sharing, share_out, SHARE_NONE
-   use atrito_sliding_loads, only: note_sliding, balance_loads
+   use atrito_sliding_bodies, only: let_slide, balance_loads
    use atrito_solver_choice, only: SOLVER_SPARSE
    use atrito_status, only: status_t, is_ok, STATUS_DECK, set_status
    use atrito_step_loads, only: moment_t, act_at, is_end, share_at
@@ -108,7 +108,7 @@ contains
       call take_numbering(store, data%held, data%points, data%solver_kind, data%fem, known, model%bilateral)
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
-      call note_sliding(data%points, data%fem)
+      call let_slide(data%points, data%fem)
       call build_rows(data%points, data%rows, model%bilateral)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &

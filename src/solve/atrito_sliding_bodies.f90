@@ -1,60 +1,87 @@
-!> Loads on the motions in which contact lets a body slide.
+!> Motions in which contact lets a body slide, and the loads on them.
+!>
+!> Where the supports leave such a motion to a body, nothing but friction resists it, so the rows of its points are turned along it
+!> (atrito_sliding_motions); of bodies that are held they stay as they are, and a uniform pressure is carried over exactly.
 !>
 !> A load has work on such a motion as far as the digits of the deck go: forces through the centre of a pin miss it by a unit of the last
 !> digit g of the coordinates, so their moment is known to some g times the sum of their sizes, and along a straight side to g over its
 !> length of that sum. Work below that is none, and is taken out of the forces; nothing could resist it, or it would be told that
 !> a balanced load moves the body.
-module atrito_sliding_loads
+module atrito_sliding_bodies
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at
    use atrito_kinds, only: ip, wp
    use atrito_points, only: contact_points_t, sliding_t
+   use atrito_sliding_motions, only: is_along, turn_points
    implicit none (type, external)
    private
-   public :: note_sliding, balance_loads
+   public :: let_slide, balance_loads
 
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over extent of a deck that is not rounded to digits
 
 contains
 
-   !> Finds of each body the motions in which its contacts let it slide, of decks with some digits.
-   subroutine note_sliding(points, fem)
-      type(contact_points_t), intent(in) :: points(:)
+   !> Of each pair that slides along itself in a motion that the supports leave to one of its bodies: turns its rows along that, and notes
+   !> the motion of the bodies of decks with some digits, whose loads are balanced along it.
+   subroutine let_slide(points, fem)
+      type(contact_points_t), intent(inout) :: points(:)
       type(fem_t), intent(inout) :: fem
+      real(wp) :: motion(4)
       integer(ip) :: i, k, b(2)
+      logical :: is_free
 
       do i = 1, size(points, kind=ip)
-         if (.not. points(i)%sliding%exists .or. points(i)%sliding%grain <= EXACT*points(i)%sliding%extent) cycle
-         k = points(i)%first(2) - 1                 ! the first point: slave first, master last
-         b = fem%bodies%of_node(points(i)%entry([1_ip, k]))
-         if (b(1) > 0) call add_motion(points(i)%sliding, fem%bodies%list(b(1)))
-         if (b(2) > 0 .and. b(2) /= b(1)) call add_motion(points(i)%sliding, fem%bodies%list(b(2)))
+         if (.not. points(i)%sliding%exists) cycle
+         b = fem%bodies%of_node(points(i)%entry([1_ip, points(i)%first(2) - 1])) ! of the first point: slave first, master last
+         is_free = .false.
+         do k = 1, merge(1_ip, 2_ip, b(1) == b(2))
+            if (b(k) == 0) cycle
+            motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
+            if (.not. is_left_free(fem%bodies%list(b(k)), motion)) cycle
+            is_free = .true.
+            if (points(i)%sliding%grain > EXACT*points(i)%sliding%extent) call add_motion(motion, fem%bodies%list(b(k)))
+         end do
+         if (.not. is_free) cycle
+         if (.not. is_along(points(i)%sliding, fem%mesh, points(i))) call turn_points(points(i)%sliding, fem%mesh, points(i))
       end do
-   end subroutine note_sliding
+   end subroutine let_slide
 
-   !> Adds a motion to those of a body, once, where its supports allow it.
-   pure subroutine add_motion(sliding, body)
+   !> The motion as one of the modes of a body, and what work along it is none, over the sum of the forces.
+   pure function motion_of_body(sliding, body) result(motion)
       type(sliding_t), intent(in) :: sliding
-      type(body_t), intent(inout) :: body
-      real(wp) :: motion(4), way(2), rest(3)
+      type(body_t), intent(in) :: body
+      real(wp) :: motion(4), way(2)
+
+      motion(:3) = [sliding%direction, 0.0_wp]
+      motion(4) = GRAINS*sliding%grain/sliding%extent
+      if (.not. sliding%is_round) return
+      way = body%centre - sliding%centre
+      motion(:3) = [-way(2), way(1), body%size]/body%size
+      motion(4) = GRAINS*sliding%grain/body%size
+   end function motion_of_body
+
+   !> Whether the supports of a body allow a motion, to the digits.
+   pure logical function is_left_free(body, motion)
+      type(body_t), intent(in) :: body
+      real(wp), intent(in) :: motion(4)
+      real(wp) :: rest(3)
       integer(ip) :: j
 
-      if (body%is_rigid .or. .not. allocated(body%modes)) return
-      motion = 0.0_wp
-      motion(4) = GRAINS*sliding%grain/body%size
-      if (sliding%is_round) then
-         way = body%centre - sliding%centre
-         motion(:3) = [-way(2), way(1), body%size]/body%size
-      else
-         motion(:2) = sliding%direction
-         motion(4) = GRAINS*sliding%grain/sliding%extent
-      end if
       rest = motion(:3)
-      do j = 1, size(body%modes, 2, kind=ip)        ! orthogonal columns
+      do j = 1, size(body%modes, 2, kind=ip)
          rest = rest - body%modes(:, j)*(dot_product(body%modes(:, j), rest)/sum(body%modes(:, j)**2))
       end do
-      if (maxval(abs(rest)) > motion(4)*maxval(abs(motion(:3)))) return
+      is_left_free = maxval(abs(rest)) <= max(motion(4), EXACT)*maxval(abs(motion(:3)))
+   end function is_left_free
+
+   !> Adds a motion to those of a body, once.
+   pure subroutine add_motion(motion, body)
+      real(wp), intent(in) :: motion(4)
+      type(body_t), intent(inout) :: body
+      integer(ip) :: j
+
+      if (body%is_rigid) return
       if (.not. allocated(body%slides)) allocate (body%slides(4, 0))
       do j = 1, size(body%slides, 2, kind=ip)
          if (all(abs(body%slides(:3, j) - motion(:3)) <= motion(4))) return
@@ -100,4 +127,4 @@ contains
       f(:, body%nodes) = f(:, body%nodes) - along*(work/sum(along**2))
    end subroutine balance_body
 
-end module atrito_sliding_loads
+end module atrito_sliding_bodies
