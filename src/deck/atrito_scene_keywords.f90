@@ -202,7 +202,7 @@ contains
       call define_keyword(k, 'CLEARANCE', LEVEL_MODEL, 'gives the initial gaps of a contact pair', &
                           doc='Whatever the coordinates say; a negative gap is an overlap that contact pushes apart, as of a '// &
                           'press fit. Of several lines that name a node the last one counts; points whose node no line names '// &
-                          'keep the gap of their coordinates.')
+                          'keep the gap of their coordinates. Between them --refine and --elements interpolate along the faces.')
       call add_option(k, 'SLAVE!', KIND_NAME, 'the slave of a *CONTACT PAIR')
       call add_option(k, 'MASTER!', KIND_NAME, 'its master')
       call add_option(k, 'VALUE', KIND_REAL, 'gap of all points', dimension='L')

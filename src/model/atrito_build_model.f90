@@ -164,7 +164,7 @@ contains
       do i = 1, size(points, kind=ip)
          call close_adjusted(adjusted(i), points(i))
       end do
-      call set_clearances(clearances, model%mesh%n_nodes, points)
+      call set_clearances(clearances, model%mesh%n_nodes, context%refinement, points)
       call move_alloc(points, model%points)
       call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)
