@@ -12,7 +12,7 @@ module atrito_keyword
    public :: define_keyword, take_keywords, add_option, add_form, let_lines_go_on, add_item, add_word_item, add_example
    public :: LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER
    public :: KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, &
-             KIND_TEXT, KIND_REAL_OR_NAME
+             KIND_TEXT, KIND_REAL_OR_NAME, NO_EFFECT
 
    !> Where a keyword may stand.
    integer, parameter :: LEVEL_MODEL = 1     !< before *STEP
@@ -32,6 +32,7 @@ module atrito_keyword
    integer, parameter :: KIND_TEXT = 10          !< the whole line
    integer, parameter :: KIND_REAL_OR_NAME = 11  !< a number, or a set
 
+   character(len=*), parameter :: NO_EFFECT = 'has no effect' !< said of an item that is a number and is not used
    integer, parameter :: MOST_KEYWORDS = 90, MOST_PARTS = 50
    integer, parameter :: ANY_NUMBER = huge(1)    !< no upper limit of lines or items
 

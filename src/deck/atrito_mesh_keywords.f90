@@ -273,7 +273,7 @@ contains
       call add_word_item(k, '[face]', 'S1 S2 S3 S4', 'face of each element; all outer faces when left out')
       call add_form(k, 'nodes', 1, ANY_NUMBER, when='TYPE=NODE')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
-      call add_item(k, '(area)', KIND_REAL, 'of another solver')
+      call add_item(k, '(area)', KIND_REAL, 'of another solver; each node or set has its line')
       call add_form(k, 'where the line begins', 1, 1, when='TYPE=SEGMENTS', word='START')
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')

@@ -2,7 +2,7 @@
 module atrito_step_keywords
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
                              LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, &
-                             KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
+                             KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT, NO_EFFECT
    implicit none (type, external)
    private
    public :: define_step_keywords
@@ -189,7 +189,7 @@ contains
       call add_option(k, '(PARAMETERS)', KIND_NAME, 'of other programs, with its data lines')
       call add_option(k, '(RESET)', KIND_FLAG, 'of other programs')
       call add_form(k, 'of PARAMETERS=', 0, ANY_NUMBER, when='PARAMETERS', harmless=.true.)
-      call add_item(k, '[value]...', KIND_REAL, 'has no effect')
+      call add_item(k, '[value]...', KIND_REAL, NO_EFFECT)
       call add_example(k, '*CONTROLS, METHOD=PICARD, TOLERANCE=1e-12, MAXIT=200')
    end subroutine define_controls
 
