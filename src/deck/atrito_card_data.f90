@@ -3,7 +3,7 @@ module atrito_card_data
    use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, is_empty_token, line_item, last_item
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_foreign_words, only: is_foreign_variable, may_be_empty
+   use atrito_foreign_words, only: is_foreign_variable, variable_of_component, may_be_empty
    use atrito_items, only: get_real, has_option, option_word
    use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_INTEGER, KIND_REAL, KIND_WORD, NO_EFFECT
    use atrito_keyword_table, only: find_choice, choice_names
@@ -362,12 +362,18 @@ contains
       type(token_t), intent(in) :: token
       type(item_t), intent(in) :: item
       logical, intent(inout) :: ok
-      integer :: choice
+      character(len=:), allocatable :: word
+      integer :: choice, whole
 
-      choice = find_choice(item%choices, token_text(deck, token))
-      if (choice == 0 .and. item%name == 'variable' .and. is_foreign_variable(upper_case(token_text(deck, token)))) then
-         call report_note(deck, token, 'N-IGNORED', 'variable '//upper_case(token_text(deck, token))//' of *'//trim(card%name)// &
-                          ' is not written')
+      word = upper_case(token_text(deck, token))
+      choice = find_choice(item%choices, word)
+      whole = 0
+      if (choice == 0 .and. item%name == 'variable') whole = find_choice(item%choices, variable_of_component(word))
+      if (whole > 0) then
+         call report_note(deck, token, 'N-IGNORED', 'variable '//word//' of *'//trim(card%name)//' is written with all '// &
+                          'components of '//item%choices(whole)%name)
+      else if (choice == 0 .and. item%name == 'variable' .and. is_foreign_variable(word)) then
+         call report_note(deck, token, 'N-IGNORED', 'variable '//word//' of *'//trim(card%name)//' is not written')
       else if (choice == 0) then
          ok = .false.
          call report_error(deck, token, 'E-CHOICE', 'unknown '//item%name//' '//token_text(deck, token), &

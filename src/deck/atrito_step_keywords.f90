@@ -197,7 +197,8 @@ contains
    subroutine define_print_keywords(k)
       type(keyword_list_t), intent(inout) :: k
 
-      call define_keyword(k, 'NODE PRINT', LEVEL_STEP, 'writes nodes.tab (U) and reactions.tab (RF)')
+      call define_keyword(k, 'NODE PRINT', LEVEL_STEP, 'writes nodes.tab (U) and reactions.tab (RF)', &
+                          doc='A component of other programs, U1, stands for all.')
       call add_option(k, 'NSET', KIND_NAME, 'these nodes only')
       call add_print_options(k)
       call add_form(k, 'the tables', 1, ANY_NUMBER)
@@ -205,11 +206,11 @@ contains
       call add_example(k, '*NODE PRINT, NSET=base|U, RF')
 
       call define_keyword(k, 'EL PRINT', LEVEL_STEP, 'writes stress.tab (S), or nodal_stress.tab', &
-                          doc='For both tables the step has two cards. The stresses at the nodes are recovered from all '// &
+                          doc='For both tables the step has two cards. A component of other programs, S11, stands for all. The stresses at the nodes are recovered from all '// &
                           'elements round them; where materials meet they are the mean of the sides.')
       call add_option(k, 'ELSET', KIND_NAME, 'these elements only')
       call add_option(k, 'POSITION', KIND_WORD, 'of stress.tab, or of nodal_stress.tab', &
-                      default='INTEGRATION POINTS', choices='INTEGRATION_POINTS AVERAGED_AT_NODES -CENTROIDAL -NODES')
+                      default='INTEGRATION POINTS', choices='INTEGRATION_POINTS AVERAGED_AT_NODES')
       call add_print_options(k)
       call add_form(k, 'the tables', 1, ANY_NUMBER)
       call add_word_item(k, 'variable...', 'S', 'stresses')
