@@ -65,7 +65,7 @@ contains
       call add_item(k, 'id', KIND_ID, 'number of the node, positive')
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L', default='0')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L', default='0')
-      call add_item(k, 'z', KIND_REAL, 'coordinate, must be 0', dimension='L', default='0')
+      call add_item(k, 'z', KIND_REAL, 'coordinate, 0 but for 1e-10 of the size of the scene', dimension='L', default='0')
       call add_item(k, '(further)...', KIND_REAL, 'of other programs')
       call add_example(k, '*NODE, NSET=corners|1, 0., 0.|2, 1.5, 0.')
 
@@ -368,7 +368,7 @@ contains
       call add_form(k, 'ranges, one a line', 1, ANY_NUMBER, when='GENERATE')
       call add_item(k, 'first', KIND_ID, 'number of the first '//member)
       call add_item(k, 'last', KIND_ID, 'number of the last '//member)
-      call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next', default='1')
+      call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next; what is beyond the last is left out', default='1')
    end subroutine add_set_forms
 
 end module atrito_mesh_keywords

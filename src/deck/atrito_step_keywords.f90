@@ -206,7 +206,8 @@ contains
       call add_example(k, '*NODE PRINT, NSET=base|U, RF')
 
       call define_keyword(k, 'EL PRINT', LEVEL_STEP, 'writes stress.tab (S), or nodal_stress.tab', &
-                          doc='For both tables the step has two cards. A component of other programs, S11, stands for all. The stresses at the nodes are recovered from all '// &
+                          doc='For both tables the step has two cards. A component of other programs, S11, stands for '// &
+                          'all. The stresses at the nodes are recovered from all '// &
                           'elements round them; where materials meet they are the mean of the sides.')
       call add_option(k, 'ELSET', KIND_NAME, 'these elements only')
       call add_option(k, 'POSITION', KIND_WORD, 'of stress.tab, or of nodal_stress.tab', &

@@ -4,6 +4,7 @@ module atrito_build_nodes
    use atrito_deck, only: deck_t, data_line_t, token_t, line_item
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, spoil_number, note_number, note_place
+   use atrito_growth, only: make_room
    use atrito_items, only: get_integer, get_real, option_text
    use atrito_kinds, only: ip, lp, wp
    use atrito_mesh, only: add_node, find_node
@@ -15,7 +16,7 @@ module atrito_build_nodes
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: read_node_card, read_ngen_card, read_nfill_card, place_node, put_node_set
+   public :: read_node_card, check_plane_nodes, read_ngen_card, read_nfill_card, place_node, put_node_set
 
 contains
 
@@ -91,11 +92,7 @@ contains
          if (line%n_tokens > 3) then
             call get_real(context%deck, line_item(context%deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, &
                           'NODE')
-            if (ok(4) .and. abs(z) > 0.0_wp) then
-               ok(4) = .false.
-               call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
-                                 expected='z = 0 [L], or no third coordinate', keyword='NODE')
-            end if
+            if (all(ok) .and. abs(z) > 0.0_wp) call keep_off_plane(context, line%first_token + 3, z)
          end if
       end if
       if (all(ok)) then
@@ -104,6 +101,39 @@ contains
          call spoil_number(context%deck, line, context%nodes)
       end if
    end subroutine read_node_line
+
+   !> How large the scene is, is known when all nodes are.
+   pure subroutine keep_off_plane(context, token, z)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: token                 !< of the deck
+      real(wp), intent(in) :: z                        !< not 0 [L]
+
+      associate (list => context%off_plane)
+         call make_room(list%token, list%n, list%n + 1)
+         call make_room(list%z, list%n, list%n + 1)
+         list%n = list%n + 1
+         list%token(list%n) = token
+         list%z(list%n) = z
+      end associate
+   end subroutine keep_off_plane
+
+   !> A z that is nothing beside the scene is what preprocessors leave of a rotation; any other is an error.
+   subroutine check_plane_nodes(context)
+      type(build_context_t), intent(in) :: context
+      real(wp), parameter :: FLAT = 1.0e-10_wp         ! part of the longer side of the box round all nodes
+      real(wp) :: size_of
+      integer(ip) :: i
+
+      if (context%off_plane%n == 0) return
+      associate (x => context%model%mesh%x(:, :context%model%mesh%n_nodes))
+         size_of = maxval(maxval(x, dim=2) - minval(x, dim=2))
+      end associate
+      do i = 1, context%off_plane%n
+         if (abs(context%off_plane%z(i)) <= FLAT*size_of) cycle
+         call report_error(context%deck, context%deck%tokens(context%off_plane%token(i)), 'E-VALUE', &
+                           'the scene is plane: z is not 0', expected='z = 0 [L], or no third coordinate', keyword='NODE')
+      end do
+   end subroutine check_plane_nodes
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
    subroutine place_node(context, id, x, place, ok, keyword)

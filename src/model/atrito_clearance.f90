@@ -172,8 +172,8 @@ contains
       end do
    end subroutine set_clearances
 
-   !> The deck's faces interpolate: what --refine and --elements make between nodes of which one is in the table gets the gap between
-   !> theirs, and that of a node that is not in the table is the one of its coordinates.
+   !> The deck's faces interpolate: what --refine and --elements make between nodes of which one is in the table gets the gap
+   !> between theirs, and that of a node that is not in the table is the one of its coordinates.
    pure subroutine fill_edges(refinement, points, value, is_given)
       type(refinement_t), intent(in) :: refinement
       type(contact_points_t), intent(in) :: points
