@@ -15,7 +15,7 @@ module atrito_cards
    use atrito_strings, only: string_t, nearest_names, upper_case
    implicit none (type, external)
    private
-   public :: make_card, check_options
+   public :: make_card, check_options, has_options
 
    !> In option%spec: known of other programs.
    integer, parameter :: FOREIGN_OPTION = -1
@@ -128,6 +128,29 @@ contains
       end if
       option%value%column = item%column + option%value%first - item%first
    end subroutine split_option
+
+   !> Whether a line behind a comma at the end of a keyword line goes on with options: what is none is data, and the comma means
+   !> nothing. A title of *STEP could be a misspelt option, and is taken for one.
+   pure logical function has_options(deck, keyword, text)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: keyword          !< with its asterisk
+      character(len=*), intent(in) :: text             !< the line without blanks at its ends
+      character(len=:), allocatable :: why
+      integer(ip) :: equals, last
+      integer :: k, verdict
+
+      k = find_keyword(deck%keywords, keyword(2:))
+      last = index(text//',', ',') - 1
+      equals = find_equals(text, 1_ip, last)
+      has_options = equals > 0
+      if (k == KEYWORD_UNKNOWN) return
+      associate (definition => deck%keywords(k))
+         if (size(definition%options) == 0) has_options = .false.
+         if (has_options .or. size(definition%options) == 0) return
+         call ask_option(packed(definition%name), packed(text(:last)), verdict, why)
+         has_options = verdict /= NOT_FOREIGN .or. find_option_spec(definition, text(:last)) > 0 .or. definition%name == 'STEP'
+      end associate
+   end function has_options
 
    !> Checks the options of a card whose keyword is known; card%ok tells the outcome.
    subroutine check_options(deck, card)

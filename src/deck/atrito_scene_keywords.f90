@@ -309,7 +309,7 @@ contains
                           'many, taken in order. All dofs may be prescribed or take part in other equations.')
       call add_form(k, 'the number of terms, then the terms, up to four a line', 2, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set; or the number of terms, alone')
-      call add_item(k, '[dof]', KIND_INTEGER, '1 or 2')
+      call add_item(k, '[dof]', KIND_INTEGER, '1 or 2; terms of 3 to 6 are 0')
       call add_item(k, '[coefficient]', KIND_REAL, 'not all of them 0', dimension='-')
       call add_item(k, '[further terms]...', KIND_TEXT, 'node, dof, coefficient')
       call add_example(k, '*EQUATION|2|17, 1, 1., 205, 1, -1.')
