@@ -199,12 +199,12 @@ module atrito_foreign_words
 
    !> What *NODE PRINT, *NODE FILE, *EL PRINT and *EL FILE of CalculiX and Abaqus write besides.
    character(len=6), parameter :: VARIABLES(*) = [character(len=6) :: 'A', 'BHE', 'CEEQ', 'CENT', 'CF', 'COOR', 'COORD', 'CP', &
-           'DEPF', &
+                                                                                                                     'DEPF', &
            'DEPT', 'E', 'EBHE', 'ECD', 'EE', 'ELKE', 'ELSE', 'EMAS', 'EMFB', 'EMFE', 'ENER', 'EPD', 'ERR', 'EVOL', 'FLUX', 'HCRI', &
              'HER', 'HFL', 'HFLF', 'KEQ', 'LE', 'MACH', 'MAXE', 'MAXS', 'MAXU', 'ME', 'MF', 'MISES', 'MOM', 'NOE', 'NT', 'PDNTDF', &
               'PE', 'PEEQ', 'PHS', 'PNT', 'POT', 'PRF', 'PS', 'PSF', 'PT', 'PTF', 'PU', 'RFL', 'SDV', 'SEN', 'SF', 'SINV', 'SMID', &
-                                    'SNEG', 'SOF', 'SPOS', 'SVF', 'SVOL', 'THE', 'TS', 'TSF', 'TT', 'TTF', 'TURB', 'V', 'VF', &
-                                    'ZZS', 'EP', 'RF3', 'RM', 'S13', 'S23', 'SP', 'U3', 'UR']
+                                         'SNEG', 'SOF', 'SPOS', 'SVF', 'SVOL', 'THE', 'TS', 'TSF', 'TT', 'TTF', 'TURB', 'V', 'VF', &
+                                                                           'ZZS', 'EP', 'RF3', 'RM', 'S13', 'S23', 'SP', 'U3', 'UR']
 
    !> Keywords that may stand without data lines: preprocessors write them for what the model does not have.
    character(len=18), parameter :: EMPTY(*) = [character(len=18) :: 'BOUNDARY', 'CLOAD', 'DLOAD', 'DSLOAD', 'TEMPERATURE', &
