@@ -4,8 +4,7 @@
 !> One mistake, one message: whoever refers to a thing whose definition was faulty is passed over in silence. Silence is allowed
 !> only once an error has been told, so a deck is never accepted with something left out.
 module atrito_build_context
-   use atrito_build_parts, only: open_step_t, references_t, carried_t, numbered_t, off_plane_t, block_t, section_cut_t, &
-                                 BLOCK_SIDES, &
+   use atrito_build_parts, only: open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES, &
                                  LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
    use atrito_curves, only: curve_list_t, line_list_t
    use atrito_deck, only: deck_t, card_t, token_t, data_line_t, token_text, is_empty_token, keyword_name, scope_shift, &
@@ -45,7 +44,7 @@ module atrito_build_context
       type(name_list_t) :: source_names                !< keywords and names: in the order of the model's sources
       type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
       type(numbered_t) :: nodes, elements
-      type(off_plane_t) :: off_plane
+      real(wp) :: spread = -1.0_wp                     !< longer side of the box round the nodes of *NODE [L]; < 0: not asked yet
       integer(ip) :: n_blocks = 0
       type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none

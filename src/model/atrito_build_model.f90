@@ -18,7 +18,7 @@ module atrito_build_model
    use atrito_build_lines, only: is_line_card, read_lines, turn_elements
    use atrito_build_instances, only: build_instances
    use atrito_build_materials, only: build_materials
-   use atrito_build_nodes, only: read_node_card, check_plane_nodes, read_ngen_card, read_nfill_card
+   use atrito_build_nodes, only: read_node_card, read_ngen_card, read_nfill_card
    use atrito_build_rigid_bodies, only: build_rigid_bodies, make_solver_mesh
    use atrito_build_requests, only: build_requests
    use atrito_build_springs, only: build_springs, is_spring_card
@@ -252,7 +252,6 @@ contains
             call try_set_card(i, context)
          end select
       end do
-      call check_plane_nodes(context)
       call read_lines(context)
       do i = 1, context%deck%n_cards
          if (keyword_name(context%deck%cards(i)) /= 'NSET' .or. context%card_done(i)) cycle

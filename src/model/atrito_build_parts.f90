@@ -6,7 +6,7 @@ module atrito_build_parts
    use atrito_model, only: nodal_values_t
    implicit none (type, external)
    private
-   public :: open_step_t, references_t, carried_t, numbered_t, off_plane_t, block_t, section_cut_t, BLOCK_SIDES
+   public :: open_step_t, references_t, carried_t, numbered_t, block_t, section_cut_t, BLOCK_SIDES
    public :: LOOSE_HELD, LOOSE_RELEASED, LOOSE_MOVES
 
    !> Ends of the names that a *BLOCK gives to its sides, in the order of the faces S1..S4.
@@ -52,13 +52,6 @@ module atrito_build_parts
       integer(ip), allocatable :: label(:)             !< (n) of loads on elements: place in the labels of the deck
       logical, allocatable :: is_given(:)              !< (n) a line of the step has taken its place
    end type carried_t
-
-   !> Nodes of *NODE that are not in the plane.
-   type :: off_plane_t
-      integer(ip) :: n = 0
-      integer(ip), allocatable :: token(:)             !< (>= n) their third coordinates in the deck
-      real(wp), allocatable :: z(:)                    !< (>= n) [L]
-   end type off_plane_t
 
    !> What is prescribed and applied at the reference nodes of rigid surfaces.
    type :: references_t
