@@ -118,7 +118,6 @@ contains
       call get_real(context%deck, line_item(context%deck, line, 2_ip), WHAT, gap, good(2), keyword='CLEARANCE')
       ok = ok .and. all(good)
       if (.not. all(good)) return
-      if (is_refined(context%refinement)) nodes = pack(nodes, nodes <= context%refinement%n_nodes) ! the others: fill_edges
       associate (slave => context%model%surfaces(context%model%pairs(one%pair)%slave)%faces)
          nodes = pack(nodes, is_of_faces(context%model%mesh, slave, nodes))
       end associate
@@ -173,7 +172,7 @@ contains
    end subroutine set_clearances
 
    !> The deck's faces interpolate: what --refine and --elements make between nodes of which one is in the table gets the gap
-   !> between theirs, and that of a node that is not in the table is the one of its coordinates.
+   !> between theirs, also where a set has it, and that of a node that is not in the table is the one of its coordinates.
    pure subroutine fill_edges(refinement, points, value, is_given)
       type(refinement_t), intent(in) :: refinement
       type(contact_points_t), intent(in) :: points
