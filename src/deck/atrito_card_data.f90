@@ -5,7 +5,7 @@ module atrito_card_data
    use atrito_diagnostics, only: report_error, report_note
    use atrito_foreign_words, only: is_foreign_variable, variable_of_component, may_be_empty
    use atrito_items, only: get_real, has_option, option_word
-   use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_INTEGER, KIND_REAL, KIND_WORD, NO_EFFECT
+   use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_INTEGER, KIND_REAL, KIND_WORD
    use atrito_keyword_table, only: find_choice, choice_names
    use atrito_keyword_text, only: form_text, item_text, choices_text
    use atrito_strings, only: string_t, append_string, same_name, to_text, upper_case
@@ -326,7 +326,7 @@ contains
             call check_unused(deck, card, line, form, i)
             if (line%ok) call note_once(deck, card, token, form%items(spec)%name//' items', tally)
             return
-         else if (form%items(spec)%doc == NO_EFFECT) then
+         else if (form%items(spec)%is_unused) then
             call check_unused(deck, card, line, form, i)
          else if (form%items(spec)%kind == KIND_WORD) then
             call check_word(deck, card, token, form%items(spec), line%ok)

@@ -49,6 +49,7 @@ module atrito_keyword
       integer :: kind = KIND_REAL
       logical :: required = .true.
       logical :: harmless = .false.              !< of another solver: a note, no effect
+      logical :: is_unused = .false.             !< a number without effect, without a note
       character(len=:), allocatable :: default   !< '' : none
       character(len=:), allocatable :: dimension
       character(len=:), allocatable :: doc
@@ -197,6 +198,7 @@ contains
       call set_bare(item%name, name)
       item%kind = kind
       item%harmless = has_mark(name, '(')
+      item%is_unused = doc == NO_EFFECT
       item%doc = doc
       call set_text(item%default, default)
       call set_text(item%dimension, dimension)
@@ -405,6 +407,7 @@ contains
       to%kind = from%kind
       to%required = from%required
       to%harmless = from%harmless
+      to%is_unused = from%is_unused
       call move_alloc(from%name, to%name)
       call move_alloc(from%default, to%default)
       call move_alloc(from%dimension, to%dimension)
