@@ -1,11 +1,11 @@
 !> Data lines of a card against the forms that its keyword allows: how many, how many items, which words.
 module atrito_card_data
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, is_empty_token, line_item, last_item
    use atrito_diagnostics, only: report_error, report_note
-   use atrito_foreign_words, only: is_foreign_variable, may_be_empty
-   use atrito_items, only: has_option, option_word
-   use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_WORD
+   use atrito_foreign_words, only: is_foreign_variable, variable_of_component, may_be_empty
+   use atrito_items, only: get_real, has_option, option_word
+   use atrito_keyword, only: form_t, item_t, ANY_NUMBER, KIND_INTEGER, KIND_REAL, KIND_WORD
    use atrito_keyword_table, only: find_choice, choice_names
    use atrito_keyword_text, only: form_text, item_text, choices_text
    use atrito_strings, only: string_t, append_string, same_name, to_text, upper_case
@@ -267,7 +267,8 @@ contains
       type(token_t) :: place
 
       if (form%harmless) then
-         call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
+         call check_unused(deck, card, line, form, 1_ip)
+         if (line%ok) call note_once(deck, card, line_item(deck, line, 1_ip), form%doc, tally)
       else if (.not. form%built) then
          line%ok = .false.
          place = line_item(deck, line, 1_ip)
@@ -322,13 +323,38 @@ contains
             call report_error(deck, token, 'E-MISSING', form%items(spec)%name//' is missing', &
                               expected=item_text(form%items(spec)), keyword=trim(card%name))
          else if (form%items(spec)%harmless) then
-            call note_once(deck, card, token, form%items(spec)%name//' items', tally)
+            call check_unused(deck, card, line, form, i)
+            if (line%ok) call note_once(deck, card, token, form%items(spec)%name//' items', tally)
             return
+         else if (form%items(spec)%is_unused) then
+            call check_unused(deck, card, line, form, i)
          else if (form%items(spec)%kind == KIND_WORD) then
             call check_word(deck, card, token, form%items(spec), line%ok)
          end if
       end do
    end subroutine check_items
+
+   !> Where a number without effect belongs, a name is hardly without meaning: a second set on the line of one.
+   subroutine check_unused(deck, card, line, form, first)
+      type(deck_t), intent(in) :: deck
+      type(card_t), intent(in) :: card
+      type(data_line_t), intent(inout) :: line
+      type(form_t), intent(in) :: form
+      integer(ip), intent(in) :: first                 !< item of the line
+      type(token_t) :: token
+      real(wp) :: unused
+      integer(ip) :: i
+      logical :: ok
+
+      do i = first, line%n_tokens
+         token = deck%tokens(line%first_token + i - 1)
+         associate (item => form%items(min(int(i) - merge(1, 0, len(form%word) > 0), size(form%items))))
+            if (is_empty_token(token) .or. all(item%kind /= [KIND_REAL, KIND_INTEGER])) cycle
+            call get_real(deck, token, item_text(item), unused, ok, keyword=trim(card%name))
+            line%ok = line%ok .and. ok
+         end associate
+      end do
+   end subroutine check_unused
 
    subroutine check_word(deck, card, token, item, ok)
       type(deck_t), intent(in) :: deck
@@ -336,12 +362,18 @@ contains
       type(token_t), intent(in) :: token
       type(item_t), intent(in) :: item
       logical, intent(inout) :: ok
-      integer :: choice
+      character(len=:), allocatable :: word
+      integer :: choice, whole
 
-      choice = find_choice(item%choices, token_text(deck, token))
-      if (choice == 0 .and. item%name == 'variable' .and. is_foreign_variable(upper_case(token_text(deck, token)))) then
-         call report_note(deck, token, 'N-IGNORED', 'variable '//upper_case(token_text(deck, token))//' of *'//trim(card%name)// &
-                          ' is not written')
+      word = upper_case(token_text(deck, token))
+      choice = find_choice(item%choices, word)
+      whole = 0
+      if (choice == 0 .and. item%name == 'variable') whole = find_choice(item%choices, variable_of_component(word))
+      if (whole > 0) then
+         call report_note(deck, token, 'N-IGNORED', 'variable '//word//' of *'//trim(card%name)//' is written with all '// &
+                          'components of '//item%choices(whole)%name)
+      else if (choice == 0 .and. item%name == 'variable' .and. is_foreign_variable(word)) then
+         call report_note(deck, token, 'N-IGNORED', 'variable '//word//' of *'//trim(card%name)//' is not written')
       else if (choice == 0) then
          ok = .false.
          call report_error(deck, token, 'E-CHOICE', 'unknown '//item%name//' '//token_text(deck, token), &

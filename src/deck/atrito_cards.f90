@@ -15,7 +15,7 @@ module atrito_cards
    use atrito_strings, only: string_t, nearest_names, upper_case
    implicit none (type, external)
    private
-   public :: make_card, check_options
+   public :: make_card, check_options, has_options
 
    !> In option%spec: known of other programs.
    integer, parameter :: FOREIGN_OPTION = -1
@@ -128,6 +128,29 @@ contains
       end if
       option%value%column = item%column + option%value%first - item%first
    end subroutine split_option
+
+   !> Whether a line behind a comma at the end of a keyword line goes on with options: what is none is data, and the comma means
+   !> nothing. A title of *STEP could be a misspelt option, and is taken for one.
+   pure logical function has_options(deck, keyword, text)
+      type(deck_t), intent(in) :: deck
+      character(len=*), intent(in) :: keyword          !< with its asterisk
+      character(len=*), intent(in) :: text             !< the line without blanks at its ends
+      character(len=:), allocatable :: why
+      integer(ip) :: equals, last
+      integer :: k, verdict
+
+      k = find_keyword(deck%keywords, keyword(2:))
+      last = index(text//',', ',') - 1
+      equals = find_equals(text, 1_ip, last)
+      has_options = equals > 0
+      if (k == KEYWORD_UNKNOWN) return
+      associate (definition => deck%keywords(k))
+         if (size(definition%options) == 0) has_options = .false.
+         if (has_options .or. size(definition%options) == 0) return
+         call ask_option(packed(definition%name), packed(text(:last)), verdict, why)
+         has_options = verdict /= NOT_FOREIGN .or. find_option_spec(definition, text(:last)) > 0 .or. definition%name == 'STEP'
+      end associate
+   end function has_options
 
    !> Checks the options of a card whose keyword is known; card%ok tells the outcome.
    subroutine check_options(deck, card)
@@ -274,7 +297,7 @@ contains
       choice = find_choice(spec%choices, word)
       ok = choice > 0
       if (.not. ok) then
-         if (is_outside_word(deck, card, place, spec, word)) return
+         if (is_foreign_word(deck, card, place, spec, word, ok)) return
          call report_error(deck, place, 'E-CHOICE', spec%name//'='//word//' is unknown to *'//trim(card%name), &
                            expected=meaning(spec), known=choice_names(spec%choices), &
                            keyword=trim(card%name))
@@ -286,29 +309,34 @@ contains
                                       keyword=trim(card%name))
    end subroutine check_word
 
-   !> A word, or a type of elements, that other programs know; it is refused by its name.
-   logical function is_outside_word(deck, card, place, spec, word)
+   !> A word, or a type of elements, that other programs know: ok where it has no effect, else it is refused by its name.
+   logical function is_foreign_word(deck, card, place, spec, word, ok)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(inout) :: card
       type(token_t), intent(in) :: place
       type(option_spec_t), intent(in) :: spec
       character(len=*), intent(in) :: word
-      character(len=:), allocatable :: instead
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: text
       integer :: verdict, subject
 
+      ok = .false.
       if (card%name == 'ELEMENT' .and. spec%name == 'TYPE') then
          subject = ask_element_type(word)
-         is_outside_word = subject > 0
-         card%is_outside = card%is_outside .or. is_outside_word
+         is_foreign_word = subject > 0
+         card%is_outside = card%is_outside .or. is_foreign_word
          card%subject = subject
-         if (is_outside_word) call report_outside(deck, place, 'TYPE='//upper_case(word)//' of *ELEMENT', subject)
+         if (is_foreign_word) call report_outside(deck, place, 'TYPE='//upper_case(word)//' of *ELEMENT', subject)
       else
-         call ask_word(packed(card%name), packed(spec%name), packed(word), verdict, instead)
-         is_outside_word = verdict == FOREIGN_OUTSIDE
-         if (is_outside_word) call refuse_outside(deck, card, place, spec%name//'='//upper_case(word)//' of *'// &
-                                                  trim(card%name), instead)
+         call ask_word(packed(card%name), packed(spec%name), packed(word), verdict, text)
+         is_foreign_word = verdict /= NOT_FOREIGN
+         ok = verdict == FOREIGN_IGNORED
+         if (ok) call report_note(deck, place, 'N-IGNORED', spec%name//'='//upper_case(word)//' of *'//trim(card%name)// &
+                                  ' has no effect: '//text)
+         if (verdict == FOREIGN_OUTSIDE) call refuse_outside(deck, card, place, spec%name//'='//upper_case(word)//' of *'// &
+                                                             trim(card%name), text)
       end if
-   end function is_outside_word
+   end function is_foreign_word
 
    !> Options that must be there: the required ones, and those that others need.
    subroutine check_company(deck, card)

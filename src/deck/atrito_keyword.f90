@@ -12,7 +12,7 @@ module atrito_keyword
    public :: define_keyword, take_keywords, add_option, add_form, let_lines_go_on, add_item, add_word_item, add_example
    public :: LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER
    public :: KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, KIND_REAL, KIND_INTEGER, KIND_FILE, KIND_ID, KIND_ID_OR_NAME, &
-             KIND_TEXT, KIND_REAL_OR_NAME
+             KIND_TEXT, KIND_REAL_OR_NAME, NO_EFFECT
 
    !> Where a keyword may stand.
    integer, parameter :: LEVEL_MODEL = 1     !< before *STEP
@@ -32,6 +32,7 @@ module atrito_keyword
    integer, parameter :: KIND_TEXT = 10          !< the whole line
    integer, parameter :: KIND_REAL_OR_NAME = 11  !< a number, or a set
 
+   character(len=*), parameter :: NO_EFFECT = 'has no effect' !< said of an item that is a number and is not used
    integer, parameter :: MOST_KEYWORDS = 90, MOST_PARTS = 50
    integer, parameter :: ANY_NUMBER = huge(1)    !< no upper limit of lines or items
 
@@ -48,6 +49,7 @@ module atrito_keyword
       integer :: kind = KIND_REAL
       logical :: required = .true.
       logical :: harmless = .false.              !< of another solver: a note, no effect
+      logical :: is_unused = .false.             !< a number without effect, without a note
       character(len=:), allocatable :: default   !< '' : none
       character(len=:), allocatable :: dimension
       character(len=:), allocatable :: doc
@@ -196,6 +198,7 @@ contains
       call set_bare(item%name, name)
       item%kind = kind
       item%harmless = has_mark(name, '(')
+      item%is_unused = doc == NO_EFFECT
       item%doc = doc
       call set_text(item%default, default)
       call set_text(item%dimension, dimension)
@@ -404,6 +407,7 @@ contains
       to%kind = from%kind
       to%required = from%required
       to%harmless = from%harmless
+      to%is_unused = from%is_unused
       call move_alloc(from%name, to%name)
       call move_alloc(from%default, to%default)
       call move_alloc(from%dimension, to%dimension)

@@ -65,7 +65,7 @@ contains
       call add_item(k, 'id', KIND_ID, 'number of the node, positive')
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L', default='0')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L', default='0')
-      call add_item(k, 'z', KIND_REAL, 'coordinate, must be 0', dimension='L', default='0')
+      call add_item(k, 'z', KIND_REAL, 'coordinate, 0 but for 1e-10 of the size of the scene', dimension='L', default='0')
       call add_item(k, '(further)...', KIND_REAL, 'of other programs')
       call add_example(k, '*NODE, NSET=corners|1, 0., 0.|2, 1.5, 0.')
 
@@ -273,7 +273,7 @@ contains
       call add_word_item(k, '[face]', 'S1 S2 S3 S4', 'face of each element; all outer faces when left out')
       call add_form(k, 'nodes', 1, ANY_NUMBER, when='TYPE=NODE')
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set')
-      call add_item(k, '(area)', KIND_REAL, 'of another solver')
+      call add_item(k, '(area)', KIND_REAL, 'of another solver; each node or set has its line')
       call add_form(k, 'where the line begins', 1, 1, when='TYPE=SEGMENTS', word='START')
       call add_item(k, 'x', KIND_REAL, 'coordinate', dimension='L')
       call add_item(k, 'y', KIND_REAL, 'coordinate', dimension='L')
@@ -368,7 +368,7 @@ contains
       call add_form(k, 'ranges, one a line', 1, ANY_NUMBER, when='GENERATE')
       call add_item(k, 'first', KIND_ID, 'number of the first '//member)
       call add_item(k, 'last', KIND_ID, 'number of the last '//member)
-      call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next', default='1')
+      call add_item(k, 'increment', KIND_INTEGER, 'from one number to the next; what is beyond the last is left out', default='1')
    end subroutine add_set_forms
 
 end module atrito_mesh_keywords

@@ -3,7 +3,7 @@ module atrito_reader
    use atrito_kinds, only: ip, lp
    use atrito_card_data, only: check_data
    use atrito_card_order, only: order_t, check_order, check_end, meant_keyword
-   use atrito_cards, only: make_card, check_options
+   use atrito_cards, only: make_card, check_options, has_options
    use atrito_deck, only: deck_t, card_t, token_t, KEYWORD_UNKNOWN, allocate_deck, make_room, append_source, &
                           after_byte_order_mark, append_token, append_line, append_card, append_mesh, reading_order
    use atrito_diagnostics, only: report_error, report_deck_error
@@ -205,7 +205,7 @@ contains
       end if
    end subroutine read_keyword_line
 
-   !> The items of a keyword line; a comma at its end goes on with the next line.
+   !> The items of a keyword line; a comma at its end goes on with the next line, if that has options.
    subroutine gather_items(deck, reading, cursor, line, items)
       type(deck_t), intent(in) :: deck
       type(reading_t), intent(inout) :: reading
@@ -220,22 +220,19 @@ contains
       allocate (items(16))
       n = 0
       next = line
-      do
-         call split_line(deck, reading, cursor, next)
-         call add_tokens(reading%items, cursor, next, items, n)
-         goes_on = deck%sources(cursor%source)%text(next%last:next%last) == ','
-         if (.not. goes_on) then
-            items = items(:n)
-            return
-         end if
-         ahead = cursor
-         call look_ahead(deck, ahead, next, goes_on)
-         if (.not. goes_on) exit
-         cursor = ahead
-      end do
+      associate (text => deck%sources(cursor%source)%text)
+         do
+            call split_line(deck, reading, cursor, next)
+            call add_tokens(reading%items, cursor, next, items, n)
+            if (text(next%last:next%last) /= ',') exit
+            ahead = cursor
+            call look_ahead(deck, ahead, next, goes_on)
+            if (goes_on) goes_on = has_options(deck, text(items(1)%first:items(1)%last), text(next%first:next%last))
+            if (.not. goes_on) exit
+            cursor = ahead
+         end do
+      end associate
       items = items(:n)
-      call report_error(deck, items(size(items)), 'E-CONTINUATION', 'a comma at the end of the keyword line, but no line goes on', &
-                        expected='no comma, or further options')
    end subroutine gather_items
 
    !> The next line with something on it; found: it is no keyword line.

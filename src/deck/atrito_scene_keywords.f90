@@ -3,7 +3,7 @@ module atrito_scene_keywords
    use atrito_kinds, only: ip
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_example, LEVEL_MODEL, LEVEL_BOTH, &
                              ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT, &
-                             KIND_REAL_OR_NAME
+                             KIND_REAL_OR_NAME, NO_EFFECT
    implicit none (type, external)
    private
    public :: define_scene_keywords
@@ -46,14 +46,14 @@ contains
       call add_form(k, 'the constants', 1, ANY_NUMBER, when='TYPE=ISOTROPIC|ISO')
       call add_item(k, 'E', KIND_REAL, "Young's modulus, > 0", dimension='F/L^2')
       call add_item(k, 'mu', KIND_REAL, "Poisson's ratio: plane strain -1 < mu < 0.5, plane stress -1 < mu <= 0.5", dimension='-')
-      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+      call add_item(k, '[temperature]', KIND_REAL, NO_EFFECT, dimension='temperature')
       call add_orthotropic_forms(k)
       call add_example(k, '*ELASTIC|1000., 0.3|*ELASTIC, TYPE=ENGINEERING CONSTANTS|11e6, 4e5, 4e5, 0.3, 0.3, 0.4, 7e5, 7e5|1.4e5')
 
       call define_keyword(k, 'DENSITY', LEVEL_MODEL, 'mass per volume, for the loads GRAV and CENTRIF', parent='MATERIAL')
       call add_form(k, 'the constant; lines for further temperatures must say the same', 1, ANY_NUMBER)
       call add_item(k, 'density', KIND_REAL, 'mass per volume, >= 0', dimension='F T^2/L^4')
-      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+      call add_item(k, '[temperature]', KIND_REAL, NO_EFFECT, dimension='temperature')
       call add_example(k, '*DENSITY|2.5')
 
       call define_keyword(k, 'EXPANSION', LEVEL_MODEL, 'thermal expansion, the same along all axes', parent='MATERIAL', &
@@ -62,7 +62,7 @@ contains
       call add_option(k, '(ZERO)', KIND_REAL, 'reference temperature: alpha is constant, only differences count')
       call add_form(k, 'the constant; lines for further temperatures must say the same', 1, ANY_NUMBER)
       call add_item(k, 'alpha', KIND_REAL, 'strain a unit of temperature', dimension='1/temperature')
-      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+      call add_item(k, '[temperature]', KIND_REAL, NO_EFFECT, dimension='temperature')
       call add_example(k, '*EXPANSION|1.2e-5')
 
       call define_keyword(k, 'ORIENTATION', LEVEL_MODEL, 'axes of an orthotropic material', &
@@ -123,14 +123,14 @@ contains
       call add_item(k, 'G13', KIND_REAL, MODULUS, dimension='F/L^2')
       call add_form(k, 'the last one', 1, 1, when='TYPE=ENGINEERING CONSTANTS')
       call add_item(k, 'G23', KIND_REAL, MODULUS, dimension='F/L^2')
-      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+      call add_item(k, '[temperature]', KIND_REAL, NO_EFFECT, dimension='temperature')
       call add_form(k, 'eight of the stiffnesses', 1, 1, when='TYPE=ORTHO|ORTHOTROPIC')
       do i = 1, 8
          call add_item(k, STIFFNESSES(i), KIND_REAL, STIFF, dimension='F/L^2')
       end do
       call add_form(k, 'the last one', 1, 1, when='TYPE=ORTHO|ORTHOTROPIC')
       call add_item(k, 'D2323', KIND_REAL, STIFF, dimension='F/L^2')
-      call add_item(k, '[temperature]', KIND_REAL, 'has no effect', dimension='temperature')
+      call add_item(k, '[temperature]', KIND_REAL, NO_EFFECT, dimension='temperature')
    end subroutine add_orthotropic_forms
 
    subroutine define_interaction_keywords(k)
@@ -140,7 +140,7 @@ contains
                           doc='*SURFACE BEHAVIOR and *FRICTION follow; without them contact is hard and without friction.')
       call add_option(k, 'NAME!', KIND_NAME, 'name of the law')
       call add_form(k, 'a thickness, written by preprocessors', 0, 1, harmless=.true.)
-      call add_item(k, '[thickness]', KIND_REAL, 'has no effect', dimension='L')
+      call add_item(k, '[thickness]', KIND_REAL, NO_EFFECT, dimension='L')
       call add_example(k, '*SURFACE INTERACTION, NAME=rough|*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD|*FRICTION|0.3')
 
       call define_keyword(k, 'SURFACE BEHAVIOR', LEVEL_MODEL, 'pressure against penetration', parent='SURFACE INTERACTION', &
@@ -202,7 +202,7 @@ contains
       call define_keyword(k, 'CLEARANCE', LEVEL_MODEL, 'gives the initial gaps of a contact pair', &
                           doc='Whatever the coordinates say; a negative gap is an overlap that contact pushes apart, as of a '// &
                           'press fit. Of several lines that name a node the last one counts; points whose node no line names '// &
-                          'keep the gap of their coordinates.')
+                          'keep the gap of their coordinates. Between them --refine and --elements interpolate along the faces.')
       call add_option(k, 'SLAVE!', KIND_NAME, 'the slave of a *CONTACT PAIR')
       call add_option(k, 'MASTER!', KIND_NAME, 'its master')
       call add_option(k, 'VALUE', KIND_REAL, 'gap of all points', dimension='L')
@@ -309,7 +309,7 @@ contains
                           'many, taken in order. All dofs may be prescribed or take part in other equations.')
       call add_form(k, 'the number of terms, then the terms, up to four a line', 2, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set; or the number of terms, alone')
-      call add_item(k, '[dof]', KIND_INTEGER, '1 or 2')
+      call add_item(k, '[dof]', KIND_INTEGER, '1 or 2; terms of 3 to 6 are 0')
       call add_item(k, '[coefficient]', KIND_REAL, 'not all of them 0', dimension='-')
       call add_item(k, '[further terms]...', KIND_TEXT, 'node, dof, coefficient')
       call add_example(k, '*EQUATION|2|17, 1, 1., 205, 1, -1.')

@@ -2,7 +2,7 @@
 module atrito_step_keywords
    use atrito_keyword, only: keyword_list_t, define_keyword, add_option, add_form, add_item, add_word_item, add_example, &
                              LEVEL_MODEL, LEVEL_STEP, LEVEL_BOTH, ANY_NUMBER, KIND_FLAG, KIND_NAME, KIND_WORD, KIND_OPTIONAL_WORD, &
-                             KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT
+                             KIND_INTEGER, KIND_REAL, KIND_ID_OR_NAME, KIND_TEXT, NO_EFFECT
    implicit none (type, external)
    private
    public :: define_step_keywords
@@ -189,7 +189,7 @@ contains
       call add_option(k, '(PARAMETERS)', KIND_NAME, 'of other programs, with its data lines')
       call add_option(k, '(RESET)', KIND_FLAG, 'of other programs')
       call add_form(k, 'of PARAMETERS=', 0, ANY_NUMBER, when='PARAMETERS', harmless=.true.)
-      call add_item(k, '[value]...', KIND_REAL, 'has no effect')
+      call add_item(k, '[value]...', KIND_REAL, NO_EFFECT)
       call add_example(k, '*CONTROLS, METHOD=PICARD, TOLERANCE=1e-12, MAXIT=200')
    end subroutine define_controls
 
@@ -197,7 +197,8 @@ contains
    subroutine define_print_keywords(k)
       type(keyword_list_t), intent(inout) :: k
 
-      call define_keyword(k, 'NODE PRINT', LEVEL_STEP, 'writes nodes.tab (U) and reactions.tab (RF)')
+      call define_keyword(k, 'NODE PRINT', LEVEL_STEP, 'writes nodes.tab (U) and reactions.tab (RF)', &
+                          doc='A component of other programs, U1, stands for all.')
       call add_option(k, 'NSET', KIND_NAME, 'these nodes only')
       call add_print_options(k)
       call add_form(k, 'the tables', 1, ANY_NUMBER)
@@ -205,11 +206,12 @@ contains
       call add_example(k, '*NODE PRINT, NSET=base|U, RF')
 
       call define_keyword(k, 'EL PRINT', LEVEL_STEP, 'writes stress.tab (S), or nodal_stress.tab', &
-                          doc='For both tables the step has two cards. The stresses at the nodes are recovered from all '// &
+                          doc='For both tables the step has two cards. A component of other programs, S11, stands for '// &
+                          'all. The stresses at the nodes are recovered from all '// &
                           'elements round them; where materials meet they are the mean of the sides.')
       call add_option(k, 'ELSET', KIND_NAME, 'these elements only')
       call add_option(k, 'POSITION', KIND_WORD, 'of stress.tab, or of nodal_stress.tab', &
-                      default='INTEGRATION POINTS', choices='INTEGRATION_POINTS AVERAGED_AT_NODES -CENTROIDAL -NODES')
+                      default='INTEGRATION POINTS', choices='INTEGRATION_POINTS AVERAGED_AT_NODES')
       call add_print_options(k)
       call add_form(k, 'the tables', 1, ANY_NUMBER)
       call add_word_item(k, 'variable...', 'S', 'stresses')

@@ -1,12 +1,12 @@
 !> What of a refined mesh belongs to nodes, elements and faces of the coarse one: sets and surfaces follow by these rules.
 module atrito_refined_members
-   use atrito_kinds, only: ip
+   use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
    use atrito_refinement, only: refinement_t, drops_centre, is_refined
    use atrito_triangle_pieces, only: is_piece_on_side
    implicit none (type, external)
    private
-   public :: fine_nodes, fine_elements, is_on_side
+   public :: fine_nodes, fine_elements, is_on_side, edge_value
 
 contains
 
@@ -85,5 +85,14 @@ contains
          fine(k) = i
       end do
    end function fine_nodes
+
+   !> Value between the nodes of an edge: first, last[, middle].
+   pure real(wp) function edge_value(values, t) result(value)
+      real(wp), intent(in) :: values(:)                !< (2 or 3)
+      real(wp), intent(in) :: t                        !< 0..1
+
+      value = values(1) + t*(values(2) - values(1))
+      if (size(values) == 3) value = value + 4*t*(1 - t)*(values(3) - 0.5_wp*(values(1) + values(2)))
+   end function edge_value
 
 end module atrito_refined_members

@@ -44,6 +44,7 @@ module atrito_build_context
       type(name_list_t) :: source_names                !< keywords and names: in the order of the model's sources
       type(name_list_t) :: undetermined                      !< nouns: one of these should have been defined, its name is not known
       type(numbered_t) :: nodes, elements
+      real(wp) :: spread = -1.0_wp                     !< longer side of the box round the nodes of *NODE [L]; < 0: not asked yet
       integer(ip) :: n_blocks = 0
       type(block_t), allocatable :: blocks(:)          !< the first n_blocks are in use
       integer(ip), allocatable :: block_of_card(:)     !< for each card the first one; 0: none

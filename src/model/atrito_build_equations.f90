@@ -3,8 +3,9 @@ module atrito_build_equations
    use atrito_bilateral_rows, only: add_row, ROW_EQUATION
    use atrito_build_context, only: has_lost_elements, build_context_t, ids_text
    use atrito_build_loads, only: in_no_element
+   use atrito_build_rigid_bodies, only: is_reference
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, is_empty_token, keyword_name
-   use atrito_diagnostics, only: report_error
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, trim_nodal_values
@@ -19,7 +20,7 @@ module atrito_build_equations
    private
    public :: build_equations
 
-   integer(ip), parameter :: ITEMS_A_TERM = 3
+   integer(ip), parameter :: ITEMS_A_TERM = 3, PLANE_DOFS = 2, LAST_DOF = 6
    character(len=*), parameter :: KEYWORD = 'EQUATION'
    character(len=*), parameter :: TERM = 'terms of node, dof, coefficient, up to as many as announced'
 
@@ -50,6 +51,8 @@ contains
                place = line_item(context%deck, context%deck%lines(k), 1_ip)
                call read_terms(context, last, k, terms, ok)
                if (.not. ok) exit                     ! where the next one begins is not known
+               terms = terms_in_plane(terms)
+               if (size(terms) == 0) cycle
                call order_sets(context, place, terms, ok)
                if (ok) call add_equations(context, place, terms, group)
             end do
@@ -159,7 +162,12 @@ contains
                              keyword=KEYWORD)
             call get_real(context%deck, line_item(context%deck, line, item + 3), 'coefficient, a real', terms(i)%coefficient, &
                           good(3), keyword=KEYWORD)
-            if (good(2) .and. (terms(i)%dof < 1 .or. terms(i)%dof > 2)) then
+            if (all(good) .and. is_out_of_plane(context, terms(i))) then
+               call report_note(context%deck, line_item(context%deck, line, item + 2), 'N-DOF', 'the dofs 3 to 6 do not exist '// &
+                                'in the plane; this term is 0', keyword=KEYWORD)
+               cycle
+            end if
+            if (good(2) .and. (terms(i)%dof < 1 .or. terms(i)%dof > PLANE_DOFS)) then
                good(2) = .false.
                call report_error(context%deck, line_item(context%deck, line, item + 2), 'E-DOF', 'dof '//to_text(terms(i)%dof)// &
                                  ' does not exist in the plane', expected=WHAT_DOF, keyword=KEYWORD)
@@ -169,6 +177,30 @@ contains
          ok = ok .and. all(good)
       end do
    end subroutine read_term_line
+
+   !> A displacement or rotation of three dimensions, which is 0; a reference node has a dof 6.
+   pure logical function is_out_of_plane(context, term)
+      type(build_context_t), intent(in) :: context
+      type(term_t), intent(in) :: term
+
+      is_out_of_plane = term%dof > PLANE_DOFS .and. term%dof <= LAST_DOF
+      if (is_out_of_plane .and. term%dof == LAST_DOF) is_out_of_plane = .not. any(is_reference(context, term%nodes))
+   end function is_out_of_plane
+
+   !> The terms whose dofs there are.
+   pure function terms_in_plane(terms) result(list)
+      type(term_t), intent(in) :: terms(:)
+      type(term_t), allocatable :: list(:)
+      integer(ip) :: i, n
+
+      allocate (list(count(terms%dof <= PLANE_DOFS)))
+      n = 0
+      do i = 1, size(terms, kind=ip)
+         if (terms(i)%dof > PLANE_DOFS) cycle
+         n = n + 1
+         list(n) = terms(i)
+      end do
+   end function terms_in_plane
 
    subroutine check_nodes(context, place, nodes, ok)
       type(build_context_t), intent(in) :: context

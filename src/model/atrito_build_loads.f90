@@ -23,6 +23,7 @@ module atrito_build_loads
    use atrito_references, only: find_nodes, find_elements, check_faces, report_unknown
    use atrito_refined_members, only: is_on_side
    use atrito_refinement, only: is_refined
+   use atrito_replaced_loads, only: warn_of_replaced
    use atrito_rigid_motions, only: carry_reference_loads, load_reference, is_prescribed
    use atrito_sources, only: open_source
    use atrito_strings, only: to_text, upper_case
@@ -48,6 +49,7 @@ contains
       type(build_context_t), intent(inout) :: context
       integer(ip) :: i, k
 
+      context%open%replaced = reshape([integer(ip) ::], [2, 0])
       if (context%open%number > 1) call carry_on(context)
       do i = 1, context%deck%n_cards
          if (.not. is_of_step(context, i)) cycle
@@ -73,6 +75,7 @@ contains
             end do
          end associate
       end do
+      call warn_of_replaced(context)
       call trim_nodal_values(context%open%forces)
       call turn_forces(context, context%model%steps(context%open%number)%node_loads)
       call trim_element_loads(context%model%steps(context%open%number)%element_loads)
@@ -162,8 +165,8 @@ contains
 
       associate (open => context%open, loads => context%model%steps(context%open%number)%element_loads)
          place = 0
-         if (open%old_loads%n > 0) call take_load_place(element, face, open%label, open%amplitude, open%old_loads, &
-                                                        loads, place)
+         if (open%old_loads%n > 0) call take_load_place(element, face, open%label, open%amplitude, open%line, open%old_loads, &
+                                                        loads, open%replaced, place)
          if (place > 0) then                           ! a CENTRIF is two loads: the other one is added
             if (loads%kind(place) /= kind) place = 0
          end if

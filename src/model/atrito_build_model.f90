@@ -49,6 +49,7 @@ module atrito_build_model
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
+   use atrito_refined_equations, only: note_free_sides
    use atrito_rigid_motions, only: keep_reference_lists
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
@@ -147,6 +148,7 @@ contains
       call read_local_axes(context)
       call fill_steps(context)
       call build_equations(context)
+      call note_free_sides(context)
       call build_springs(context)
       call add_pretension_rows(context)
       call check_mesh(model, context)
@@ -164,7 +166,7 @@ contains
       do i = 1, size(points, kind=ip)
          call close_adjusted(adjusted(i), points(i))
       end do
-      call set_clearances(clearances, model%mesh%n_nodes, points)
+      call set_clearances(clearances, model%mesh%n_nodes, context%refinement, points)
       call move_alloc(points, model%points)
       call trim_rows(model%bilateral)
       call check_points_of_pairs(model, context)

@@ -1,7 +1,7 @@
 !> *NODE, *NGEN and *NFILL: the nodes of the mesh, in the order of the deck.
 module atrito_build_nodes
-   use atrito_coordinates, only: get_coordinate
-   use atrito_deck, only: deck_t, data_line_t, token_t, line_item
+   use atrito_coordinates, only: get_coordinate, is_coordinate
+   use atrito_deck, only: deck_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_build_context, only: build_context_t, spoil_number, note_number, note_place
    use atrito_items, only: get_integer, get_real, option_text
@@ -9,6 +9,7 @@ module atrito_build_nodes
    use atrito_mesh, only: add_node, find_node
    use atrito_model_memory, only: fits_memory, most_nodes
    use atrito_motion, only: moved
+   use atrito_numbers, only: read_real, NUMBER_OK
    use atrito_plain_numbers, only: read_plain_nodes, SLICE
    use atrito_references, only: get_id, find_nodes, find_one_node
    use atrito_sets, only: grow_set, set_count
@@ -16,6 +17,9 @@ module atrito_build_nodes
    implicit none (type, external)
    private
    public :: read_node_card, read_ngen_card, read_nfill_card, place_node, put_node_set
+
+   !> A z up to this part of the scene is what preprocessors leave of a rotation.
+   real(wp), parameter :: FLAT = 1.0e-10_wp
 
 contains
 
@@ -92,9 +96,11 @@ contains
             call get_real(context%deck, line_item(context%deck, line, 4_ip), 'z [L], which is 0 in the plane', z, ok(4), 0.0_wp, &
                           'NODE')
             if (ok(4) .and. abs(z) > 0.0_wp) then
-               ok(4) = .false.
-               call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', 'the scene is plane: z is not 0', &
-                                 expected='z = 0 [L], or no third coordinate', keyword='NODE')
+               if (context%spread < 0.0_wp) context%spread = spread_of_nodes(context%deck)
+               ok(4) = abs(z) <= FLAT*context%spread
+               if (.not. ok(4)) call report_error(context%deck, line_item(context%deck, line, 4_ip), 'E-VALUE', &
+                                                  'the scene is plane: z is not 0', expected='z = 0 [L], or no third coordinate', &
+                                                  keyword='NODE')
             end if
          end if
       end if
@@ -104,6 +110,36 @@ contains
          call spoil_number(context%deck, line, context%nodes)
       end if
    end subroutine read_node_line
+
+   !> The longer side of the box round all lines of *NODE, as they stand there; what is no plain number has no part in it.
+   pure real(wp) function spread_of_nodes(deck) result(spread)
+      type(deck_t), intent(in) :: deck
+      real(wp) :: low(2), high(2), x
+      logical :: is_there(2)
+      integer(ip) :: i, axis, k
+      integer :: outcome
+
+      low = 0.0_wp
+      high = 0.0_wp
+      is_there = .false.
+      do i = 1, deck%n_cards
+         if (keyword_name(deck%cards(i)) /= 'NODE') cycle
+         do k = deck%cards(i)%first_line, deck%cards(i)%first_line + deck%cards(i)%n_lines - 1
+            do axis = 1, 2
+               associate (token => line_item(deck, deck%lines(k), axis + 1))
+                  call read_real(deck%sources(token%source)%text(token%first:token%last), x, outcome)
+               end associate
+               if (outcome /= NUMBER_OK .or. .not. is_coordinate(x)) cycle
+               if (.not. is_there(axis)) low(axis) = x
+               if (.not. is_there(axis)) high(axis) = x
+               is_there(axis) = .true.
+               low(axis) = min(low(axis), x)
+               high(axis) = max(high(axis), x)
+            end do
+         end do
+      end do
+      spread = maxval(high - low)
+   end function spread_of_nodes
 
    !> Adds a node and keeps where it comes from; a number given twice is an error.
    subroutine place_node(context, id, x, place, ok, keyword)

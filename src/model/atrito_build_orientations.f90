@@ -68,6 +68,7 @@ contains
       real(wp), intent(out) :: a(3), b(3)
       logical, intent(out) :: ok
       character(len=*), parameter :: WHAT = 'coordinate, a real [L]'
+      real(wp), parameter :: FLAT = 1.0e-10_wp         ! what rounding leaves of 0
       logical :: good(6)
       integer(ip) :: i
 
@@ -77,6 +78,8 @@ contains
       end do
       ok = all(good)
       if (.not. ok) return
+      if (abs(a(3)) <= FLAT*maxval(abs(a(:2)))) a(3) = 0.0_wp
+      if (abs(b(3)) <= FLAT*maxval(abs(b(:2)))) b(3) = 0.0_wp
       ok = .not. (abs(a(3)) > 0.0_wp .or. abs(b(3)) > 0.0_wp)
       if (.not. ok) then
          call report_error(deck, line_item(deck, line, merge(3_ip, 6_ip, abs(a(3)) > 0.0_wp)), 'E-VALUE', &

@@ -70,6 +70,7 @@ module atrito_build_parts
       integer(ip) :: source = 0                        !< of the line being read, place in the model's sources
       type(nodal_values_t) :: supports, forces         !< along the dofs of the deck, which may be local axes
       type(carried_t) :: old_forces, old_loads
+      integer(ip), allocatable :: replaced(:, :)       !< (2, n) lines of earlier steps whose loads end, and what takes their place
       type(references_t) :: references
    end type open_step_t
 

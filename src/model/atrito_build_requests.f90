@@ -5,12 +5,13 @@ module atrito_build_requests
    use atrito_build_context, only: build_context_t
    use atrito_build_cuts, only: read_cut_card
    use atrito_carry_on, only: is_of_step
+   use atrito_foreign_words, only: variable_of_component
    use atrito_items, only: find_option, has_option, option_integer, option_real, option_text, option_word
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t, requested_t, requests_t, step_t, METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME
    use atrito_references, only: report_unknown
    use atrito_sets, only: set_list_t, find_set
-   use atrito_strings, only: same_name, to_text
+   use atrito_strings, only: to_text, upper_case
    implicit none (type, external)
    private
    public :: build_requests, refuse_field_files
@@ -346,17 +347,19 @@ contains
       end if
    end subroutine choose_members
 
-   !> One of the card's items is this variable.
+   !> One of the card's items is this variable, or a component of it.
    pure logical function asks_for(deck, card, variable)
       type(deck_t), intent(in) :: deck
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: variable
+      character(len=:), allocatable :: word
       integer(ip) :: i, k
 
       asks_for = .false.
       do i = card%first_line, card%first_line + card%n_lines - 1
          do k = 1, deck%lines(i)%n_tokens
-            asks_for = asks_for .or. same_name(token_text(deck, line_item(deck, deck%lines(i), k)), variable)
+            word = upper_case(token_text(deck, line_item(deck, deck%lines(i), k)))
+            asks_for = asks_for .or. word == variable .or. variable_of_component(word) == variable
          end do
       end do
    end function asks_for

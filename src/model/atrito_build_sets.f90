@@ -4,7 +4,7 @@ module atrito_build_sets
    use atrito_build_nodes, only: put_node_set
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, token_text, line_item, is_id_token, is_empty_token, keyword_name, &
                           scope_shift, scope_text, model_number
-   use atrito_diagnostics, only: report_error
+   use atrito_diagnostics, only: report_error, report_note
    use atrito_build_context, only: build_context_t, place_text, ids_text, has_errors
    use atrito_id_map, only: id_map_t, find_id
    use atrito_items, only: get_integer, has_option, option_text
@@ -91,12 +91,12 @@ contains
             call read_integer(token_text(deck, line_item(deck, deck%lines(i), k)), range(k), outcome)
             known = known .and. outcome == NUMBER_OK
          end do
-         known = known .and. range(3) > 0
+         known = known .and. range(3) /= 0
          if (.not. known) return
          do k = 1, 2
             range(k) = model_number(deck, deck%tokens(deck%lines(i)%first_token), range(k))
          end do
-         do k = range(1), range(2), range(3)
+         do k = range(1), range(2), towards(range(1), range(2), range(3))
             known = find_id(map, k) > 0
             if (.not. known) return
          end do
@@ -198,7 +198,7 @@ contains
       token = line_item(deck, line, 1_ip)
       call get_id(deck, token, 'first '//noun//' number', first, ok(1), keyword)
       call get_id(deck, line_item(deck, line, 2_ip), 'last '//noun//' number', last, ok(2), keyword)
-      call get_integer(deck, line_item(deck, line, 3_ip), 'increment, a positive integer', step, ok(3), 1_ip, keyword)
+      call get_integer(deck, line_item(deck, line, 3_ip), 'increment, an integer', step, ok(3), 1_ip, keyword)
       if (.not. all(ok)) return
       if (.not. is_range(deck, line, first, last, step, keyword)) return
       if ((last - first)/step >= map%n + invalid%n + others%n) then
@@ -222,20 +222,39 @@ contains
                         expected='numbers that all exist', keyword=keyword)
    end subroutine read_range
 
+   !> The increment from first to last: of a range that goes down it is negative, however it is written.
+   pure integer(ip) function towards(first, last, step)
+      integer(ip), intent(in) :: first, last, step
+
+      towards = step
+      if (last < first) towards = -abs(step)
+   end function towards
+
+   !> Increments that lead from first towards last. What other programs read in another way, or silently, is told.
    logical function is_range(deck, line, first, last, step, keyword)
       type(deck_t), intent(in) :: deck
       type(data_line_t), intent(in) :: line
-      integer(ip), intent(in) :: first, last, step
+      integer(ip), intent(in) :: first, last
+      integer(ip), intent(inout) :: step
       character(len=*), intent(in) :: keyword
-      integer(ip) :: shift
+      integer(ip) :: shift, rest
+      type(token_t) :: place
 
       shift = scope_shift(deck, line_item(deck, line, 1_ip))
-      is_range = step > 0 .and. last >= first
-      if (is_range) is_range = modulo(last - first, step) == 0
-      if (is_range) return
-      call report_error(deck, line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2)), 'E-VALUE', 'steps of '// &
-                        to_text(step)//' do not lead from '//to_text(first - shift)//' to '//to_text(last - shift), &
-                        expected='first <= last, and an increment > 0 that divides their difference', keyword=keyword)
+      place = line_item(deck, line, merge(3_ip, 2_ip, line%n_tokens > 2))
+      is_range = step > 0 .or. (step < 0 .and. last < first)
+      if (.not. is_range) then
+         call report_error(deck, place, 'E-VALUE', 'steps of '//to_text(step)//' do not lead from '//to_text(first - shift)// &
+                           ' to '//to_text(last - shift), expected='an increment > 0', keyword=keyword)
+         return
+      end if
+      step = towards(first, last, step)
+      rest = mod(last - first, step)
+      if (rest /= 0) call report_note(deck, place, 'N-RANGE', 'steps of '//to_text(abs(step))//' do not end at '// &
+                                      to_text(last - shift)//'; the last number is '//to_text(last - rest - shift), keyword=keyword)
+      if (last < first) call report_note(deck, line_item(deck, line, 2_ip), 'N-RANGE', 'the range goes down: all from '// &
+                                         to_text(first - shift)//' to '//to_text(last - rest - shift)//' are taken', &
+                                         keyword=keyword)
    end function is_range
 
 end module atrito_build_sets

@@ -14,6 +14,7 @@ module atrito_build_supports
    use atrito_model, only: nodal_values_t
    use atrito_parameters, only: evaluate_function
    use atrito_references, only: find_nodes
+   use atrito_refined_members, only: edge_value
    use atrito_refinement, only: edge_place, is_refined
    use atrito_number_list, only: number_list_t, add_number, numbers_of
    use atrito_rigid_motions, only: prescribe_reference, is_prescribed
@@ -320,15 +321,6 @@ contains
          end do
       end associate
    end subroutine hold_edges
-
-   !> Value between the nodes of an edge: first, last[, middle].
-   pure real(wp) function edge_value(values, t) result(value)
-      real(wp), intent(in) :: values(:)                !< (2 or 3)
-      real(wp), intent(in) :: t                        !< 0..1
-
-      value = values(1) + t*(values(2) - values(1))
-      if (size(values) == 3) value = value + 4*t*(1 - t)*(values(3) - 0.5_wp*(values(1) + values(2)))
-   end function edge_value
 
    !> The dofs of a line exist, or are those of three dimensions and harmless.
    logical function are_dofs(deck, line, first, last, value, turns)

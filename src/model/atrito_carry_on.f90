@@ -204,11 +204,12 @@ contains
       call replace_element_load(list, i, times(list%value(:, i), list%kind(i), 0.0_wp), 0_ip)
    end subroutine remove_load
 
-   !> As take_force_place, of a load of this face and label on an element.
-   pure subroutine take_load_place(element, face, label, amplitude, carried, list, place)
-      integer(ip), intent(in) :: element, face, label, amplitude
+   !> As take_force_place, of a load of this face and label on an element. replaced: the line of each load that ends, and this one.
+   pure subroutine take_load_place(element, face, label, amplitude, line, carried, list, replaced, place)
+      integer(ip), intent(in) :: element, face, label, amplitude, line
       type(carried_t), intent(inout) :: carried
       type(element_load_t), intent(inout) :: list
+      integer(ip), allocatable, intent(inout) :: replaced(:, :)
       integer(ip), intent(out) :: place
       integer(ip) :: i
 
@@ -218,6 +219,10 @@ contains
       do while (i > 0)
          if (list%face(i) == face .and. carried%label(i) == label .and. .not. carried%is_given(i)) then
             carried%is_given(i) = .true.
+            if (.not. (is_nothing(list%value(:, i), list%kind(i)) .or. & ! OP=NEW
+                       any(replaced(1, :) == list%line(i) .and. replaced(2, :) == line))) then
+               replaced = reshape([replaced, list%line(i), line], [2, size(replaced, 2) + 1])
+            end if
             call remove_load(list, i)
             if (amplitude > 0) list%from(:, i) = list%value(:, i)
             if (place == 0) place = i

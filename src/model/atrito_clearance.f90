@@ -10,6 +10,8 @@ module atrito_clearance
    use atrito_pair_names, only: find_pair
    use atrito_points, only: contact_points_t
    use atrito_references, only: find_nodes
+   use atrito_refined_members, only: edge_value
+   use atrito_refinement, only: refinement_t, edge_place, is_refined
    use atrito_strings, only: string_t
    implicit none (type, external)
    private
@@ -144,9 +146,10 @@ contains
    end function is_of_faces
 
    !> Gives the points of the pairs their gaps.
-   subroutine set_clearances(list, n_nodes, points)
+   subroutine set_clearances(list, n_nodes, refinement, points)
       type(clearance_t), intent(in) :: list(:)
       integer(ip), intent(in) :: n_nodes               !< of the mesh
+      type(refinement_t), intent(in) :: refinement     !< how it came from the deck's, whose nodes the lists name
       type(contact_points_t), intent(inout) :: points(:) !< of each pair
       real(wp), allocatable :: value(:)
       logical, allocatable :: is_given(:)
@@ -163,9 +166,38 @@ contains
             value(list(i)%node(k)) = list(i)%values(k)
             is_given(list(i)%node(k)) = .true.
          end do
+         if (is_refined(refinement)) call fill_edges(refinement, points(list(i)%pair), value, is_given)
          call set_by_nodes(value, is_given, points(list(i)%pair))
       end do
    end subroutine set_clearances
+
+   !> The deck's faces interpolate: what --refine and --elements make between nodes of which one is in the table gets the gap
+   !> between theirs, also where a set has it, and that of a node that is not in the table is the one of its coordinates.
+   pure subroutine fill_edges(refinement, points, value, is_given)
+      type(refinement_t), intent(in) :: refinement
+      type(contact_points_t), intent(in) :: points
+      real(wp), intent(inout) :: value(:)              !< of the nodes of the mesh [L]
+      logical, intent(inout) :: is_given(:)
+      logical :: is_known(size(value))
+      integer(ip) :: edge, j, k, n
+
+      is_known = is_given
+      do j = 1, points%n
+         if (points%node(j) > refinement%n_nodes .or. is_known(points%node(j))) cycle
+         value(points%node(j)) = points%gap(j)
+         is_known(points%node(j)) = .true.
+      end do
+      do edge = 1, refinement%n_edges
+         n = merge(3_ip, 2_ip, refinement%edge_node(3, edge) > 0)
+         associate (nodes => refinement%edge_node(:n, edge))
+            if (.not. (any(is_given(nodes)) .and. all(is_known(nodes)))) cycle
+            do k = refinement%edge_first(edge), refinement%edge_first(edge + 1) - 1
+               value(k) = edge_value(value(nodes), edge_place(refinement, edge, k))
+               is_given(k) = .true.
+            end do
+         end associate
+      end do
+   end subroutine fill_edges
 
    !> The gap of a point is that of its node; of MORTAR the mean over the nodes of its row that have one, as their displacements
    !> are.

@@ -98,16 +98,17 @@ contains
       real(wp), intent(in) :: away(2)                !< from a to b in the plane [L]
       real(wp), intent(in) :: z(2)                   !< of a and b [L]
       logical, intent(out) :: ok
+      real(wp), parameter :: FLAT = 1.0e-10_wp       ! what rounding leaves of 0
       character(len=:), allocatable :: expected
       integer(ip) :: item
 
       if (option_word(context%deck, card, 'TYPE') == 'R') then
-         item = merge(3_ip, 6_ip, abs(z(1)) > 0.0_wp)
-         ok = all(abs(z) <= 0.0_wp)
+         item = merge(3_ip, 6_ip, abs(z(1)) > FLAT*norm2(away))
+         ok = all(abs(z) <= FLAT*norm2(away))
          expected = 'za = zb = 0'
       else
-         item = merge(4_ip, 5_ip, abs(away(1)) > 0.0_wp)
-         ok = all(abs(away) <= 0.0_wp)
+         item = merge(4_ip, 5_ip, abs(away(1)) > FLAT*abs(z(2) - z(1)))
+         ok = all(abs(away) <= FLAT*abs(z(2) - z(1)))
          expected = 'xb = xa and yb = ya: an axis along z'
       end if
       if (.not. ok) call report_error(context%deck, line_item(context%deck, context%deck%lines(card%first_line), item), 'E-VALUE', &

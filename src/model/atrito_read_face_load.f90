@@ -14,6 +14,8 @@ module atrito_read_face_load
    character(len=*), parameter :: LEVEL = 'level x2 of zero pressure, a real [L]'
    character(len=*), parameter :: LEVEL_OF_MAGNITUDE = 'another level x2, of the magnitude, a real [L]'
 
+   real(wp), parameter :: FLAT = 1.0e-10_wp            ! of a direction: it lies in the plane
+
 contains
 
    !> The kind and the values of a load on faces from the third item on: P magnitude; TRVEC magnitude, t1, t2[, 0]; HP magnitude,
@@ -115,6 +117,7 @@ contains
       end do
       ok = all(good)
       if (.not. ok) return
+      if (abs(d(3)) <= FLAT*maxval(abs(d(:2)))) d(3) = 0.0_wp ! what a cosine of 90 degrees leaves
       ok = .not. abs(d(3)) > 0.0_wp .and. maxval(abs(d)) > 0.0_wp
       if (abs(d(3)) > 0.0_wp) then
          call report_error(context%deck, line_item(context%deck, line, 6_ip), 'E-VALUE', 'the scene is plane: ' &

@@ -11,9 +11,6 @@ BEGIN {
    split("equal notequal true false lessthan lessthanorequal greaterthan greaterthanorequal " \
          "relativelyequal isnan isfinite fail", words, " ")
    for (i in words) known["assert" words[i]] = 1
-   # Public names of pFUnit's module FUnit that a helper might want: there, a second one will not compile.
-   split("run initialize finalize stub throw catch near is every equal_to subject predicate test", words, " ")
-   for (i in words) reserved[words[i]] = 1
 }
 
 FNR == 1 {
@@ -111,7 +108,6 @@ function check_code(code) {
    if (code ~ /^end[ \t]*type/) in_type = 0
    if (code == "contains" && !in_type) in_procedures = 1
    if (code == "private" && !in_type && !in_procedures) refuse("a test module must not be private")
-   if (code ~ /(^|[ \t])(subroutine|function)[ \t]/ && code !~ /^end/) check_name(code)
    if (wanted != "" && code != "") procedure_of(wanted, code)
 }
 
@@ -121,13 +117,6 @@ function module_statement(code) {
    sub(/^[A-Za-z]+[ \t]+/, "", module)
    if (module ~ /!/) refuse("nothing may follow the name of the module on its line, not even a comment")
    else if (module != suite) refuse("module " module " must have the name of its file, " suite)
-}
-
-function check_name(code) {
-   sub(/.*(subroutine|function)[ \t]+/, "", code)
-   match(code, NAME)
-   code = substr(code, 1, RLENGTH)
-   if (code in reserved) refuse("the name " code " is taken by pFUnit's module funit")
 }
 
 # The subroutine line after @test, @before or @after.

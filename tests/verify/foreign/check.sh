@@ -48,4 +48,18 @@ all_near 'bar: no shear' mecway-bar/contact.tab shear 0 1e-9
 
 runs prepomax-style
 near 'style: pressed' "$(of prepomax-style 1 normal_resultant)" 10 1e-8
+
+# components of what is written, and of what is not
+awk '/^\*NODE PRINT|^\*EL PRINT/ { exit } { print }' "$decks/mecway-bar.inp" >components.inp
+cp components.inp whole.inp
+printf '*NODE PRINT\nU1, RF2, U3, COOR1\n*EL PRINT, POSITION=CENTROIDAL\nS11, E11, S23\n*END STEP\n' >>components.inp
+printf '*NODE PRINT\nU, RF\n*EL PRINT\nS\n*END STEP\n' >>whole.inp
+runs components components.inp
+run 0 whole.inp whole --digits 12
+for table in nodes reactions stress; do
+   same_tables "components: $table" components/$table.tab whole/$table.tab 0
+done
+says 'components: told' components.err 'variable U1 of *NODE PRINT is written with all components of U'
+says 'components: not in the plane' components.err 'variable U3 of *NODE PRINT is not written'
+says 'components: where' components.err 'POSITION=CENTROIDAL of *EL PRINT has no effect: stress.tab has the integration points'
 finish

@@ -86,4 +86,30 @@ for name in pressure shear; do
    last at-once $name >once.column
    near "friction, alone: $name" "$(off alone.column once.column)" 0 1e-9
 done
+
+# 3. a clearance by a table: a finer mesh has what the deck's faces interpolate
+# table TYPE NX LAST: a block on a floor, the gap x^2/10 at every quarter, between them along straight lines; nodes 1 to LAST below
+table() {
+   awk -v type="$1" -v nx="$2" -v last="$3" 'BEGIN {
+      print "*BLOCK, TYPE=" type ", ELSET=B, NX=" nx ", NY=4\n-1, 0\n1, 0\n1, 1\n-1, 1\n*MATERIAL, NAME=M\n*ELASTIC\n1000, 0.3"
+      print "*SOLID SECTION, ELSET=B, MATERIAL=M\n*SURFACE, NAME=FLOOR, TYPE=SEGMENTS\nSTART, -2, 0\nLINE, 2, 0"
+      print "*RIGID BODY, ANALYTICAL SURFACE=FLOOR\n*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nB-BOTTOM, FLOOR"
+      print "*CLEARANCE, SLAVE=B-BOTTOM, MASTER=FLOOR, TABULAR"
+      for (i = 0; i < last; i++) {
+         x = 8*i/(last - 1); k = x == 8 ? 7 : int(x)
+         printf "%d, %.17g\n", i + 1, ((k/4 - 1)^2 + (x - k)*((k + 1)/4 - 1)^2 - (x - k)*(k/4 - 1)^2)/10
+      }
+      print "*STEP\n*BOUNDARY\nB-TOP, 1\nB-TOP, 2, 2, -0.01\n*CONTACT PRINT\n*END STEP" }' </dev/null
+}
+table CPE4 8 9 >coarse.inp
+table CPE4 16 17 | sed 's/NY=4/NY=8/' >fine.inp
+table CPE9 8 17 >nine.inp
+run 0 coarse.inp refined --digits 17 --quiet --refine 1
+run 0 fine.inp fine --digits 17 --quiet
+run 0 nine.inp nine --digits 17 --quiet
+"$atrito" study coarse.inp --levels 1 --elements CPE9 --digits 17 -o study >study.out || complain 'study of nine-node elements'
+last refined pressure >found.pressure
+last fine pressure >expected.pressure
+near 'a table, refined' "$(off found.pressure expected.pressure)" 0 1e-10
+near 'a table, nine nodes' "$(summary study/cpe9_0 strain_energy)" "$(summary nine strain_energy)" 1e-12
 finish

@@ -4,7 +4,7 @@
 ! Numbers arrive with assumed rank and are compared as flat arrays, so one procedure a type serves
 ! every rank. A NaN is looked for before any comparison, since < and <= of a NaN raise the invalid
 ! flag and would stop a program that runs with -ffpe-trap.
-module funit
+module funit_assertions
    use, intrinsic :: iso_fortran_env, only: int32, int64, real64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
    use funit_runner, only: SourceLocation, anyExceptions, run_test, finish_tests, fail, conformable, list_text
@@ -475,4 +475,4 @@ contains
       end do
       text = ' at index '//list_text(subscripts)
    end function at_index
-end module funit
+end module funit_assertions
