@@ -40,6 +40,7 @@ module atrito_points
       integer(lp), allocatable :: faces(:)          !< a number of its own for each of the slave's faces that are not left out
       integer(ip), allocatable :: piece(:)          !< of the master, that are seen; some more than once
       real(wp), allocatable :: doubt(:)             !< (n) by what the normals may be off [rad]; not allocated: round-off
+      logical, allocatable :: is_held(:, :)         !< (2, n) supports hold all nodes of a row along the normal, along the tangent
       type(sliding_t) :: sliding                    !< that both sides have, if they have one
       logical :: matching = .false.                 !< every point faces a master node and the orders are equal
       logical :: rigid = .false.

@@ -49,8 +49,8 @@ contains
       call average_surfaces(points, average_rules(model), line%average)
       if (line%n_bilateral > 0) call append_bilateral(model%bilateral, size(points, kind=ip), line)
       do j = 1, line%n
-         normal_row(j) = has_unknown(fem, rows, j, rows%normal(:, j))
-         tangential_row(j) = has_unknown(fem, rows, j, rows%tangent(:, j))
+         normal_row(j) = has_unknown(fem, rows, j, rows%normal(:, j)) .and. .not. rows%is_held(1, j)
+         tangential_row(j) = has_unknown(fem, rows, j, rows%tangent(:, j)) .and. .not. rows%is_held(2, j)
       end do
       call set_known_points(rows, value, line)
       call number_unknowns(line, normal_row, tangential_row)
@@ -106,26 +106,22 @@ contains
       end if
    end function law_of
 
-   !> True when the row of a point has entries on free dofs. What the supports leave of a row whose normal is known to some digits, or to
-   !> the resolution of a curve, is nothing where it is no more than that: a node held along the normal of a line of symmetry.
+   !> True when the row of a point has an entry on a free dof. (A matrix entry could vanish by cancellation; the row tells.)
    pure logical function has_unknown(fem, rows, j, direction)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       integer(ip), intent(in) :: j
       real(wp), intent(in) :: direction(2)
       integer(ip) :: k, dof
-      real(wp) :: along(2), left, whole
+      real(wp) :: along(2)
 
-      left = 0.0_wp
-      whole = 0.0_wp
+      has_unknown = .false.
       do k = rows%first(j), rows%first(j + 1) - 1
-         along = rows%coefficient(k)*direction_of_entry(rows, j, k, direction)
+         along = direction_of_entry(rows, j, k, direction)
          do dof = 1, 2
-            whole = whole + along(dof)**2
-            if (fem%bodies%equation(dof, rows%node(k)) /= 0) left = left + along(dof)**2
+            has_unknown = has_unknown .or. (along(dof) /= 0.0_wp .and. fem%bodies%equation(dof, rows%node(k)) /= 0)
          end do
       end do
-      has_unknown = left > rows%doubt(j)**2*whole
    end function has_unknown
 
    !> What the contact line knows of points whose dofs are prescribed.

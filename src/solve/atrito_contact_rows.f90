@@ -19,6 +19,7 @@ module atrito_contact_rows
       real(wp), allocatable :: tangent(:, :)         !< (2, n) T, n turned by +90 degrees
       real(wp), allocatable :: gap(:)                !< (n) initial distance s_j, and overlap that is allowed [L]
       real(wp), allocatable :: doubt(:)              !< (n) by what the normal may be off [rad]
+      logical, allocatable :: is_held(:, :)          !< (2, n) supports take what the normal, the tangential row would
       real(wp), allocatable :: reach(:)              !< (n) length that the point stands for [L]
       real(wp), allocatable :: allowed(:)            !< (n) that overlap [L]; not allocated: none
       integer(ip) :: n_bilateral = 0
@@ -41,6 +42,7 @@ contains
       allocate (rows%first(rows%n + 1), source=1_ip)
       allocate (rows%normal(2, rows%n), rows%tangent(2, rows%n), rows%gap(rows%n), rows%doubt(rows%n), rows%reach(rows%n), &
                 source=0.0_wp)
+      allocate (rows%is_held(2, rows%n), source=.false.)
       m = 0
       do i = 1, size(points, kind=ip)
          do j = 1, points(i)%n
@@ -49,6 +51,7 @@ contains
             rows%tangent(:, m) = [-points(i)%normal(2, j), points(i)%normal(1, j)]
             rows%gap(m) = points(i)%gap(j)
             rows%reach(m) = points(i)%length(j)
+            if (allocated(points(i)%is_held)) rows%is_held(:, m) = points(i)%is_held(:, j)
             if (allocated(points(i)%doubt)) rows%doubt(m) = points(i)%doubt(j)
             rows%first(m + 1) = rows%first(m) + (points(i)%first(j + 1) - points(i)%first(j))
             rows%longest = max(rows%longest, rows%first(m + 1) - rows%first(m))

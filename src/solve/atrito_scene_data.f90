@@ -12,6 +12,7 @@ module atrito_scene_data
    use atrito_contact_rows, only: contact_rows_t, allow_overlap, build_rows
    use atrito_contact_scales, only: had_t
    use atrito_contact_solution, only: contact_solution_t
+   use atrito_held_points, only: straighten_held_points
    use atrito_kinds, only: ip, lp, wp
    use atrito_memory, only: available_memory
    use atrito_model, only: model_t, nodal_values_t, step_t, METHOD_ANDERSON
@@ -109,6 +110,7 @@ contains
       if (.not. known) call build_bodies(model, data%held, data%points, data%solver_kind, data%fem)
       if (has_moving_surfaces(model)) call set_rigid_motions(model, data%step%rigid_prescribed, data%fem%bodies)
       call let_slide(data%points, data%fem)
+      call straighten_held_points(model%bilateral, data%fem, data%points)
       call build_rows(data%points, data%rows, model%bilateral)
       if (any(model%interactions%rho > 0.0_wp)) then
          call check_average_memory(model%deck_path, data%rows%n, &

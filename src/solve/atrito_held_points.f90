@@ -1,0 +1,91 @@
+!> Points at nodes that supports hold along or across the normal, as where a line of symmetry goes through a contact.
+!>
+!> The normal of a curved side is known there to the resolution of the faces or to the digits of the nodes, and may be slightly off the
+!> direction d of the support. What d leaves of the row is then n - d (n . d), an error e, and a row e . u is held by forces as large as the
+!> support's over e. So a normal that is off by no more than it is in doubt becomes d, or the direction across d; and a row along which
+!> all of its nodes are held has no force of its own: the support takes it.
+module atrito_held_points
+   use atrito_assembly, only: fem_t
+   use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT
+   use atrito_kinds, only: ip, wp
+   use atrito_points, only: contact_points_t
+   implicit none (type, external)
+   private
+   public :: straighten_held_points
+
+   real(wp), parameter :: SAME = 1.0e-12_wp       !< of two unit vectors
+
+contains
+
+   !> Turns the normals of such points, and notes which rows are held.
+   pure subroutine straighten_held_points(bilateral, fem, points)
+      type(bilateral_rows_t), intent(in) :: bilateral
+      type(fem_t), intent(in) :: fem
+      type(contact_points_t), intent(inout) :: points(:)
+      real(wp), allocatable :: support(:, :)         ! (2, n_nodes) along what a node is held; 0: not at all
+      logical :: is_fixed(fem%mesh%n_nodes)          ! held along any direction
+      real(wp) :: d(2)
+      integer(ip) :: i, j
+
+      call list_supports(bilateral, fem, support, is_fixed)
+      do i = 1, size(points, kind=ip)
+         if (.not. allocated(points(i)%doubt)) cycle
+         allocate (points(i)%is_held(2, points(i)%n), source=.false.)
+         do j = 1, points(i)%n
+            associate (nodes => points(i)%entry(points(i)%first(j):points(i)%first(j + 1) - 1))
+               d = common_support(support(:, nodes), is_fixed(nodes))
+            end associate
+            if (.not. norm2(d) > 0.0_wp) cycle
+            associate (n => points(i)%normal(:, j), doubt => max(points(i)%doubt(j), SAME))
+               points(i)%is_held(1, j) = abs(n(1)*d(2) - n(2)*d(1)) <= doubt
+               points(i)%is_held(2, j) = abs(dot_product(n, d)) <= doubt
+               if (points(i)%is_held(1, j)) n = sign(1.0_wp, dot_product(n, d))*d
+               if (points(i)%is_held(2, j)) n = sign(1.0_wp, n(2)*d(1) - n(1)*d(2))*[-d(2), d(1)]
+            end associate
+         end do
+      end do
+   end subroutine straighten_held_points
+
+   !> The direction along which a node is held: an axis, or that of a support along one of its own.
+   pure subroutine list_supports(bilateral, fem, support, is_fixed)
+      type(bilateral_rows_t), intent(in) :: bilateral
+      type(fem_t), intent(in) :: fem
+      real(wp), allocatable, intent(out) :: support(:, :)
+      logical, intent(out) :: is_fixed(:)
+      integer(ip) :: node, j
+
+      allocate (support(2, fem%mesh%n_nodes), source=0.0_wp)
+      associate (equation => fem%bodies%equation)
+         do node = 1, fem%mesh%n_nodes
+            is_fixed(node) = all(equation(:, node) == 0)
+            if (is_fixed(node)) cycle
+            where (equation(:, node) == 0) support(:, node) = 1.0_wp
+         end do
+      end associate
+      do j = 1, bilateral%n
+         if (bilateral%kind(j) /= ROW_SUPPORT .or. bilateral%first(j + 1) - bilateral%first(j) /= 1) cycle
+         associate (at => bilateral%node(bilateral%first(j)), vector => bilateral%vector(:, bilateral%first(j)))
+            is_fixed(at) = is_fixed(at) .or. norm2(support(:, at)) > 0.0_wp
+            support(:, at) = vector/norm2(vector)
+         end associate
+      end do
+   end subroutine list_supports
+
+   !> The direction along which all nodes of a row are held; 0 where there is none, or all are held along any.
+   pure function common_support(support, is_fixed) result(d)
+      real(wp), intent(in) :: support(:, :)
+      logical, intent(in) :: is_fixed(:)
+      real(wp) :: d(2)
+      integer(ip) :: k
+
+      d = 0.0_wp
+      k = findloc(is_fixed, .false., dim=1, kind=ip)
+      if (k == 0) return
+      d = support(:, k)
+      do k = 1, size(is_fixed, kind=ip)
+         if (is_fixed(k)) cycle
+         if (abs(d(1)*support(2, k) - d(2)*support(1, k)) > SAME .or. .not. norm2(support(:, k)) > 0.0_wp) d = 0.0_wp
+      end do
+   end function common_support
+
+end module atrito_held_points
