@@ -91,6 +91,7 @@ contains
          coarse%known_slip = line%known_slip(point)
          if (allocated(line%rest)) coarse%rest = line%rest(point)
          if (allocated(line%shear_before)) coarse%shear_before = line%shear_before(point)
+         if (allocated(line%noise)) coarse%noise = line%noise(point)
          if (allocated(line%pair)) coarse%pair = line%pair(point)
       end associate
       allocate (coarse%weight(coarse%n), source=0.0_wp)

@@ -6,8 +6,8 @@ module atrito_contact_line
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, FROZEN
    implicit none (type, external)
    private
-   public :: contact_line_t, number_unknowns, tangential_of, last_of_pair, pressure_of, rest_of, shear_force_of, slip_of_unknown, &
-             friction_bound, normal_bounds, set_friction_bounds
+   public :: contact_line_t, number_unknowns, tangential_of, last_of_pair, pressure_of, rest_of, shear_force_of, slip_noise, &
+             slip_of_unknown, friction_bound, normal_bounds, set_friction_bounds
 
    !> The n points. A point whose row of the contact matrix is zero (its dofs are prescribed) has no unknown; its normal
    !> displacement less the distance, and its slip, are known numbers. The last n_bilateral are no points of contact but bilateral
@@ -27,6 +27,10 @@ module atrito_contact_line
       real(wp), allocatable :: rest(:)
       !> Friction stress of the increment before [F/L^2]: what a point that does not move keeps. Not allocated: 0.
       real(wp), allocatable :: shear_before(:)
+      !> Largest displacement so far [L] of the pair of each point. Not allocated: none.
+      real(wp), allocatable :: moved(:)
+      !> What round-off may do to a known slip [L]. Not allocated: 0.
+      real(wp), allocatable :: noise(:)
       integer(ip), allocatable :: point(:)            !< (unknowns) point of each
       integer(ip), allocatable :: pair(:)             !< (n) contact pair of each, ascending; not allocated: one
       logical :: has_friction = .false.
@@ -130,18 +134,29 @@ contains
       end do
    end function shear_force_of
 
-   !> The friction stress of a point whose slip is prescribed. One of exact stick that has not moved keeps what it had, as far as
-   !> its bound goes.
+   !> What is none of a slip that is known [L].
+   pure real(wp) function slip_noise(line, j) result(noise)
+      type(contact_line_t), intent(in) :: line
+      integer(ip), intent(in) :: j
+
+      noise = 0.0_wp
+      if (allocated(line%noise)) noise = line%noise(j)
+   end function slip_noise
+
+   !> The friction stress of a point whose slip is prescribed. Where nothing moves, exact stick, and a spring that round-off would
+   !> strain, leave it open within its bound: it keeps what it had.
    pure real(wp) function known_shear(line, j, tau) result(t)
       type(contact_line_t), intent(in) :: line
       integer(ip), intent(in) :: j
       real(wp), intent(in) :: tau
 
       associate (slip => line%known_slip(j) - rest_of(line, j))
-         t = friction_stress(line%law(j), tau, slip)
-         if (.not. allocated(line%shear_before)) return
-         if (slip /= 0.0_wp .or. sticking_slip(line%law(j), 1.0_wp) > 0.0_wp) return
-         t = min(max(line%shear_before(j), -tau), tau)
+         if (max(abs(slip), sticking_slip(line%law(j), tau)) > slip_noise(line, j)) then
+            t = friction_stress(line%law(j), tau, slip)
+         else
+            t = 0.0_wp
+            if (allocated(line%shear_before)) t = min(max(line%shear_before(j), -tau), tau)
+         end if
       end associate
    end function known_shear
 

@@ -6,7 +6,7 @@ module atrito_friction_law
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: friction_law_t, stick_compliance, sticking_slip, friction_stress
+   public :: friction_law_t, stick_compliance, sticking_slip, friction_stress, is_full
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
 
    integer(ip), parameter :: FRICTION_NONE = 0, FRICTION_LOCAL = 1, FRICTION_NONLOCAL = 2
@@ -54,5 +54,14 @@ contains
          t = tau*(slip/limit)
       end if
    end function friction_stress
+
+   !> Whether a friction stress has reached its bound. Where a point that has slid rests there, which of two solutions with the
+   !> same stress is found, that it sticks or that it slides by nothing, is a matter of round-off: it is not asked for.
+   pure elemental logical function is_full(t, tau)
+      real(wp), intent(in) :: t, tau       !< [F/L^2]
+      real(wp), parameter :: ROUND_OFF = 1.0e-8_wp
+
+      is_full = abs(t) >= (1.0_wp - ROUND_OFF)*tau
+   end function is_full
 
 end module atrito_friction_law

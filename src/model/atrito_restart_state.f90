@@ -46,6 +46,7 @@ module atrito_restart_state
       real(wp), allocatable :: shear(:)             !< (points) [F/L^2]
       logical, allocatable :: slides(:)             !< (points)
       real(wp), allocatable :: dissipation(:)       !< (pairs) so far [F L]
+      real(wp), allocatable :: moved(:)             !< (pairs) largest displacement and slip so far [L]
       type(warm_start_t) :: start
       type(results_t) :: last                       !< the increment
    end type restart_state_t

@@ -173,6 +173,7 @@ contains
       call exchange(archive, 'shear', state%shear)
       call exchange(archive, 'slides', state%slides)
       call exchange(archive, 'dissipation', state%dissipation)
+      call exchange(archive, 'moved', state%moved)
       call exchange_start(archive, state%start)
    end subroutine exchange_state
 

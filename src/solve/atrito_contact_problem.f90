@@ -1,6 +1,6 @@
 !> The contact line of a scene and its bound-constrained QP: C = B F B', G = B Z, g0 and h, summed over the bodies.
 module atrito_contact_problem
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_assembly, only: fem_t
    use atrito_average, only: add_identity_rows
    use atrito_bodies, only: mode_at
@@ -8,6 +8,7 @@ module atrito_contact_problem
    use atrito_condensed_body, only: condensed_body_t, contact_response, add_flexibilities
    use atrito_contact_line, only: contact_line_t, number_unknowns, rest_of
    use atrito_contact_rows, only: contact_rows_t, row_value, direction_of_entry
+   use atrito_contact_scales, only: usual_growth
    use atrito_bilateral_rows, only: bilateral_rows_t
    use atrito_friction_law, only: friction_law_t, FRICTION_NONE, FRICTION_LOCAL
    use atrito_model, only: model_t, interaction_t
@@ -124,17 +125,22 @@ contains
       end do
    end function has_unknown
 
-   !> What the contact line knows of points whose dofs are prescribed.
+   !> What the contact line knows of points whose dofs are prescribed. No slip is what round-off leaves of the displacements: those
+   !> that are prescribed now, and those of before, from which a support may begin.
    pure subroutine set_known_points(rows, value, line)
       type(contact_rows_t), intent(in) :: rows
       real(wp), intent(in) :: value(:, :)            !< (2, n_nodes) prescribed displacements [L]
       type(contact_line_t), intent(inout) :: line
       integer(ip) :: j
 
+      if (.not. allocated(line%noise)) allocate (line%noise(line%n))
       do j = 1, line%n
          line%known_overlap(j) = row_value(rows, j, rows%normal(:, j), value) - rows%gap(j)
          line%known_slip(j) = row_value(rows, j, rows%tangent(:, j), value)
+         line%noise(j) = max(0.0_wp, maxval(abs(value(:, rows%node(rows%first(j):rows%first(j + 1) - 1)))))
       end do
+      if (allocated(line%moved)) line%noise = max(line%noise, line%moved)
+      line%noise = usual_growth(0_ip, 0.0_wp)*EPS_MACH*line%noise
    end subroutine set_known_points
 
    !> C, G, g0 and h.

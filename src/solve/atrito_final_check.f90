@@ -4,7 +4,7 @@ module atrito_final_check
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at
-   use atrito_contact_line, only: contact_line_t, last_of_pair, rest_of, friction_bound
+   use atrito_contact_line, only: contact_line_t, last_of_pair, rest_of, slip_noise, friction_bound
    use atrito_contact_rows, only: contact_rows_t, row_value, bodies_of_row
    use atrito_contact_scales, only: contact_scales_t, had_t, measure_places, printed_as_none, usual_growth, had_motion, &
                                     had_force, force_round_off, NONE_OF_HAD
@@ -275,7 +275,7 @@ contains
          end if
          wrong = ''
          call judge_place(rows, results, j, gap(j), slip(j), scales, line%tangential(j) > 0, wrong)
-         call judge_normal(p(j), gap(j), line%delta(j), scales%gap, wrong)
+         call judge_normal(p(j), gap(j), line%delta(j), scales%gap + known_within(rows, j), wrong)
          call judge_friction(line, j, t(j), tau(j), slip(j) - rest_of(line, j), scales, tolerance, wrong)
          if (len(wrong) == 0) cycle
          results%law_holds = .false.
@@ -401,6 +401,17 @@ contains
       end do
    end function point_x
 
+   !> To what the overlap of a point whose support takes its force is known [L].
+   pure real(wp) function known_within(rows, j) result(place)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j
+
+      place = 0.0_wp
+      if (allocated(rows%is_held)) then
+         if (rows%is_held(1, j)) place = rows%doubt(j)*rows%reach(j)
+      end if
+   end function known_within
+
    !> Gap and slip must be those of the displacement field.
    pure subroutine judge_place(rows, results, j, gap, slip, scales, has_tangential, wrong)
       type(contact_rows_t), intent(in) :: rows
@@ -438,7 +449,7 @@ contains
       real(wp), intent(in) :: t, tau, slip, tolerance !< slip: beyond the rest slip
       type(contact_scales_t), intent(in) :: scales
       character(len=:), allocatable, intent(inout) :: wrong
-      real(wp) :: allowed, limit
+      real(wp) :: allowed, limit, none
 
       if (len(wrong) > 0) return
       if (line%law(j)%kind == FRICTION_NONE) then
@@ -447,12 +458,14 @@ contains
       end if
       allowed = 10*tolerance*scales%friction
       limit = sticking_slip(line%law(j), tau)
+      none = scales%slip
+      if (line%tangential(j) == 0) none = max(none, slip_noise(line, j))
       if (abs(t) > tau + allowed) wrong = 'shear '//to_text(abs(t))//' beyond the friction bound '//to_text(tau)
-      if (abs(slip) > limit*(1 + 10*tolerance) + scales%slip) then
+      if (abs(slip) > limit*(1 + 10*tolerance) + none) then
          if (abs(t - sign(tau, slip)) > allowed) wrong = 'slip without full friction against it'
-      else if (limit > scales%slip) then
+      else if (limit > none) then
          ! the law is steep here: compare the stress within what the slip leaves open
-         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(scales%slip/limit)) then
+         if (abs(t - friction_stress(line%law(j), tau, slip)) > allowed + tau*(none/limit)) then
             wrong = 'shear off the friction law'
          end if
       end if

@@ -389,7 +389,7 @@ contains
       call widen(run%data%had, solution%body_motion, solution%body_force)
       run%condition = max(run%condition, solution%inner%condition)
       run%scene%bodies = results%scene%bodies        ! as they were factored
-      call remember_slips(run%data%line, results%contact, run%memory)
+      call remember_slips(run%data%line, solution%tau, results%contact, run%memory)
       call put_rest(run%memory, run%data%line)
       do i = 1, size(results%contact, kind=ip)
          call add_row(row_of_pair(run%data%points(i), results, i, run%memory%dissipation(i)), run%n_rows, history%rows)

@@ -10,7 +10,7 @@ module atrito_recovery
    use atrito_average, only: apply_average
    use atrito_element_table, only: BEST_OF, POINTS_OF, MOST_NODES, POINT_COUNT
    use atrito_error_estimate, only: energies_t, measure_error, relative_error
-   use atrito_friction_law, only: sticking_slip, FRICTION_NONE
+   use atrito_friction_law, only: is_full, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: requests_t
    use atrito_plane_state, only: IS_REDUCED, COMPONENTS, STATES, STRESS_NAMES, stress_33, thermal_modulus_33, von_mises
@@ -165,7 +165,7 @@ contains
                c%shear(j) = -solution%t(k)
                call place_of_point(line, rows, solution, u, k, c%gap(j), c%slip(j))
                c%gap(j) = true_gap(rows, k, c%gap(j))
-               c%status(j) = status_of(line, solution, k, c%pressure(j), c%slip(j))
+               c%status(j) = status_of(line, solution, k, c%pressure(j))
             end do
             c%s_end = 0.0_wp
             if (c%n > 0) c%s_end = maxval(c%s)
@@ -206,26 +206,17 @@ contains
       end if
    end subroutine place_of_point
 
-   pure integer(ip) function status_of(line, solution, j, pressure, slip) result(status)
+   pure integer(ip) function status_of(line, solution, j, pressure) result(status)
       type(contact_line_t), intent(in) :: line
       type(contact_solution_t), intent(in) :: solution
       integer(ip), intent(in) :: j
-      real(wp), intent(in) :: pressure, slip
-      integer(ip) :: i
+      real(wp), intent(in) :: pressure
 
       status = POINT_OPEN
       if (pressure <= 0.0_wp) return
       status = POINT_SLIP
       if (line%law(j)%kind == FRICTION_NONE) return
-      i = line%tangential(j)
-      if (i > 0) then
-         if (solution%state%state(i) == FREE) status = POINT_STICK
-      else
-         if (abs(slip - rest_of(line, j)) <= sticking_slip(line%law(j), solution%tau(j)) &
-             .or. sticking_slip(line%law(j), 1.0_wp) == 0.0_wp) then
-            status = POINT_STICK
-         end if
-      end if
+      if (.not. is_full(solution%t(j), solution%tau(j))) status = POINT_STICK
    end function status_of
 
    !> Stresses at the Gauss points of the requested elements.

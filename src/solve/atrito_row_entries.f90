@@ -168,14 +168,14 @@ contains
       if (line%normal(line%point(i)) == i) d = rows%normal(:, line%point(i))
    end function direction_of
 
-   !> What forces work on the rigid motions of all bodies, h = Z' f over the free dofs, and the size of what that is the sum of. Work
-   !> that is round-off of its terms is none; and the place where a force acts is known to rounding of the coordinates alone, so what
+   !> What forces work on the rigid motions of all bodies, h = Z' f over the free dofs, and the size of what that is the sum of. A body
+   !> whose forces balance but for round-off rests: it has no load. The place where a force acts is known to rounding of the coordinates alone, so what
    !> turns a body has a size though all forces act at its centre.
    pure subroutine loads_on_motions(fem, f, work, work_size)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) [F]
       real(wp), intent(out) :: work(:), work_size(:) !< (k) [F]
-      real(wp), parameter :: BALANCED = 1.0e-13_wp, LEVER = 0.1_wp
+      real(wp), parameter :: BALANCED = 1.0e-14_wp, LEVER = 0.1_wp
       integer(ip) :: first(fem%bodies%n + 1), b, m
       real(wp) :: all_forces
 
@@ -188,8 +188,10 @@ contains
                call work_on_motion(fem, body, m - first(b) + 1_ip, f, work(m), work_size(m))
                work_size(m) = max(work_size(m), LEVER*abs(body%modes(3, m - first(b) + 1))*all_forces &
                                   *max(1.0_wp, maxval(abs(body%centre))/body%size))
-               if (abs(work(m)) <= BALANCED*work_size(m)) work(m) = 0.0_wp
             end do
+            associate (own => work(first(b):first(b + 1) - 1))
+               if (all(abs(own) <= BALANCED*work_size(first(b):first(b + 1) - 1))) own = 0.0_wp
+            end associate
          end associate
       end do
    end subroutine loads_on_motions

@@ -30,6 +30,9 @@ module atrito_scene_system
 
    end interface
 
+   !> A load on a motion of at most this share of what it is the sum of is none.
+   real(wp), parameter :: LOAD_ROUND_OFF = 1.0e-13_wp
+
 contains
 
    !> What prescribed displacements, initial gaps and rest slips leave of the rows: g0.
@@ -123,6 +126,7 @@ contains
       end do
       k = scene%n - scene%k + 1
       call loads_on_motions(fem, f, scene%load(k:), scene%size_of_load(k:))
+      where (abs(scene%load(k:)) <= LOAD_ROUND_OFF*scene%size_of_load(k:)) scene%load(k:) = 0.0_wp
    end subroutine set_scene_load
 
    !> Displacements without rigid motions at the free dofs, (2, n_nodes).

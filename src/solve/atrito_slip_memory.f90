@@ -2,15 +2,15 @@
 !> points of each pair have dissipated.
 !>
 !> After an increment a sticking point keeps its s0, a slipping one has s0 = u_T - c t (c t is the elastic slip, which it keeps),
-!> and an open one s0 = u_T: it touches again without shear. Friction dissipates w t ds0. Laws of the total slip have no rest slip,
-!> but the same sum tells what they dissipate.
+!> and one without a friction bound s0 = u_T: it touches again without shear. Friction dissipates w t ds0. Laws of the total slip
+!> have no rest slip, but the same sum tells what they dissipate.
 module atrito_slip_memory
    use atrito_contact_line, only: contact_line_t
-   use atrito_friction_law, only: sticking_slip, FRICTION_NONE
+   use atrito_friction_law, only: is_full, stick_compliance, FRICTION_NONE
    use atrito_kinds, only: ip, wp
    use atrito_model, only: model_t
    use atrito_restart_state, only: restart_state_t
-   use atrito_results, only: contact_result_t, POINT_OPEN, POINT_SLIP
+   use atrito_results, only: contact_result_t
    implicit none (type, external)
    private
    public :: slip_memory_t, begin_memory, remember_slips, put_rest, put_memory, take_memory
@@ -20,8 +20,9 @@ module atrito_slip_memory
       real(wp), allocatable :: rest(:)               !< (points) s0 [L]
       real(wp), allocatable :: slip(:)               !< (points) u_T of the last increment [L]
       real(wp), allocatable :: shear(:)              !< (points) t of the last increment [F/L^2]
-      logical, allocatable :: slides(:)              !< (points) it slipped in the last increment
+      logical, allocatable :: slides(:)              !< (points) the friction of the last increment was at its bound
       real(wp), allocatable :: dissipation(:)        !< (pairs) from the beginning [F L]
+      real(wp), allocatable :: moved(:)              !< (pairs) largest displacement and slip so far [L]
    end type slip_memory_t
 
 contains
@@ -36,7 +37,7 @@ contains
       n = sum(n_points)
       allocate (memory%is_incremental(n), memory%slides(n), source=.false.)
       allocate (memory%rest(n), memory%slip(n), memory%shear(n), source=0.0_wp)
-      allocate (memory%dissipation(size(n_points)), source=0.0_wp)
+      allocate (memory%dissipation(size(n_points)), memory%moved(size(n_points)), source=0.0_wp)
       first = 0
       do i = 1, size(n_points, kind=ip)
          memory%is_incremental(first + 1:first + n_points(i)) = model%interactions(model%pairs(i)%interaction)%is_incremental
@@ -45,8 +46,9 @@ contains
    end subroutine begin_memory
 
    !> Takes a converged increment over: rest slips, dissipation, and what each point has slipped since the one before.
-   pure subroutine remember_slips(line, contact, memory)
+   pure subroutine remember_slips(line, tau, contact, memory)
       type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tau(:)                 !< (points) friction bound that it was solved with [F/L^2]
       type(contact_result_t), intent(inout) :: contact(:) !< one a pair
       type(slip_memory_t), intent(inout) :: memory
       integer(ip) :: i, j, first
@@ -55,50 +57,56 @@ contains
       do i = 1, size(contact, kind=ip)
          associate (c => contact(i))
             c%slip_increment = c%slip - memory%slip(first + 1:first + c%n)
+            memory%moved(i) = max(memory%moved(i), maxval(abs(c%u)), maxval(abs(c%slip)))
             do j = 1, c%n
-               call remember_point(line, c, j, first + j, memory, memory%dissipation(i))
+               call remember_point(line, tau(first + j), c, j, first + j, memory, memory%dissipation(i))
             end do
             first = first + c%n
          end associate
       end do
    end subroutine remember_slips
 
-   pure subroutine remember_point(line, c, j, k, memory, dissipation)
+   !> What counts is the friction bound, not the pressure: the nonlocal law has one at open points beside closed ones, too.
+   pure subroutine remember_point(line, tau, c, j, k, memory, dissipation)
       type(contact_line_t), intent(in) :: line
+      real(wp), intent(in) :: tau                    !< friction bound that the increment was solved with [F/L^2]
       type(contact_result_t), intent(in) :: c
       integer(ip), intent(in) :: j, k                !< place in the pair, and on the line
       type(slip_memory_t), intent(inout) :: memory
       real(wp), intent(inout) :: dissipation         !< of the pair [F L]
       real(wp) :: rest, t, mean
+      logical :: slides
 
       t = -c%shear(j)
       rest = memory%rest(k)
-      if (line%law(k)%kind == FRICTION_NONE .or. c%status(j) == POINT_OPEN) then
+      slides = abs(t) > 0.0_wp .and. is_full(t, tau)
+      if (line%law(k)%kind == FRICTION_NONE .or. c%weighted_pressure(j) <= 0.0_wp) then
          rest = c%slip(j)
-      else if (c%status(j) == POINT_SLIP) then
-         rest = c%slip(j) - sign(sticking_slip(line%law(k), abs(t)), t)
-         if (t == 0.0_wp) rest = c%slip(j)
+      else if (slides) then
+         rest = c%slip(j) - stick_compliance(line%law(k), tau)*t
          ! it slid on from the force that it had, or began to slide in this increment
          mean = t
          if (memory%slides(k) .and. t*memory%shear(k) > 0.0_wp) mean = 0.5_wp*(t + memory%shear(k))
          dissipation = dissipation + c%weight(j)*mean*(rest - memory%rest(k))
       end if
-      memory%slides(k) = c%status(j) == POINT_SLIP
+      memory%slides(k) = slides
       memory%rest(k) = rest
       memory%slip(k) = c%slip(j)
       memory%shear(k) = t
    end subroutine remember_point
 
-   !> The contact line learns the rest slips of its laws.
+   !> The contact line learns the rest slips of its laws, and how far its pairs have moved.
    pure subroutine put_rest(memory, line)
       type(slip_memory_t), intent(in) :: memory
       type(contact_line_t), intent(inout) :: line
       integer(ip) :: j
 
-      if (.not. allocated(line%rest)) allocate (line%rest(line%n), line%shear_before(line%n))
+      if (.not. allocated(line%rest)) allocate (line%rest(line%n), line%shear_before(line%n), line%moved(line%n))
       line%rest = 0.0_wp
       line%shear_before = 0.0_wp
+      line%moved = 0.0_wp
       do j = 1, size(memory%rest, kind=ip)
+         line%moved(j) = memory%moved(line%pair(j))
          if (.not. memory%is_incremental(j)) cycle
          line%rest(j) = memory%rest(j)
          line%shear_before(j) = memory%shear(j)
@@ -115,6 +123,7 @@ contains
       state%shear = memory%shear
       state%slides = memory%slides
       state%dissipation = memory%dissipation
+      state%moved = memory%moved
    end subroutine put_memory
 
    pure subroutine take_memory(state, memory)
@@ -126,6 +135,7 @@ contains
       memory%shear = state%shear
       memory%slides = state%slides
       memory%dissipation = state%dissipation
+      memory%moved = state%moved
    end subroutine take_memory
 
 end module atrito_slip_memory

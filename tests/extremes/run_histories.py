@@ -29,6 +29,7 @@ from scene_reader import read_deck, read_table
 
 DISSIPATION = 1e-7   # of the sum of its terms
 SUMS = 1e-7          # of the sum of the forces
+FULL = 1e-8          # of the friction bound: a shear that is nearer to it has reached it
 
 
 class Outcome:
@@ -227,13 +228,15 @@ def remember(pair, field, memory, zero, number, verdict):
         where = f'pair {number} point {j + 1}'
         verdict.test('slip increment', field['slip_increment'][j] - (slip[j] - memory.slip[j]),
                      1e-15*(abs(slip[j]) + abs(memory.slip[j])) + 4*zero + 1e-300, where)
-        status, rest = int(field['status'][j]), memory.rest[j]
-        if law.kind == 'NONE' or law.nu == 0 or status == 0:
+        rest, shear = memory.rest[j], abs(t[j])
+        # the nonlocal law has friction at open points, too
+        is_free = law.kind == 'NONE' or law.nu == 0 or (field['status'][j] == 0 and field['bound'][j] <= 0)
+        is_full = not is_free and (field['status'][j] == 2 or field['status'][j] == 0 and shear >= (1 - FULL)*field['bound'][j])
+        if is_free:
             rest = slip[j]
-        elif status == 2:
-            bound = abs(t[j])
-            limit = law.eps if law.kind == 'NONLOCAL' else bound/law.slope
-            rest = slip[j] - math.copysign(limit, t[j]) if bound > 0 else slip[j]
+        elif is_full:
+            limit = law.eps if law.kind == 'NONLOCAL' else shear/law.slope
+            rest = slip[j] - math.copysign(limit, t[j]) if shear > 0 else slip[j]
             mean = t[j]
             if memory.slides[j] and t[j]*memory.shear[j] > 0:
                 mean = 0.5*(t[j] + memory.shear[j])
@@ -243,9 +246,9 @@ def remember(pair, field, memory, zero, number, verdict):
                 verdict.test('friction that drives', min(term, 0.0), slack + 1e-300, where)
             memory.dissipation += term
             memory.terms += abs(term) + slack/DISSIPATION
-        if status != 1 or law.kind == 'NONE' or law.nu == 0:
+        if is_free or is_full:
             memory.drift[j] = field['place'][j]
-        memory.slides[j] = status == 2
+        memory.slides[j] = is_full
         memory.rest[j], memory.slip[j], memory.shear[j] = rest, slip[j], t[j]
 
 
