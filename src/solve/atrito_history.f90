@@ -14,6 +14,7 @@ module atrito_history
    use atrito_kinds, only: ip, wp
    use atrito_model, only: is_due, model_t, requests_t, step_t
    use atrito_observer, only: note_observed, observer_t
+   use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_state, only: restart_state_t
@@ -225,6 +226,7 @@ contains
          allocate (history%frames(0))
          return
       end if
+      call warn_of_pressures(model, history%frames)
       associate (frame => history%frames(1))
          frame%time = model%steps(1)%increments%period
          frame%step_time = frame%time
@@ -459,6 +461,7 @@ contains
          run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
       end do
       call warn(run%data, run%data%last, run%last)
+      call warn_of_pressures(run%data%model, history%frames)
    end subroutine finish
 
    pure subroutine take_larger(one, largest)
