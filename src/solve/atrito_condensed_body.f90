@@ -404,7 +404,7 @@ contains
       end associate
    end function body_text
 
-   !> Whether a motion turns a body: what turns about a point many sizes away moves along a line, as far as the digits of a deck tell.
+   !> Whether a motion turns a body: what turns about a point many sizes away moves along a line, as far as the digits tell.
    pure logical function is_turn(mode)
       real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation at the size of the body
 

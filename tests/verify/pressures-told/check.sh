@@ -36,4 +36,7 @@ silent nothing N-OPEN rings.inp --set gap=0.03
 sed 's/^IN-RIGHT, OUT-LEFT/&\nOUT-LEFT, IN-RIGHT/; /CLEARANCE/d' rings.inp >twice.inp
 told twice 'IN-RIGHT on OUT-LEFT and OUT-LEFT on IN-RIGHT: the same faces face each other in both pairs' twice.inp --set push=1
 says twice twice.err 'one of them, OUT-LEFT on IN-RIGHT, whose slave is the softer side'
+told wedge 'W-LEFT on LEFT carries forces of 250 [F], more than a hundred times' wedge.inp
+near 'the wedge' "$(summary wedge normal_resultant | head -1)" 250.0005 1e-3
+silent blunt W-WEDGE wedge.inp --set s=0.02
 finish
