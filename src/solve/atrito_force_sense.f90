@@ -4,6 +4,7 @@
 !> make of it. A pair that carries a hundred times as much is wedged by normals that are hardly apart from the free motion, so the
 !> last digits of the coordinates decide what comes out.
 module atrito_force_sense
+   use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
    use atrito_messages, only: add_warning
    use atrito_points, only: contact_points_t
@@ -12,7 +13,7 @@ module atrito_force_sense
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: force_sense_t, watch_forces, tell_forces, pair_force, sides_differ
+   public :: force_sense_t, watch_forces, tell_forces, pair_force, free_share, sides_differ
 
    !> What was seen so far of a run.
    type :: force_sense_t
@@ -20,11 +21,16 @@ module atrito_force_sense
       integer(ip) :: wedged = 0                  !< pair that carried most beside that; 0: none too much
       real(wp) :: force = 0.0_wp, beside = 0.0_wp !< what it carried, and what was asked for [F]
       real(wp) :: times = 0.0_wp                 !< the one over the other
+      integer(ip) :: held_pair = 0, held_point = 0 !< a point that its support wedges, and its pair; 0: none
+      real(wp) :: held_force = 0.0_wp, held_beside = 0.0_wp !< the same of it [F]
       integer(ip) :: unbalanced = 0              !< pair whose sides do not add up; 0: all do
       real(wp) :: off = 0.0_wp, moment = 0.0_wp  !< the part of force times length that is missing; and the moment [F L]
    end type force_sense_t
 
    real(wp), parameter :: WEDGE = 100.0_wp        !< times what is asked for: a lever of 100 to 1, a wedge of 0.3 degrees
+   !> A point whose row leaves no more than this to the dofs that are free, and carries so many times what is asked for, is wedged by
+   !> its support: of a force along the normal the support takes almost all.
+   real(wp), parameter :: HELD = 0.1_wp, HELD_WEDGE = 5.0_wp
    real(wp), parameter :: ALIKE = 1.0e-6_wp      !< pairs that differ by less: the first one is told
    real(wp), parameter :: UNBALANCED = 0.01_wp   !< of force times length of a pair: moments of curved sides are off by less
 
@@ -36,16 +42,19 @@ contains
       type(results_t), intent(in) :: results
       type(force_sense_t), intent(inout) :: sense
       real(wp) :: force, times, off, moment
-      integer(ip) :: i
+      integer(ip) :: i, first
 
       if (size(data%points) == 0) return
       sense%asked = max(sense%asked, asked_for(data))
+      first = 0
       do i = 1, size(data%points, kind=ip)
+         call watch_held_points(data, i, first, results%contact(i), sense)
+         first = first + data%points(i)%n
          force = pair_force(results%contact(i))
          if (force > WEDGE*sense%asked) then
             times = huge(times)
             if (sense%asked > tiny(times)*force) times = force/sense%asked
-            if (sense%wedged == 0 .or. times > sense%times + ALIKE*sense%times) then
+            if (sense%wedged == 0 .or. times*(1 - ALIKE) > sense%times) then
                sense%wedged = i
                sense%force = force
                sense%beside = sense%asked
@@ -60,6 +69,46 @@ contains
          sense%moment = moment
       end do
    end subroutine watch_forces
+
+   !> Points at nodes that are held almost along their normals.
+   pure subroutine watch_held_points(data, i, before, contact, sense)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: i               !< the pair
+      integer(ip), intent(in) :: before          !< rows of the pairs before
+      type(contact_result_t), intent(in) :: contact
+      type(force_sense_t), intent(inout) :: sense
+      real(wp) :: force
+      integer(ip) :: j
+
+      do j = 1, contact%n
+         force = contact%weight(j)*contact%pressure(j)
+         if (force <= max(HELD_WEDGE*sense%asked, sense%held_force)) cycle
+         if (free_share(data%rows, before + j, data%held) > HELD) cycle
+         sense%held_pair = i
+         sense%held_point = j
+         sense%held_force = force
+         sense%held_beside = sense%asked
+      end do
+   end subroutine watch_held_points
+
+   !> What is left of the row of a point at the dofs that are free, as a part of it.
+   pure real(wp) function free_share(rows, j, held) result(share)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j
+      logical, intent(in) :: held(:, :)          !< (2, n_nodes)
+      real(wp) :: free, all
+      integer(ip) :: k
+
+      free = 0.0_wp
+      all = 0.0_wp
+      do k = rows%first(j), rows%first(j + 1) - 1
+         associate (row => rows%coefficient(k)*rows%normal(:, j))
+            free = free + sum(row**2, mask=.not. held(:, rows%node(k)))
+            all = all + sum(row**2)
+         end associate
+      end do
+      share = sqrt(free/all)
+   end function free_share
 
    !> The largest of the forces that loads, temperatures, overlaps and prescribed displacements can make where nothing is wedged: of
    !> a displacement what it makes if one face takes it up, at each of the points.
@@ -146,8 +195,9 @@ contains
    end subroutine sides_differ
 
    !> Tells what was seen of a run.
-   subroutine tell_forces(pairs, sense)
+   subroutine tell_forces(pairs, contact, sense)
       type(pair_scene_t), intent(in) :: pairs(:)
+      type(contact_result_t), intent(in) :: contact(:) !< one a pair, for the places
       type(force_sense_t), intent(in) :: sense
       character(len=:), allocatable :: text
 
@@ -156,6 +206,15 @@ contains
                 //' what loads, overlaps, temperatures and prescribed displacements can ask for ('//to_text(sense%beside, 3) &
                 //' [F]): bodies are wedged, by normals that are hardly apart from a motion that is free otherwise, and the last' &
                 //' digits of the coordinates decide how far'
+         call add_warning('W-WEDGE', text)
+      end if
+      if (sense%held_pair > 0) then
+         associate (x => contact(sense%held_pair)%x(:, sense%held_point))
+            text = pair_text(pairs(sense%held_pair))//' carries '//to_text(sense%held_force, 3)//' [F] at the point (' &
+                   //to_text(x(1), 5)//', '//to_text(x(2), 5)//'), where '//to_text(sense%held_beside, 3)//' [F] act in all:' &
+                   //' a support holds the node almost, but not quite, along the normal of the contact, and the two are wedged.' &
+                   //' Hold it along the normal, or leave the node out of the slave'
+         end associate
          call add_warning('W-WEDGE', text)
       end if
       if (sense%unbalanced > 0) then

@@ -466,7 +466,7 @@ contains
       end do
       call warn(run%data, run%data%last, run%last)
       call warn_of_pressures(run%data%model, history%frames)
-      call tell_forces(run%last%scene%pairs, run%sense)
+      call tell_forces(run%last%scene%pairs, run%last%contact, run%sense)
    end subroutine finish
 
    pure subroutine take_larger(one, largest)

@@ -133,7 +133,7 @@ contains
       call warn(data, solution, results)
       if (.not. is_solved(results, status)) return
       call watch_forces(data, results, sense)
-      call tell_forces(results%scene%pairs, sense)
+      call tell_forces(results%scene%pairs, results%contact, sense)
    end subroutine solve_static
 
    !> Methods that the form of the scene does not have.
