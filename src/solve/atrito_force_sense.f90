@@ -28,8 +28,8 @@ module atrito_force_sense
    end type force_sense_t
 
    real(wp), parameter :: WEDGE = 100.0_wp        !< times what is asked for: a lever of 100 to 1, a wedge of 0.3 degrees
-   !> A point whose row leaves no more than this to the dofs that are free, and carries so many times what is asked for, is wedged by
-   !> its support: of a force along the normal the support takes almost all.
+   !> A point whose row leaves no more than this to the dofs that are free, and that carries so many times what is asked for, is
+   !> wedged by its support: of a force along the normal the support takes almost all.
    real(wp), parameter :: HELD = 0.1_wp, HELD_WEDGE = 5.0_wp
    real(wp), parameter :: ALIKE = 1.0e-6_wp      !< pairs that differ by less: the first one is told
    real(wp), parameter :: UNBALANCED = 0.01_wp   !< of force times length of a pair: moments of curved sides are off by less
