@@ -31,6 +31,7 @@ module atrito_build_model
    use atrito_build_surfaces, only: build_surfaces
    use atrito_check_contact, only: check_surfaces_of_pairs, check_points_of_pairs, note_unused_interactions
    use atrito_check_contact_sense, only: warn_of_overlap, warn_of_loaded_contact
+   use atrito_check_pairs_twice, only: warn_of_pairs_twice
    use atrito_check_mesh, only: check_mesh
    use atrito_clearance, only: clearance_t, read_clearances, set_clearances
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
@@ -175,6 +176,7 @@ contains
       call make_solver_mesh(model)
       call warn_of_overlap(model, context)
       call warn_of_loaded_contact(model, context)
+      call warn_of_pairs_twice(model, context)
    end subroutine build_once
 
    !> What acts in each step and what it asks for.

@@ -23,7 +23,7 @@ module atrito_condensed_body
    private
    public :: condensed_body_t, condense_body, check_held, factor_body, choose_solver, set_load, contact_response, &
              add_flexibilities, &
-             expand_body, motion_text, body_text, how_it_moves, sparse_cost
+             expand_body, motion_text, body_text, how_it_moves, is_turn, sparse_cost
 
    type :: condensed_body_t
       class(linear_solver_t), allocatable :: solver
@@ -31,6 +31,8 @@ module atrito_condensed_body
       real(wp), allocatable :: load(:, :)          !< (n, 1) reduced load: half-solved interior, then f_c
       logical :: is_near = .false.                 !< some elements have the stiffness of one that they are near to, and not equal
    end type condensed_body_t
+
+   real(wp), parameter :: FARTHEST_CENTRE = 1.0e4_wp !< of a rotation, in sizes of the body
 
    ! Costs in operations of the skyline, fitted to blocks and strips of 200 to 900,000 equations with OpenBLAS
    ! (docs/developer/solvers.md).
@@ -402,20 +404,28 @@ contains
       end associate
    end function body_text
 
+   !> Whether a motion turns a body: what turns about a point many sizes away moves along a line, as far as the digits tell.
+   pure logical function is_turn(mode)
+      real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation at the size of the body
+
+      is_turn = FARTHEST_CENTRE*abs(mode(3)) > norm2(mode(:2))
+   end function is_turn
+
    !> 'rotate about (1, 0)', 'move along x1'
    function how_it_moves(fem, i_body, mode) result(text)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       real(wp), intent(in) :: mode(3)              !< translations along 1 and 2, rotation
       character(len=:), allocatable :: text
-      real(wp), parameter :: SMALL = 1.0e-9_wp
-      real(wp) :: size_of_mode, centre(2)
+      real(wp), parameter :: SMALL = 1.0e-6_wp     !< the digits of the texts
+      real(wp) :: size_of_mode, arm(2), centre(2)
 
       size_of_mode = maxval(abs(mode))
       associate (body => fem%bodies%list(i_body))
-         if (abs(mode(3)) > SMALL*size_of_mode) then
-            centre = body%centre + [-mode(2), mode(1)]*body%size/mode(3)
-            where (abs(centre) < 1.0e-12_wp*body%size) centre = 0.0_wp
+         if (is_turn(mode)) then
+            arm = [-mode(2), mode(1)]*body%size/mode(3)
+            centre = body%centre + arm
+            where (abs(centre) < SMALL*max(body%size, abs(arm))) centre = 0.0_wp
             text = 'rotate about ('//to_text(centre(1))//', '//to_text(centre(2))//')'
          else if (abs(mode(2)) <= SMALL*size_of_mode) then
             text = 'move along x1'

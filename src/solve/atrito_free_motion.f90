@@ -14,6 +14,7 @@ module atrito_free_motion
    public :: free_motion_text
 
    real(wp), parameter :: SMALL = 1.0e-6_wp    !< part of a size that is none
+   real(wp), parameter :: GROWS = 2.0_wp       !< times: a load that grows by more until the step ends is told as it is then, too
    integer, parameter :: DIGITS = 5
    integer(ip), parameter :: MOST_NAMES = 3_ip !< bodies or pairs that are named
 
@@ -98,11 +99,11 @@ contains
          text = turning_text(pairs, mechanism, subject)
       else if (any(mechanism%slides)) then
          text = subject//trim(merge(' slides', ' slide ', subject == 'it'))//joint_text(pairs, mechanism)//', '//driven//'H = ' &
-                //amount(mechanism%load, .false.)//' and '//friction_text(line, mechanism)
+                //driving(mechanism, .false.)//' and '//friction_text(line, mechanism)
       else if (any(mechanism%opens)) then
-         text = 'the contact opens'//joint_text(pairs, mechanism)//', '//driven//amount(mechanism%load, .false.)
+         text = 'the contact opens'//joint_text(pairs, mechanism)//', '//driven//driving(mechanism, .false.)
       else
-         text = driven//amount(mechanism%load, .false.)
+         text = driven//driving(mechanism, .false.)
          if (mechanism%touches) text = text//', and no contact is in the way'
       end if
    end function cause_text
@@ -115,7 +116,7 @@ contains
 
       text = 'the load turns it with '
       if (subject == 'they') text = 'the loads turn them with '
-      text = text//amount(mechanism%load, .true.)//' about that point, and '
+      text = text//driving(mechanism, .true.)//' about that point, and '
       if (any(mechanism%slides) .and. mechanism%friction > SMALL*mechanism%load) then
          text = text//'friction holds '//amount(mechanism%friction, .true.)//' at most, '//shortfall(mechanism, .true.)
       else
@@ -213,6 +214,17 @@ contains
       end do
       if (n > MOST_NAMES) text = text//to_text(n - MOST_NAMES)//' more'
    end function pair_names
+
+   !> What drives the motion, and of a step that has just begun what will at its end.
+   pure function driving(mechanism, turns) result(text)
+      type(mechanism_t), intent(in) :: mechanism
+      logical, intent(in) :: turns
+      character(len=:), allocatable :: text
+
+      text = amount(mechanism%load, turns)
+      if (mechanism%load_at_end <= GROWS*mechanism%load) return
+      text = text//' already ('//amount(mechanism%load_at_end, turns)//' at the end of the step)'
+   end function driving
 
    pure function amount(force, turns) result(text)
       real(wp), intent(in) :: force

@@ -9,12 +9,14 @@ module atrito_history
    use atrito_contact_solution, only: contact_solution_t
    use atrito_history_lists, only: add_frame, add_iterations, add_row, move_frame, trim_lists
    use atrito_history_rows, only: row_of_pair
+   use atrito_force_sense, only: force_sense_t, pair_force, tell_forces, watch_forces
    use atrito_increment, only: complete_results, is_solved, solve_increment
    use atrito_shared_fields, only: shared_fields_t
    use atrito_increment_length, only: cut_increment, is_longer_than_least, lengthen, next_time, progress_t
    use atrito_kinds, only: ip, wp
    use atrito_model, only: is_due, model_t, requests_t, step_t
    use atrito_observer, only: note_observed, observer_t
+   use atrito_pressure_warnings, only: warn_of_pressures
    use atrito_recorder, only: recorder_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_restart_state, only: restart_state_t
@@ -49,6 +51,7 @@ module atrito_history
       logical :: has_last = .false.
       real(wp) :: began = 0.0_wp                    !< when the step began, time of the history
       real(wp) :: condition = 1.0_wp                !< the largest of the contact line
+      type(force_sense_t) :: sense
       integer(ip) :: n_frames = 0, n_rows = 0, n_iterations = 0 !< of the history so far
       character(len=:), allocatable :: idle         !< the first motion of a printed increment that nothing determines, and when
       integer(ip) :: n_idle = 0                     !< printed increments with one
@@ -133,7 +136,7 @@ contains
       type(progress_t), intent(out) :: now
       type(status_t), intent(out) :: status
       type(solve_options_t) :: as_before
-      integer(ip) :: first
+      integer(ip) :: first, i
 
       history = run%recorder%found
       run%n_frames = size(history%frames, kind=ip)
@@ -165,6 +168,7 @@ contains
          run%has_last = .true.
          run%scene%bodies = state%last%scene%bodies
          run%condition = state%condition
+         run%sense%asked = sum([(pair_force(state%last%contact(i)), i=1, size(state%last%contact, kind=ip))])
          run%began = state%began
          now = progress_t(state%increment, state%step_time, state%length)
       end associate
@@ -233,6 +237,7 @@ contains
          allocate (history%frames(0))
          return
       end if
+      call warn_of_pressures(model, history%frames)
       associate (frame => history%frames(1))
          frame%time = model%steps(1)%increments%period
          frame%step_time = frame%time
@@ -391,6 +396,7 @@ contains
       run%scene%bodies = results%scene%bodies        ! as they were factored
       call remember_slips(run%data%line, solution%tau, results%contact, run%memory)
       call put_rest(run%memory, run%data%line)
+      call watch_forces(run%data, results, run%sense)
       do i = 1, size(results%contact, kind=ip)
          call add_row(row_of_pair(run%data%points(i), results, i, run%memory%dissipation(i)), run%n_rows, history%rows)
       end do
@@ -494,6 +500,8 @@ contains
          run%last%contraction_estimate = max(run%last%contraction_estimate, history%frames(i)%contraction_estimate)
       end do
       call warn(run%data, run%data%last, run%last, idle_increments(run))
+      call warn_of_pressures(run%data%model, history%frames)
+      call tell_forces(run%last%scene%pairs, run%last%contact, run%sense)
    end subroutine finish
 
    pure subroutine take_larger(one, largest)

@@ -26,7 +26,7 @@ module atrito_increment
    use atrito_results, only: results_t, scene_t, pair_scene_t
    use atrito_rigid_results, only: take_rigid_results
    use atrito_row_forces, only: share_out_rows, clear_balance, leave_out_sections
-   use atrito_scene_data, only: scene_data_t, drop_assembled
+   use atrito_scene_data, only: scene_data_t, drop_assembled, forces_at_end
    use atrito_scene_top, only: take_trouble_of_top
    use atrito_section_forces, only: sum_cuts
    use atrito_sparse_form, only: solve_sparse_form
@@ -150,7 +150,7 @@ contains
       call take_trouble_of_top(status)
       solution%form = form
       call start_phase('iterate')
-      call judge_outcome(data, results%scene%pairs, solution, status)
+      call judge_outcome(data, results, solution, status)
       call stop_phase('iterate')
       if (.not. is_ok(status)) return
       call start_phase('recover')
@@ -292,19 +292,23 @@ contains
    end function attempt_text
 
    !> Without a solution: whether there can be one. Free motion becomes a proof of it, or a last iterate that did not converge.
-   subroutine judge_outcome(data, pairs, solution, status)
+   subroutine judge_outcome(data, results, solution, status)
       type(scene_data_t), intent(in) :: data
-      type(pair_scene_t), intent(in) :: pairs(:)
+      type(results_t), intent(in) :: results               !< when, and the pairs
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(inout) :: status
+      real(wp), allocatable :: f_end(:, :)
       logical :: moves
 
       moves = .false.
       if (.not. is_ok(status)) moves = status%text == FREE_MOTION
       if (.not. moves .and. (solution%converged .or. .not. is_ok(status))) return
       solution%converged = .false.
-      if (moves) solution%verdict = 'no friction bound that was tried holds the bodies'//moving_text(data, solution)
-      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, pairs, solution%verdict, status)
+      if (moves) solution%verdict = trim(merge('no friction bound that was tried holds the bodies', &
+                                               'no contact forces that were tried hold the bodies', &
+                                               data%line%has_friction))//moving_text(data, solution)
+      call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
+      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, f_end, results%scene%pairs, solution%verdict, status)
    end subroutine judge_outcome
 
    !> The body that moved most under the last friction bound, and how.
@@ -327,9 +331,11 @@ contains
       type(scene_data_t), intent(in) :: data
       type(results_t), intent(inout) :: results
       type(status_t), intent(inout) :: status
+      real(wp), allocatable :: f_end(:, :)
 
       if (results%law_holds .or. .not. results%converged .or. data%line%n == 0) return
-      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, results%scene%pairs, results%verdict, status)
+      call forces_at_end(data, moment_t(results%step_time, results%time), f_end)
+      call judge_balance(data%fem, data%held, data%rows, data%line, data%f, f_end, results%scene%pairs, results%verdict, status)
    end subroutine judge_failed_check
 
    !> What is worth its time where it is printed: sums by joint, stresses and their error, the largest of all, the limits of

@@ -6,6 +6,7 @@
 module atrito_mechanism
    use atrito_assembly, only: fem_t
    use atrito_certificate, only: certificate_t, friction_work
+   use atrito_condensed_body, only: is_turn
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_rows, only: contact_rows_t, row_value
    use atrito_dense, only: least_squares
@@ -26,6 +27,7 @@ module atrito_mechanism
       logical, allocatable :: opens(:)           !< (pairs) points open
       !> Of bodies that move together, a displacement [F] or a rotation [F L] of one; else of any size:
       real(wp) :: load = 0.0_wp                  !< what drives it
+      real(wp) :: load_at_end = 0.0_wp           !< what would drive it at the end of the step
       real(wp) :: friction = 0.0_wp              !< the most that friction can hold
       real(wp) :: normal = 0.0_wp                !< the force on the pairs that slide, of bodies that move together without rotation
    end type mechanism_t
@@ -36,13 +38,14 @@ module atrito_mechanism
 
 contains
 
-   subroutine describe_motion(fem, rows, line, motions, certificate, mechanism)
+   subroutine describe_motion(fem, rows, line, motions, certificate, mechanism, work_at_end)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       type(motion_rows_t), intent(in) :: motions
       type(certificate_t), intent(in) :: certificate
       type(mechanism_t), intent(out) :: mechanism
+      real(wp), intent(in), optional :: work_at_end(:) !< (k) of the loads at the end of the step; left out: they are these
       real(wp) :: v(motions%k), by_friction(line%n), rate(motions%m), known_work
       logical :: closed(line%n)
 
@@ -51,9 +54,15 @@ contains
       call friction_work(line, rate, by_friction, known_work)
       call look_at_points(fem, rows, line, v, by_friction, closed, mechanism)
       call remove_lift(line, motions, closed, rate, v)
+      ! where the loads drive the lift itself it belongs to the motion
+      if (dot_product(motions%work, v) < (1 - SMALL)*certificate%excess) v = certificate%motion
       call list_bodies(fem, v, mechanism)
       call compare_bodies(fem, mechanism)
       call measure_forces(fem, motions, certificate, v, mechanism)
+      mechanism%load_at_end = mechanism%load
+      if (present(work_at_end)) mechanism%load_at_end = mechanism%load/dot_product(motions%work, v)*dot_product(work_at_end, v)
+      ! without friction the difference is round-off
+      if (.not. any(by_friction > 0.0_wp)) mechanism%friction = 0.0_wp
    end subroutine describe_motion
 
    !> Which pairs slide or open, and which points stay closed but for the lift.
@@ -168,7 +177,7 @@ contains
       integer(ip) :: i
 
       associate (one => fem%bodies%list(mechanism%bodies(1)), mode => mechanism%mode)
-         mechanism%turns = abs(mode(3, 1)) > SMALL*maxval(abs(mode(:, 1)))
+         mechanism%turns = is_turn(mode(:, 1))
          rotation = mode(3, 1)/one%size
          mechanism%together = .true.
          do i = 2, size(mechanism%bodies, kind=ip)

@@ -1,7 +1,8 @@
 !> Rigid surfaces from one step to the next: a motion that is prescribed now and was free begins where it is, what held one that is
 !> free now fades.
 module atrito_rigid_steps
-   use atrito_kinds, only: ip, wp
+   use atrito_internal_forces, only: internal_force_sizes
+   use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_load_lists, only: add_nodal_value
    use atrito_model, only: model_t, nodal_values_t
    use atrito_results, only: results_t, rigid_result_t
@@ -10,6 +11,9 @@ module atrito_rigid_steps
    implicit none (type, external)
    private
    public :: begin_motions_from, released_forces
+
+   !> A reaction that is less than this part of what was added up in it is none: a body that is free now would be driven by it.
+   real(wp), parameter :: ROUND_OFF = 100*EPS_MACH
 
 contains
 
@@ -36,16 +40,22 @@ contains
    end subroutine begin_motions_from
 
    !> The reactions at what was prescribed in the last increment and is free now.
-   pure function released_forces(data, last, held, prescribed) result(released)
+   function released_forces(data, last, held, prescribed) result(released)
       type(scene_data_t), intent(in) :: data               !< of the last increment
       type(results_t), intent(in) :: last                  !< its results
       logical, intent(in) :: held(:, :)                    !< now, (2, nodes of the solver's mesh)
       type(nodal_values_t), intent(in) :: prescribed       !< now, of reference nodes
       real(wp), allocatable :: released(:, :)              !< (2, nodes of the solver's mesh) [F]
+      real(wp), allocatable :: of_terms(:, :)
       integer(ip) :: n
 
       n = data%model%mesh%n_nodes
       released = merge(last%reaction, 0.0_wp, data%held(:, :n) .and. .not. held(:, :n))
+      if (any(abs(released) > 0.0_wp)) then
+         allocate (of_terms(2, n))
+         call internal_force_sizes(data%fem, last%u, of_terms)
+         where (abs(released) <= ROUND_OFF*of_terms) released = 0.0_wp
+      end if
       if (.not. has_moving_surfaces(data%model)) return
       released(:, data%model%rigid_bodies%node) = 0.0_wp
       call add_rigid_loads(data%model, released_loads(data, last%rigid, prescribed), released)

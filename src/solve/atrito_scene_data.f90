@@ -36,7 +36,7 @@ module atrito_scene_data
    implicit none (type, external)
    private
    public :: scene_data_t, asked_t, prepare, may_share_out, share_scene_out, set_time, assemble, drop_assembled, free_load, &
-             check_known_points
+             check_known_points, forces_at_end
 
    type :: scene_data_t
       type(model_t), pointer :: model => null()
@@ -142,6 +142,20 @@ contains
       data%thermal = 0.0_wp
       call add_thermal_loads(data%fem, data%thermal)
    end subroutine take_forces
+
+   !> The applied forces at the end of the step, for a word about them.
+   subroutine forces_at_end(data, now, f)
+      type(scene_data_t), intent(in) :: data
+      type(moment_t), intent(in) :: now                     !< in the step
+      real(wp), allocatable, intent(out) :: f(:, :)         !< (2, n_nodes) [F]
+      type(step_t) :: acting
+
+      associate (period => data%step%increments%period)
+         call act_at(data%model, data%step, moment_t(period, now%time + (period - now%step_time)), acting)
+      end associate
+      call nodal_loads(data%model, acting, f)
+      if (has_moving_surfaces(data%model)) call add_rigid_loads(data%model, acting%rigid_loads, f)
+   end subroutine forces_at_end
 
    !> Everything that acts at a time of the step, and the rest slips of the contact line: numbering and matrices stay.
    subroutine set_time(data, moment)

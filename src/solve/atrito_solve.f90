@@ -3,7 +3,8 @@ module atrito_solve
    use atrito_body_cache, only: body_cache_t
    use atrito_contact_form, only: CONTACT_AUTO, CONTACT_DENSE, CONTACT_SPARSE
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_increment, only: solve_increment
+   use atrito_force_sense, only: force_sense_t, tell_forces, watch_forces
+   use atrito_increment, only: is_solved, solve_increment
    use atrito_messages, only: add_note
    use atrito_model, only: model_t, step_t, METHOD_ANDERSON
    use atrito_reporter, only: reporter_t
@@ -116,6 +117,7 @@ contains
       type(body_cache_t), intent(inout) :: store           !< bodies of an earlier run, or none; on return those of this one
       type(scene_data_t) :: data
       type(contact_solution_t) :: solution
+      type(force_sense_t) :: sense
 
       call begin_scene(model, options, store, .false., data, results%scene, status)
       if (is_ok(status)) then
@@ -129,6 +131,9 @@ contains
       results%scene%memory = forecast_memory(model, data, results%scene)
       call report_unsettled(data%fem%mesh, data%points, data%rows, data%line, solution, results)
       call warn(data, solution, results, idle_text(data, solution))
+      if (.not. is_solved(results, status)) return
+      call watch_forces(data, results, sense)
+      call tell_forces(results%scene%pairs, results%contact, sense)
    end subroutine solve_static
 
    !> Methods that the form of the scene does not have.

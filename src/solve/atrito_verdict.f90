@@ -20,23 +20,25 @@ contains
 
    !> Judges a contact line without solution. status: STATUS_SINGULAR with the whole text where no forces that the contact can take
    !> balance the loads. Else it is OK, and the verdict says more.
-   subroutine judge_balance(fem, held, rows, line, f, pairs, verdict, status)
+   subroutine judge_balance(fem, held, rows, line, f, f_end, pairs, verdict, status)
       type(fem_t), intent(in) :: fem
       logical, intent(in) :: held(:, :)              !< (2, n_nodes)
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) applied forces [F]
+      real(wp), intent(in) :: f_end(:, :)            !< those at the end of the step
       type(pair_scene_t), intent(in) :: pairs(:)
       character(len=:), allocatable, intent(inout) :: verdict !< why there is no solution
       type(status_t), intent(out) :: status
-      type(motion_rows_t) :: motions
+      type(motion_rows_t) :: motions, motions_at_end
       type(certificate_t) :: certificate
       type(mechanism_t) :: mechanism
 
       call build_motion_rows(fem, rows, line, f, motions)
       call prove_balance(motions, line, certificate)
       if (certificate%verdict == BALANCE_IMPOSSIBLE) then
-         call describe_motion(fem, rows, line, motions, certificate, mechanism)
+         call build_motion_rows(fem, rows, line, f_end, motions_at_end)
+         call describe_motion(fem, rows, line, motions, certificate, mechanism, motions_at_end%work)
          call set_status(status, STATUS_SINGULAR, free_motion_text(fem, held, rows, line, pairs, mechanism))
          return
       end if

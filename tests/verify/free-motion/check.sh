@@ -34,4 +34,12 @@ run 4 falls.inp falls
 says falls falls.err 'together under their loads: the loads drive them with 5000 [F], and no contact is in the way; their supports'
 absent falls
 absent alone
+# a support that carried nothing leaves nothing behind, and a load that has just begun is told as it is at the end of its step
+for form in dense sparse; do
+   run 0 "$here/released.inp" released --contact $form
+   says "released $form" released.err 'W-IDLE'
+   sed 's/OP=NEW/&\n*CLOAD\n25, 1, 2/' "$here/released.inp" >moved.inp
+   run 4 moved.inp moved --contact $form
+   says "moved $form" moved.err 'the load drives it with H = 2e-5 [F] already (2 [F] at the end of the step) and there is no friction'
+done
 finish

@@ -1,0 +1,235 @@
+!> Whether the contact forces make sense beside all that can ask for them, and whether those upon the two sides of a pair add up.
+!>
+!> Contact forces are as large as loads, overlaps, temperatures and prescribed displacements make them, times what levers and wedges
+!> make of it. A pair that carries a hundred times as much is wedged by normals that are hardly apart from the free motion, so the
+!> last digits of the coordinates decide what comes out.
+module atrito_force_sense
+   use atrito_contact_rows, only: contact_rows_t
+   use atrito_kinds, only: ip, wp
+   use atrito_messages, only: add_warning
+   use atrito_points, only: contact_points_t
+   use atrito_results, only: contact_result_t, pair_scene_t, results_t
+   use atrito_scene_data, only: scene_data_t
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: force_sense_t, watch_forces, tell_forces, pair_force, free_share, sides_differ
+
+   !> What was seen so far of a run.
+   type :: force_sense_t
+      real(wp) :: asked = 0.0_wp                 !< the most so far that anything asked for, which friction may keep [F]
+      integer(ip) :: wedged = 0                  !< pair that carried most beside that; 0: none too much
+      real(wp) :: force = 0.0_wp, beside = 0.0_wp !< what it carried, and what was asked for [F]
+      real(wp) :: times = 0.0_wp                 !< the one over the other
+      integer(ip) :: held_pair = 0, held_point = 0 !< a point that its support wedges, and its pair; 0: none
+      real(wp) :: held_force = 0.0_wp, held_beside = 0.0_wp !< the same of it [F]
+      integer(ip) :: unbalanced = 0              !< pair whose sides do not add up; 0: all do
+      real(wp) :: off = 0.0_wp, moment = 0.0_wp  !< the part of force times length that is missing; and the moment [F L]
+   end type force_sense_t
+
+   real(wp), parameter :: WEDGE = 100.0_wp        !< times what is asked for: a lever of 100 to 1, a wedge of 0.3 degrees
+   !> A point whose row leaves no more than this to the dofs that are free, and that carries so many times what is asked for, is
+   !> wedged by its support: of a force along the normal the support takes almost all.
+   real(wp), parameter :: HELD = 0.1_wp, HELD_WEDGE = 5.0_wp
+   real(wp), parameter :: ALIKE = 1.0e-6_wp      !< pairs that differ by less: the first one is told
+   real(wp), parameter :: UNBALANCED = 0.01_wp   !< of force times length of a pair: moments of curved sides are off by less
+
+contains
+
+   !> Looks at an increment that was solved.
+   subroutine watch_forces(data, results, sense)
+      type(scene_data_t), intent(in) :: data
+      type(results_t), intent(in) :: results
+      type(force_sense_t), intent(inout) :: sense
+      real(wp) :: force, times, off, moment
+      integer(ip) :: i, first
+
+      if (size(data%points) == 0) return
+      sense%asked = max(sense%asked, asked_for(data))
+      first = 0
+      do i = 1, size(data%points, kind=ip)
+         call watch_held_points(data, i, first, results%contact(i), sense)
+         first = first + data%points(i)%n
+         force = pair_force(results%contact(i))
+         if (force > WEDGE*sense%asked) then
+            times = huge(times)
+            if (sense%asked > tiny(times)*force) times = force/sense%asked
+            if (sense%wedged == 0 .or. times*(1 - ALIKE) > sense%times) then
+               sense%wedged = i
+               sense%force = force
+               sense%beside = sense%asked
+               sense%times = times
+            end if
+         end if
+         call sides_differ(data%points(i), data%fem%mesh%x, results%contact(i), off, moment)
+         write (*, '(a,i0,4es12.3)') 'SENSE ', i, force, sense%asked, force/sense%asked, off
+         if (off <= max(UNBALANCED, sense%off)) cycle
+         sense%unbalanced = i
+         sense%off = off
+         sense%moment = moment
+      end do
+   end subroutine watch_forces
+
+   !> Points at nodes that are held almost along their normals.
+   pure subroutine watch_held_points(data, i, before, contact, sense)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: i               !< the pair
+      integer(ip), intent(in) :: before          !< rows of the pairs before
+      type(contact_result_t), intent(in) :: contact
+      type(force_sense_t), intent(inout) :: sense
+      real(wp) :: force
+      integer(ip) :: j
+
+      do j = 1, contact%n
+         force = contact%weight(j)*contact%pressure(j)
+         if (force <= max(HELD_WEDGE*sense%asked, sense%held_force)) cycle
+         if (free_share(data%rows, before + j, data%held) > HELD) cycle
+         sense%held_pair = i
+         sense%held_point = j
+         sense%held_force = force
+         sense%held_beside = sense%asked
+      end do
+   end subroutine watch_held_points
+
+   !> What is left of the row of a point at the dofs that are free, as a part of it.
+   pure real(wp) function free_share(rows, j, held) result(share)
+      type(contact_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: j
+      logical, intent(in) :: held(:, :)          !< (2, n_nodes)
+      real(wp) :: free, all
+      integer(ip) :: k
+
+      free = 0.0_wp
+      all = 0.0_wp
+      do k = rows%first(j), rows%first(j + 1) - 1
+         associate (row => rows%coefficient(k)*rows%normal(:, j))
+            free = free + sum(row**2, mask=.not. held(:, rows%node(k)))
+            all = all + sum(row**2)
+         end associate
+      end do
+      share = sqrt(free/all)
+   end function free_share
+
+   !> The largest of the forces that loads, temperatures, overlaps and prescribed displacements can make where nothing is wedged: of
+   !> a displacement what it makes if one face takes it up, at each of the points.
+   real(wp) function asked_for(data) result(force)
+      type(scene_data_t), intent(in) :: data
+      real(wp) :: moved, depth
+
+      force = sum(norm2(data%f, dim=1))
+      if (allocated(data%thermal)) force = force + sum(norm2(data%thermal, dim=1))
+      moved = max(maxval(abs(data%value), mask=data%held), -minval(data%rows%gap), 0.0_wp)
+      if (data%rows%n_bilateral > 0) moved = max(moved, maxval(abs(data%rows%gap(data%rows%n - data%rows%n_bilateral + 1:))))
+      if (data%rigid_prescribed%n > 0) moved = max(moved, largest_motion(data))
+      if (.not. moved > 0.0_wp) return
+      depth = maxval(data%fem%sections%thickness)
+      if (data%rows%n > 0) depth = max(depth, depth_of(data%points))
+      force = force + maxval(data%model%materials%young)*depth*moved*real(data%rows%n + count(data%held), wp)
+   end function asked_for
+
+   !> Displacements of rigid surfaces, with what their rotations make of their size.
+   pure real(wp) function largest_motion(data) result(moved)
+      type(scene_data_t), intent(in) :: data
+      integer(ip) :: i
+
+      moved = 0.0_wp
+      do i = 1, data%rigid_prescribed%n
+         associate (dof => data%rigid_prescribed%dof(i), value => abs(data%rigid_prescribed%value(i)))
+            moved = max(moved, value*merge(1.0_wp, maxval(data%model%rigid_bodies%size), dof <= 2))
+         end associate
+      end do
+   end function largest_motion
+
+   !> The depth of the scene at the points: thickness, or the way round the axis [L].
+   pure real(wp) function depth_of(points) result(depth)
+      type(contact_points_t), intent(in) :: points(:)
+      integer(ip) :: i
+
+      depth = 0.0_wp
+      do i = 1, size(points, kind=ip)
+         if (points(i)%n > 0) depth = max(depth, maxval(points(i)%weight/points(i)%length))
+      end do
+   end function depth_of
+
+   !> The sum of the sizes of a pair's forces [F].
+   pure real(wp) function pair_force(contact) result(force)
+      type(contact_result_t), intent(in) :: contact
+
+      force = sum(contact%weight*hypot(contact%pressure, contact%shear))
+   end function pair_force
+
+   !> What the forces of a pair upon both sides leave as a force or a moment: they should add up to nothing. None of a rigid master,
+   !> on which no force is put.
+   pure subroutine sides_differ(points, x, contact, off, moment)
+      type(contact_points_t), intent(in) :: points
+      real(wp), intent(in) :: x(:, :)            !< (2, n_nodes) [L]
+      type(contact_result_t), intent(in) :: contact
+      real(wp), intent(out) :: off               !< the larger one, in parts of the forces and of their lever
+      real(wp), intent(out) :: moment            !< [F L]
+      real(wp) :: force(2), arm(2), left(2), middle(2), total, size_of_pair, balance
+      integer(ip) :: j, k
+
+      off = 0.0_wp
+      moment = 0.0_wp
+      if (points%rigid .or. points%n == 0) return
+      total = pair_force(contact)
+      if (.not. total > 0.0_wp) return
+      middle = sum(points%x, dim=2)/points%n
+      left = 0.0_wp
+      do j = 1, points%n
+         associate (n => contact%normal(:, j))
+            force = contact%weight(j)/total*(contact%shear(j)*[-n(2), n(1)] - contact%pressure(j)*n)
+         end associate
+         arm = 0.0_wp
+         balance = 0.0_wp
+         do k = points%first(j), points%first(j + 1) - 1
+            arm = arm + points%coefficient(k)*(x(:, points%entry(k)) - middle)
+            balance = balance + points%coefficient(k)
+         end do
+         moment = moment + (arm(1)*force(2) - arm(2)*force(1))
+         left = left + balance*force
+      end do
+      size_of_pair = maxval(norm2(points%x - spread(middle, 2, points%n), dim=1))
+      off = max(norm2(left), abs(moment)/size_of_pair)
+      moment = moment*total
+   end subroutine sides_differ
+
+   !> Tells what was seen of a run.
+   subroutine tell_forces(pairs, contact, sense)
+      type(pair_scene_t), intent(in) :: pairs(:)
+      type(contact_result_t), intent(in) :: contact(:) !< one a pair, for the places
+      type(force_sense_t), intent(in) :: sense
+      character(len=:), allocatable :: text
+
+      if (sense%wedged > 0) then
+         text = pair_text(pairs(sense%wedged))//' carries forces of '//to_text(sense%force, 3)//' [F], more than a hundred times' &
+                //' what loads, overlaps, temperatures and prescribed displacements can ask for ('//to_text(sense%beside, 3) &
+                //' [F]): bodies are wedged, by normals that are hardly apart from a motion that is free otherwise, and the last' &
+                //' digits of the coordinates decide how far'
+         call add_warning('W-WEDGE', text)
+      end if
+      if (sense%held_pair > 0) then
+         associate (x => contact(sense%held_pair)%x(:, sense%held_point))
+            text = pair_text(pairs(sense%held_pair))//' carries '//to_text(sense%held_force, 3)//' [F] at the point (' &
+                   //to_text(x(1), 5)//', '//to_text(x(2), 5)//'), where '//to_text(sense%held_beside, 3)//' [F] act in all:' &
+                   //' a support holds the node almost, but not quite, along the normal of the contact, and the two are wedged.' &
+                   //' Hold it along the normal, or leave the node out of the slave'
+         end associate
+         call add_warning('W-WEDGE', text)
+      end if
+      if (sense%unbalanced > 0) then
+         text = 'the forces of '//pair_text(pairs(sense%unbalanced))//' upon its two sides do not add up: a moment of ' &
+                //to_text(sense%moment, 3)//' [F L] is left, '//to_text(100*sense%off, 3)//' % of the forces times the length of' &
+                //' the pair; it is missing in the sums of resultants.tab'
+         call add_warning('W-SUMS', text)
+      end if
+   end subroutine tell_forces
+
+   pure function pair_text(pair) result(text)
+      type(pair_scene_t), intent(in) :: pair
+      character(len=:), allocatable :: text
+
+      text = pair%slave//' on '//pair%master
+   end function pair_text
+
+end module atrito_force_sense
