@@ -144,31 +144,33 @@ def resolution(scene, pair):
 
 
 def closed_rows(scene, tables):
-    """Rows of rigid motions that what is closed resists: by normals; and with those that sticking adds."""
+    """Rigid motions that what is closed leaves, by three readings: with all held that points which touch may hold; with what
+    pressure and sticking hold; with what pressure alone does. Of each the motions, and how little the next one is held."""
     frame = scene.frame()
-    supports = scene.support_columns(frame)
-    normal, stuck = list(supports), list(supports)
+    rows = [], [], []
     for number, pair in enumerate(scene.pairs, 1):
         samples = scene.samples(pair.slave), scene.samples(pair.master)
         field = tables.pair(number)
-        for x, y, p, status in zip(field['x'], field['y'], field['pressure'], field['status']):
-            if p <= 1e-9*field['pressure'].max():
+        moved = max(np.abs(tables.u[b]).max() for b, _ in (pair.slave, pair.master) if b is not None)
+        touching = 1e-3*moved + 1e-9*scene.size + 4*scene.grain
+        for x, y, p, gap, status in zip(*(field[name] for name in ('x', 'y', 'pressure', 'gap', 'status'))):
+            pushes = p > 1e-9*field['pressure'].max()
+            if not pushes and gap > touching:
                 continue
             at = np.array([x, y])
             n, _ = exact_normal(scene, pair, samples, at)
-            for d, rows in ((n, (normal, stuck)), (np.array([-n[1], n[0]]), (stuck,))):
-                for those in rows:
-                    if those is normal or d is n or pair.nu > 0:
-                        those.append(frame.column([(pair.slave[0], at, d), (pair.master[0], at, -d)]))
-    n = 3*len(scene.bodies)
-    return statics.free_motions(normal, n), statics.free_motions(stuck, n)
+            columns = [frame.column([(pair.slave[0], at, d), (pair.master[0], at, -d)]) for d in (n, np.array([-n[1], n[0]]))]
+            rows[0] += columns if pair.nu > 0 and pushes else columns[:1]
+            if pushes:
+                rows[1] += columns if pair.nu > 0 and status == 1 else columns[:1]
+                rows[2] += columns[:1]
+    return [statics.free_motions(those, scene.support_columns(frame), 3*len(scene.bodies)) for those in rows]
 
 
 def nodal_motion(scene, motion):
-    about, size = scene.about(), scene.size
-    found = []
+    frame, found = scene.frame(), []
     for b, body in enumerate(scene.bodies):
-        away = (body.mesh.x - about)/size
+        away = (body.mesh.x - frame.middles[b])/frame.sizes[b]
         a = motion[3*b:3*b + 3]
         found.append(np.stack([a[0] - a[2]*away[:, 1], a[1] + a[2]*away[:, 0]], axis=1))
     return np.concatenate(found).ravel()
@@ -205,6 +207,8 @@ def judge_run(scene, folder, warnings, least):
 
 def check_equilibrium(scene, tables, forces, verdict):
     largest = max([np.abs(c).max() for c, _, _ in forces] + [f for _, _, f in forces])
+    # what one body does not know of its forces the others get by contact
+    others = max(error.max() for _, error, _ in forces)
     for number, body in enumerate(scene.bodies):
         c, error, load = forces[number]
         held = {node for b, nodes, _ in scene.supports if b == number for node in nodes}
@@ -215,7 +219,7 @@ def check_equilibrium(scene, tables, forces, verdict):
                     touching |= set(body.mesh.side_nodes(side[1]))
         scale = max(np.abs(c).max(), load)
         for node in range(len(c)):
-            allowed = judge.FORCE*scale + 1e-13*largest + error[node].max()
+            allowed = judge.FORCE*scale + 1e-13*largest + others
             if node in held and node not in touching:
                 printed = tables.reaction.get(body.first + node + 1, np.zeros(2))
                 verdict.test('reaction', np.abs(c[node] - printed).max(), allowed, f' at node {body.first + node + 1}')
@@ -279,21 +283,19 @@ def asked_by_overlap(scene):
 
 def check_idle(scene, tables, warnings, verdict):
     """W-IDLE where, and only where, something can move; and the least motion."""
-    (free, next_one), (free_of_stuck, next_of_stuck) = closed_rows(scene, tables)
-    verdict.free = free
+    (surely, _), (sticking, next_one), (perhaps, _) = closed_rows(scene, tables)
+    verdict.free = perhaps
     told = 'W-IDLE' in warnings
-    if free_of_stuck.shape[1] > 0:
+    if surely.shape[1] > 0:
         if not told:
-            verdict.wrong.append(f'no W-IDLE: {free_of_stuck.shape[1]} motions are free')
-    elif free.shape[1] > 0 or min(next_one, next_of_stuck) < SURE:
+            verdict.wrong.append(f'no W-IDLE: {surely.shape[1]} motions are free')
+        z = np.stack([nodal_motion(scene, motion) for motion in surely.T], axis=1)
+        rest, idle = without(z, np.concatenate(tables.u).ravel())
+        verdict.test('idle motion', np.abs(idle).max(), LEAST*np.abs(rest).max() + 1e-12*scene.size)
+    elif sticking.shape[1] > 0 or next_one < SURE:
         verdict.unsure.append('whether a motion is free')
     elif told:
         verdict.wrong.append('W-IDLE, and no motion is free')
-    if free_of_stuck.shape[1]:
-        z = np.stack([nodal_motion(scene, motion) for motion in free_of_stuck.T], axis=1)
-        u = np.concatenate(tables.u).ravel()
-        rest, idle = without(z, u)
-        verdict.test('idle motion', np.abs(idle).max(), LEAST*np.abs(rest).max() + 1e-12*scene.size)
 
 
 def compare_with_springs(scene, verdict, folder, warnings):
@@ -314,7 +316,7 @@ def compare_with_springs(scene, verdict, folder, warnings):
     allowed = ALIKE + share + (0.5*angle if verdict.free.shape[1] else 0.0)
     for number, pair in enumerate(scene.pairs, 1):
         p, q = plain.pair(number)['pressure'], held.pair(number)['pressure']
-        scale = max(q.max(initial=0.0), 1e-9*forces/(scene.size*scene.thickness))
+        scale = max(q.max(initial=0.0), 0.01*forces/(scene.size*scene.thickness))
         verdict.test('pressure with springs', np.abs(p - q).max(initial=0.0)/scale if scale > 0 else 0.0, allowed, f' of pair {number}')
     z = np.stack([nodal_motion(scene, motion) for motion in verdict.free.T], axis=1) if verdict.free.shape[1] else np.zeros((1, 0))
     a, b = np.concatenate(plain.u).ravel(), np.concatenate(held.u).ravel()

@@ -19,7 +19,7 @@ from curved_meshes import Arc, Line, Recipe
 
 DIGITS = (4, 6, 8, 10, 12, 17)
 ANGLES = (0.0, 30.0, 57.3, 90.0, 114.6)
-WEAK = 1e-6  # stiffness of a weak spring over E times the thickness
+WEAK = 1e-7  # stiffness of a weak spring over E times the thickness
 
 
 class Body:
@@ -121,18 +121,17 @@ class Scene:
             body.first = first
             first += max(len(body.mesh.x), len(body.mesh.cells))
 
-    def text(self, value):
+    def text(self, value, more=0):
+        decimals = self.decimals + more
         if self.digits == 17:
             return repr(float(value))
-        return f'{value:.{max(self.decimals, 0)}f}' if self.decimals >= 0 else repr(float(round(value, self.decimals)))
+        return f'{value:.{decimals}f}' if decimals >= 0 else repr(float(round(value, decimals)))
 
     # -- what is known
 
-    def about(self):
-        return np.mean([body.mesh.x.mean(axis=0) for body in self.bodies], axis=0)
-
     def frame(self):
-        return statics.Frame(len(self.bodies), self.about(), self.size)
+        middles = [body.mesh.x.mean(axis=0) for body in self.bodies]
+        return statics.Frame(middles, [0.5*np.ptp(body.mesh.x, axis=0).max() for body in self.bodies])
 
     def support_columns(self, frame):
         columns = []
@@ -219,15 +218,17 @@ class Scene:
                 continue
             known.add(name)
             if side[0] is None:
+                # an arc's ends have to be as far from its centre within 1e-4
+                drawn = lambda *values: ', '.join(self.text(v, max(0, 7 - self.digits)) for v in values)
                 out.append(f'*SURFACE, NAME={name}, TYPE=SEGMENTS')
                 for i, (curve, ends) in enumerate(side[1].pieces):
                     a, b = ends(0.0), ends(1.0)
                     if i == 0:
-                        out.append(f'START, {self.text(a[0])}, {self.text(a[1])}')
+                        out.append('START, ' + drawn(*a))
                     if isinstance(curve, Line):
-                        out.append(f'LINE, {self.text(b[0])}, {self.text(b[1])}')
+                        out.append('LINE, ' + drawn(*b))
                     else:
-                        out.append('CIRCL, ' + ', '.join(self.text(v) for v in (*b, *curve.centre)))
+                        out.append('CIRCL, ' + drawn(*b, *curve.centre))
                 out.append(f'*RIGID BODY, ANALYTICAL SURFACE={name}')
             else:
                 body = self.bodies[side[0]]
@@ -364,7 +365,9 @@ class Maker:
         self.scene.pairs.append(Pair(slave, master, self.nu, self.slope, quadrature))
 
     def load(self, body, nodes, force, moment, at):
-        self.scene.loads.append(Load(body, list(nodes), force, moment, at))
+        """Upon nodes that nothing holds: *CLOAD goes along the axes of a node's *TRANSFORM."""
+        held = {node for b, those, _ in self.scene.supports if b == body for node in those}
+        self.scene.loads.append(Load(body, [node for node in nodes if node not in held], force, moment, at))
 
     def press(self, body, side, pressure, resultant=(0.0, 0.0), at=(0.0, 0.0)):
         self.scene.loads.append(Load(body, [], resultant, 0.0, at, pressure, side))
@@ -490,7 +493,8 @@ def rings(m):
         if previous is not None:
             m.pair((previous, 'OUTSIDE'), (number, 'INSIDE'))
         previous = number
-        inner = outer + m.clearance(outer)
+        if i < count - 1:
+            inner = outer + m.clearance(outer)
     held = m.pick('outside held', 'outside held', 'nothing held')
     scene.notes += [held, 'matching' if is_matching else 'not matching']
     if held == 'outside held':

@@ -99,22 +99,22 @@ def row(x, direction, about, size):
 
 
 class Frame:
-    """Bodies as rigid: columns of their supports, and loads."""
+    """Bodies as rigid: forces and moments about the middle of each, over its size."""
 
-    def __init__(self, bodies, about, size):
-        self.n, self.about, self.size = bodies, about, size
+    def __init__(self, middles, sizes):
+        self.n, self.middles, self.sizes = len(sizes), middles, sizes
 
     def column(self, parts):
         """parts: (body, x, force); body None is the ground."""
         b = np.zeros(3*self.n)
         for body, x, force in parts:
             if body is not None:
-                b[3*body:3*body + 3] += row(np.asarray(x), force, self.about, self.size)
+                b[3*body:3*body + 3] += row(np.asarray(x), force, self.middles[body], self.sizes[body])
         return b
 
     def moment(self, body, force, moment, at):
         b = self.column([(body, at, force)])
-        b[3*body + 2] += moment/self.size
+        b[3*body + 2] += moment/self.sizes[body]
         return b
 
 
@@ -172,14 +172,21 @@ def nonnegative(a, b):
     return q
 
 
-def free_motions(rows, n):
-    """Motions that all rows leave (columns), how far the next ones are from being free."""
+def free_motions(rows, supports, n):
+    """Motions that supports and rows leave (columns), and how far the next one is from being free: rows are of length 1."""
+    left = null_space(supports, n)[0]
     if not len(rows):
+        return left, math.inf
+    a = np.array(rows)
+    inner, least = null_space(list((a/np.maximum(np.linalg.norm(a, axis=1), 1e-300)[:, None]) @ left), left.shape[1])
+    return left @ inner, least
+
+
+def null_space(rows, n):
+    if not len(rows) or n == 0:
         return np.eye(n), math.inf
     a = np.array(rows)
-    a = a/np.maximum(np.linalg.norm(a, axis=1), 1e-300)[:, None]
     _, s, v = np.linalg.svd(a)
-    s = np.concatenate([s, np.zeros(n - min(a.shape))]) if a.shape[0] < n else s
-    free = s < 1e-7
-    others = s[~free]
-    return v[free].T, (others.min() if len(others) else math.inf)
+    s = np.concatenate([s, np.zeros(n - len(s))])
+    free = s < 1e-7*max(np.linalg.norm(a, axis=1).max(), 1e-300)
+    return v[free].T, (s[~free].min() if (~free).any() else math.inf)

@@ -66,7 +66,9 @@ def give_verdict(settings, outcome, scene, path, base):
         elif not any(word in said for word in ('E-',)):
             compare(settings, outcome, scene, verdict, base)
         outcome.numbers = verdict.numbers
-        outcome.word = 'wrong' if outcome.reasons else 'ambiguous' if verdict.unsure or balanced == 'unsure' else 'right'
+        unsure = verdict.unsure + ['whether the loads balance']*(balanced == 'unsure')
+        outcome.word = 'wrong' if outcome.reasons else 'ambiguous' if unsure else 'right'
+        outcome.reasons = outcome.reasons or unsure
     elif outcome.code == 4:
         outcome.word = {'yes': 'wrong', 'no': 'right', 'unsure': 'ambiguous'}[balanced]
         outcome.reasons = [] if balanced == 'no' else [('the loads balance' + (' (plain)' if scene.is_plain else '') + ': '
