@@ -147,7 +147,7 @@ def closed_rows(scene, tables):
     """Rigid motions that what is closed leaves, by three readings: with all held that points which touch may hold; with what
     pressure and sticking hold; with what pressure alone does. Of each the motions, and how little the next one is held."""
     frame = scene.frame()
-    rows = [], [], []
+    rows = [[], [], []]
     for number, pair in enumerate(scene.pairs, 1):
         samples = scene.samples(pair.slave), scene.samples(pair.master)
         field = tables.pair(number)
