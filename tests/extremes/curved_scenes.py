@@ -505,7 +505,295 @@ def rings(m):
     load_round(m, 0, np.zeros(2), radius, m.pick('pressure', 'pressure', 'force', 'moment', 'none'))
 
 
-LAYOUTS = {'pin': pin, 'rings': rings}
+def arc_angles(m, low, high, n, spacing):
+    return low + (high - low)*meshes.stations(n, spacing, m.rng)
+
+
+def roller_loads(m, body, centre, radius, down=None):
+    """What presses a roller to the ground, or moves it: its middle is loaded."""
+    scene = m.scene
+    mesh = scene.bodies[body].mesh
+    nodes = list(mesh.side_nodes('INSIDE')) if 'INSIDE' in {s for s, _ in mesh.outline.values()} else middle_nodes(mesh, centre, radius)
+    how = m.pick('down', 'down', 'down', 'inclined', 'moment', 'rolls', 'none')
+    force, moment = m.force*np.array([0.0, -1.0]), 0.0
+    if how == 'inclined':
+        a = -0.5*math.pi + m.pick(1, -1)*m.rng.uniform(0.1, 1.2)
+        force = m.force*np.array([math.cos(a), math.sin(a)])
+    elif how == 'moment':
+        moment = m.force*radius*m.rng.uniform(0.02, 0.3)*m.pick(1, -1)
+    elif how == 'rolls':
+        # a force along the ground that acts where the roller touches it
+        across = m.force*m.rng.uniform(0.05, 0.6)*m.pick(1, -1)
+        force, moment = np.array([across, -m.force]), across*radius
+    if how != 'none':
+        m.load(body, nodes, force, moment, centre)
+    scene.notes.append(how)
+
+
+def flat_ground(m, width, depth, height=0.0):
+    """A block whose TOP is the ground, held below, or a rigid line."""
+    word = m.pick('block', 'block', 'rigid')
+    m.scene.notes.append(word + ' ground')
+    if word == 'rigid':
+        a, b = np.array([-width, height]), np.array([width, height])
+        # drawn from left to right it faces up: the body is on its left, the matter on its right
+        return None, Rigid('GROUND', [(Line(b, a), lambda t: a + t*(b - a))])
+    recipe = m.recipe()
+    mesh = meshes.block(recipe, [(-width, height - depth), (width, height - depth), (width, height), (-width, height)],
+                        m.count(14, 24, recipe), 4, m.rng)
+    number = m.scene.add('GROUND', mesh, *m.stiffness())
+    m.scene.hold(number, mesh.side_nodes('BOTTOM'))
+    return number, 'TOP'
+
+
+def hold_roller(m, body, centre, radius):
+    held = m.pick('free', 'free', 'free', 'rotation held', 'held')
+    if held == 'rotation held':
+        hold_rotation(m, body, centre, radius)
+    elif held == 'held':
+        m.scene.hold(body, middle_nodes(m.scene.bodies[body].mesh, centre, 0.8*radius)[:5])
+    m.scene.notes.append(held)
+
+
+def roller_on_flat(m):
+    radius = m.rng.uniform(0.5, 1.5)
+    c = max(m.clearance(radius), 0.0)
+    centre = np.array([0.0, radius + c])
+    angles = None
+    if m.chance(0.5):
+        # a node where it touches
+        n = m.count(16, 30, m.recipe())
+        angles = -0.5*math.pi + 2*math.pi*np.arange(n + 1)/n
+    body = m.scene.add('ROLLER', round_body(m, radius, angles, centre=centre), *m.stiffness())
+    m.pair((body, 'OUTSIDE'), flat_ground(m, 1.5*radius, radius))
+    hold_roller(m, body, centre, radius)
+    roller_loads(m, body, centre, radius)
+
+
+def groove_block(m, points, curves, names, bottom):
+    recipe = Recipe(m.nodes, m.chance(0.85), False, '')
+    mesh = meshes.profile_block(recipe, (points, curves, names), bottom, m.rng, 3)
+    number = m.scene.add('GROUND', mesh, *m.stiffness())
+    m.scene.hold(number, mesh.side_nodes('BOTTOM'))
+    return number
+
+
+def roller_in_v(m):
+    """Each flank is a pair of its own with the roller's half, or one chain of both."""
+    radius, slope = m.rng.uniform(0.5, 1.5), m.rng.uniform(0.35, 1.1)
+    c = max(m.clearance(radius), 0.0)
+    centre = np.array([0.0, (radius + c)/math.cos(slope)])
+    wide = 1.4*radius*math.sin(slope) + 0.3*radius
+    high = wide*math.tan(slope)
+    left, right, foot = np.array([-wide, high]), np.array([wide, high]), np.zeros(2)
+    lines = [Line(foot, left), Line(right, foot)]
+    recipe = m.recipe()
+    n = m.count(6, 12, recipe)
+    s, t = meshes.stations(n, recipe.spacing, m.rng), meshes.stations(n, recipe.spacing, m.rng)
+    points = [left + a*(foot - left) for a in s] + [foot + a*(right - foot) for a in t[1:]]
+    number = groove_block(m, points, [lines[0]]*n + [lines[1]]*n, ['WEST']*n + ['EAST']*n, -radius)
+    body = m.scene.add('ROLLER', round_body(m, radius, None, centre=centre), *m.stiffness())
+    split_round(m, body, centre)
+    nu, slope_law = m.nu, m.slope
+    m.pair((body, 'OUTSIDE-WEST'), (number, 'WEST'))
+    m.pair((body, 'OUTSIDE-EAST'), (number, 'EAST'))
+    m.nu, m.slope = nu, slope_law
+    hold_roller(m, body, centre, radius)
+    roller_loads(m, body, centre, radius)
+
+
+def split_round(m, body, centre):
+    """The lower left and the lower right of a rim as sides of their own."""
+    mesh = m.scene.bodies[body].mesh
+    curve = next(curve for side, curve in mesh.outline.values() if side == 'OUTSIDE')
+    mesh.outline['west'], mesh.outline['east'] = ('OUTSIDE-WEST', curve), ('OUTSIDE-EAST', Arc(curve.centre, curve.radius, 1))
+    for key, piece in list(mesh.faces.items()):
+        if mesh.outline[piece][0] == 'OUTSIDE':
+            a, b = (mesh.x[i] - centre for i in mesh.face_nodes(*key)[:2])
+            if max(a[1], b[1]) < 0.3*curve.radius:
+                mesh.faces[key] = 'west' if 0.5*(a + b)[0] < 0 else 'east'
+
+
+def roller_in_groove(m):
+    """A round groove as wide as the roller, nearly so, or wider."""
+    radius = m.rng.uniform(0.5, 1.5)
+    c = m.clearance(radius)
+    wider = m.pick(0.0, 0.0, m.rng.uniform(0.05, 0.5))
+    groove, half = radius*(1 + wider) + c, m.rng.uniform(0.7, 1.35)
+    centre = np.array([0.0, -wider*radius - (c if wider else 0.0)])
+    recipe = m.recipe()
+    n = m.count(10, 18, recipe)
+    a = -0.5*math.pi - half + 2*half*meshes.stations(n, recipe.spacing, m.rng)
+    arc = Arc((0, 0), groove, -1)
+    rim = meshes.on_circle((0, 0), groove, a)
+    flank = 0.4*radius
+    flats = [Line(rim[0], rim[0] - [flank, 0]), Line(rim[-1] + [flank, 0], rim[-1])]
+    points = [rim[0] - [flank, 0], rim[0] - [0.5*flank, 0], *rim, rim[-1] + [0.5*flank, 0], rim[-1] + [flank, 0]]
+    number = groove_block(m, points, [flats[0]]*2 + [arc]*n + [flats[1]]*2, ['SHORE-L']*2 + ['GROOVE']*n + ['SHORE-R']*2,
+                          -groove - radius)
+    angles = None
+    if m.chance(0.4):
+        rest = 2*math.pi - 2*half
+        angles = np.concatenate([a, a[-1] + rest*meshes.stations(max(6, n), 'uniform', m.rng)[1:]])
+    body = m.scene.add('ROLLER', round_body(m, radius, angles, centre=centre), *m.stiffness())
+    m.pair((body, 'OUTSIDE'), (number, 'GROOVE'))
+    m.scene.notes.append(f'groove {"as wide" if not wider else "wider"}')
+    hold_roller(m, body, centre, radius)
+    roller_loads(m, body, centre, radius)
+
+
+def lining(m):
+    """A ring in a square piece of ground whose outside is held, or on rollers: pressure, forces against each other, moments."""
+    scene, radius = m.scene, m.rng.uniform(0.5, 2.0)
+    c = m.clearance(radius)
+    recipe = m.recipe()
+    ground = meshes.ring(recipe, radius + c, 2*radius, m.count(16, 28, recipe), 4, m.rng, square=m.rng.uniform(2, 3)*radius)
+    angles = corner_angles(ground, 'INSIDE', np.zeros(2)) if m.chance(0.5) else None
+    body = scene.add('LINING', round_body(m, radius, angles, bore=radius*m.rng.uniform(0.75, 0.9)), *m.stiffness())
+    number = scene.add('GROUND', ground, *m.stiffness())
+    m.pair((body, 'OUTSIDE'), (number, 'INSIDE'))
+    outside = ground.side_nodes('OUTSIDE')
+    word = m.pick('held', 'below held', 'rollers')
+    if word == 'held':
+        scene.hold(number, outside)
+    else:
+        below = [i for i in outside if ground.x[i, 1] < ground.x[:, 1].min() + 1e-9*radius]
+        scene.hold(number, below, [(0.0, 1.0)] if word == 'rollers' else ((1.0, 0.0), (0.0, 1.0)))
+        if word == 'rollers':
+            # two parallel rows of rollers and one that stops it
+            left = [i for i in outside if ground.x[i, 0] < ground.x[:, 0].min() + 1e-9*radius and i not in below]
+            scene.hold(number, left, [(1.0, 0.0)])
+    scene.notes.append(word)
+    load_round(m, body, np.zeros(2), radius, m.pick('pressure', 'pressure', 'force', 'moment', 'none'))
+
+
+def half_cylinder(m):
+    """With its round side, or its flat side, on a block."""
+    scene, radius = m.scene, m.rng.uniform(0.5, 1.5)
+    c = max(m.clearance(radius), 0.0)
+    recipe = m.recipe()
+    is_round = m.chance(0.65)
+    angles = None
+    if m.chance(0.5):
+        n = 2*(m.count(10, 18, recipe)//2)
+        angles = math.pi*(1 + np.arange(n + 1)/n)
+    recipe.is_free = recipe.is_free or not is_round
+    mesh = meshes.half_disc(recipe, radius, m.count(10, 18, recipe), m.rng, angles)
+    if not is_round:
+        mesh.x = -mesh.x
+        mesh.outline = {piece: (side, Arc(-curve.centre, curve.radius, 1) if isinstance(curve, Arc) else Line(-curve.a, -curve.b))
+                        for piece, (side, curve) in mesh.outline.items()}
+        if len(mesh.curves('FLAT')) > 1:
+            is_round = True
+            mesh.x = -mesh.x
+            mesh.outline = {piece: (side, Arc(-curve.centre, curve.radius, curve.outward) if isinstance(curve, Arc)
+                                    else Line(-curve.a, -curve.b)) for piece, (side, curve) in mesh.outline.items()}
+    body = scene.add('HALF', mesh, *m.stiffness())
+    low = -radius if is_round else 0.0
+    m.pair((body, 'ROUND' if is_round else 'FLAT'), flat_ground(m, 1.6*radius, radius, low - c))
+    scene.notes.append('round side down' if is_round else 'flat side down')
+    how = m.pick('down', 'down', 'inclined', 'moment', 'none')
+    force, moment = np.array([0.0, -m.force]), 0.0
+    if how == 'inclined':
+        force = m.force*np.array([m.pick(1, -1)*m.rng.uniform(0.05, 0.8), -1.0])
+    elif how == 'moment':
+        moment = m.force*radius*m.rng.uniform(0.02, 0.4)*m.pick(1, -1)
+    top = list(mesh.side_nodes('FLAT' if is_round else 'ROUND'))
+    top = [i for i in top if abs(mesh.x[i, 0]) < 0.7*radius]
+    # a force that pushes along the ground pushes where it touches
+    at = (0.0, low)
+    if how != 'none':
+        m.load(body, top, force, moment, at)
+    scene.notes.append(how)
+
+
+def disc_between_plates(m):
+    """The lower plate is held; the upper one is held, too, or lies on the disc."""
+    scene, radius = m.scene, m.rng.uniform(0.5, 1.5)
+    c = max(m.clearance(radius), 0.0)
+    centre = np.array([0.0, radius + 0.5*c])
+    n = 2*(m.count(16, 28, m.recipe())//2)
+    angles = -0.5*math.pi + 2*math.pi*np.arange(n + 1)/n if m.chance(0.5) else None
+    body = scene.add('DISC', round_body(m, radius, angles, centre=centre), *m.stiffness())
+    split_rim(m, body, centre)
+    m.pair((body, 'OUTSIDE-LOW'), flat_ground(m, 1.5*radius, 0.8*radius))
+    recipe = m.recipe()
+    high = 2*radius + c
+    plate = meshes.block(recipe, [(-1.5*radius, high), (1.5*radius, high), (1.5*radius, high + 0.8*radius), (-1.5*radius, high + 0.8*radius)],
+                         m.count(12, 20, recipe), 4, m.rng)
+    upper = scene.add('PLATE', plate, *m.stiffness())
+    m.pair((body, 'OUTSIDE-HIGH'), (upper, 'BOTTOM'))
+    word = m.pick('upper held', 'upper free', 'upper guided')
+    scene.notes.append(word)
+    if word == 'upper held':
+        scene.hold(upper, plate.side_nodes('TOP'))
+        roller_loads(m, body, centre, radius)
+        return
+    if word == 'upper guided':
+        scene.hold(upper, plate.side_nodes('TOP'), [(1.0, 0.0)])
+    how = m.pick('down', 'down', 'across', 'moment')
+    force, moment = np.array([0.0, -m.force]), 0.0
+    if how == 'across':
+        force = m.force*np.array([m.rng.uniform(0.05, 0.5), -1.0])
+    elif how == 'moment':
+        moment = m.force*radius*m.rng.uniform(0.05, 0.3)
+    m.load(upper, [i for i in range(len(plate.x)) if plate.x[i, 1] > high + 0.3*radius], force, moment, (0.0, high))
+    scene.notes.append(how)
+
+
+def split_rim(m, body, centre):
+    """Below and above the middle."""
+    mesh = m.scene.bodies[body].mesh
+    curve = next(curve for side, curve in mesh.outline.values() if side == 'OUTSIDE')
+    mesh.outline['low'], mesh.outline['high'] = ('OUTSIDE-LOW', curve), ('OUTSIDE-HIGH', Arc(curve.centre, curve.radius, 1))
+    for key, piece in list(mesh.faces.items()):
+        if mesh.outline[piece][0] == 'OUTSIDE':
+            a, b = (mesh.x[i] - centre for i in mesh.face_nodes(*key)[:2])
+            if max(a[1], b[1]) < -0.2*curve.radius:
+                mesh.faces[key] = 'low'
+            elif min(a[1], b[1]) > 0.2*curve.radius:
+                mesh.faces[key] = 'high'
+
+
+def slider(m):
+    """A block between parallel guides, rigid or not: free along them."""
+    scene, height, width = m.scene, m.rng.uniform(0.4, 1.0), m.rng.uniform(1.0, 2.0)
+    c = max(m.clearance(height), 0.0)
+    recipe = m.recipe()
+    mesh = meshes.block(recipe, [(-width, 0), (width, 0), (width, height), (-width, height)], m.count(8, 16, recipe), 4, m.rng)
+    body = scene.add('SLIDER', mesh, *m.stiffness())
+    m.pair((body, 'BOTTOM'), flat_ground(m, 1.5*width, height, -c))
+    recipe = m.recipe()
+    if m.chance(0.5):
+        a, b = np.array([1.5*width, height + c]), np.array([-1.5*width, height + c])
+        other = None, Rigid('UPPER', [(Line(b, a), lambda t: a + t*(b - a))])
+    else:
+        top = meshes.block(recipe, [(-1.5*width, height + c), (1.5*width, height + c), (1.5*width, 2*height + c), (-1.5*width, 2*height + c)],
+                           m.count(10, 18, recipe), 3, m.rng)
+        number = scene.add('UPPER', top, *m.stiffness())
+        scene.hold(number, top.side_nodes('TOP'))
+        other = number, 'BOTTOM'
+    m.pair((body, 'TOP'), other)
+    held = m.pick('free', 'free', 'free', 'end held')
+    if held == 'end held':
+        scene.hold(body, mesh.side_nodes('LEFT'), [(1.0, 0.0)])
+    how = m.pick('across', 'across', 'along', 'moment', 'inclined', 'none')
+    scene.notes += [held, how]
+    force, moment = np.array([0.0, -m.force]), 0.0
+    if how == 'along':
+        force = np.array([m.force, 0.0])
+    elif how == 'inclined':
+        force = m.force*np.array([m.rng.uniform(0.03, 0.5), -1.0])
+    elif how == 'moment':
+        moment = m.force*width*m.rng.uniform(0.1, 2.0)
+    if how != 'none':
+        # round the middle, away from the sides
+        nodes = [i for i in range(len(mesh.x)) if 0.2*height < mesh.x[i, 1] < 0.8*height and abs(mesh.x[i, 0]) < 0.8*width]
+        m.load(body, nodes, force, moment, (0.0, 0.0) if how in ('inclined', 'along') else (0.0, 0.5*height))
+
+
+LAYOUTS = {'pin': pin, 'rings': rings, 'flat': roller_on_flat, 'v-groove': roller_in_v, 'round groove': roller_in_groove,
+           'lining': lining, 'half cylinder': half_cylinder, 'plates': disc_between_plates, 'slider': slider}
 
 
 def make(number, seed):

@@ -7,7 +7,7 @@ import numpy as np
 
 from curved_meshes import Line
 
-NEAR = 0.01        # of the size of a pair: what touches without large motions
+NEAR = 1e-4        # of the size of a pair: what touches without large motions
 MARGIN = 0.1       # of friction: what both less and more of it balance is sure
 HARDLY = 300.0     # contact forces over loads beyond which a balance is a matter of digits
 
@@ -82,10 +82,31 @@ def distance_along(x, n, curve):
     return -b + root if curve.outward < 0 else -b - root
 
 
+def nearest_points(slave, master):
+    """(x, normal, curve) of the slave where two curves are nearest."""
+    for curve, members in slave.pieces.values():
+        for other, _ in master.pieces.values():
+            if isinstance(curve, Line) and isinstance(other, Line):
+                continue
+            if isinstance(other, Line):
+                toward = -other.normal(None)*curve.outward
+            elif isinstance(curve, Line):
+                toward = curve.normal(None)
+            else:
+                toward = (curve.centre - other.centre)*(1 if other.outward < 0 else -1)*(1 if curve.outward > 0 else -1)
+            if np.linalg.norm(toward) < 1e-9*slave.size:
+                continue
+            toward = toward/np.linalg.norm(toward)
+            x = curve.project(other.centre) if isinstance(curve, Line) else curve.centre + curve.radius*toward
+            near = slave.x[members]
+            if np.linalg.norm(near - x, axis=1).min() < slave.spacing[id(curve)]:
+                yield x, curve.normal(x), curve
+
+
 def points_of_pair(slave, master):
     """(x, normal out of the slave, gap) of samples of the slave's side."""
     found = []
-    for x, n, curve in zip(slave.x, slave.n, slave.curves):
+    for x, n, curve in [*zip(slave.x, slave.n, slave.curves), *nearest_points(slave, master)]:
         sight = master.meet(x, n, isinstance(curve, Line))
         if sight:
             found.append((x, sight[1], sight[0]))
