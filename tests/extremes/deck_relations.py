@@ -306,17 +306,19 @@ def scaled_step(step, factor):
 
 
 def of_increments(step, n):
-    return [(keyword, options, [[repr(1.0/n), '1.']] if keyword == 'STATIC' else data) for keyword, options, data in step]
+    return [(keyword, options, [[repr(1.0/n), '1.']] if keyword == 'STATIC' and n > 1 else [] if keyword == 'STATIC' else data)
+            for keyword, options, data in step]
 
 
 def split_step(deck, _):
-    """A step of two increments, and two steps of one each: the first deck of the two comes third."""
+    """Two steps of one increment each, and one step of two, which comes third."""
     head, steps = deck.steps()
     if len(steps) > 1 or any(options.get('AMPLITUDE') for _, options, _ in steps[0]):
         return None
+    once = of_increments(steps[0], 1)
     one, two = deck.copy(), deck.copy()
     one.cards = head + of_increments(steps[0], 2)
-    two.cards = head + scaled_step(steps[0], 0.5) + steps[0]
+    two.cards = head + scaled_step(once, 0.5) + once
     return two, Back(is_last=True), one
 
 
