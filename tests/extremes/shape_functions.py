@@ -1,5 +1,6 @@
 """Shape functions and quadrature of elements with 3, 4, 6, 8 and 9 nodes: no code of the program."""
 
+import functools
 import math
 
 import numpy as np
@@ -43,8 +44,9 @@ def triangle(n, r, s):
     return value, np.vstack([slope*(4*area - 1)[:, None], 4*(slope*area[after][:, None] + slope[after]*area[:, None])])
 
 
+@functools.lru_cache(maxsize=1000)
 def shapes(n, a, b):
-    """Values and derivatives (n, 2) of an element's n functions."""
+    """Values and derivatives (n, 2) of an element's n functions. They are kept: not to be changed."""
     if n in INSIDE:
         return triangle(n, a, b)
     return serendipity(a, b) if n == 8 else lagrange(1 if n == 4 else 2, a, b)
@@ -64,5 +66,6 @@ def least_jacobian(x):
         at = [(i/4, j/4) for i in range(5) for j in range(5 - i)]
     else:
         at = [(i/2 - 1, j/2 - 1) for i in range(5) for j in range(5)]
-    size = [np.linalg.det(shapes(len(x), a, b)[1].T @ x) for a, b in at]
-    return min(size)/max(np.abs(size))
+    matrices = [shapes(len(x), a, b)[1].T @ x for a, b in at]
+    size = [m[0, 0]*m[1, 1] - m[0, 1]*m[1, 0] for m in matrices]
+    return min(size)/max(map(abs, size))
