@@ -22,6 +22,7 @@ EXCESS = 20.0      # contact forces over the least that balance the loads
 STIFF = 10.0       # and over what an overlap asks for
 ALIKE = 2e-3       # pressures with and without weak springs, of the largest
 LEAST = 10.0       # the idle motion over all others
+UNEVEN = 1.3       # normals of nodes between faces of different lengths
 SURE = 0.2         # a motion that what is closed resists by less may be free or not
 
 
@@ -140,7 +141,7 @@ def resolution(scene, pair):
             continue
         angle, is_chord = face_angle(scene.bodies[body].mesh, side)
         worst = max(worst, angle if is_chord else 0.5*angle*angle)
-    return worst
+    return UNEVEN*worst
 
 
 def closed_rows(scene, tables):

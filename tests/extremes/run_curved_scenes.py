@@ -5,7 +5,7 @@ run_curved_scenes.py ATRITO FIRST LAST SEED [-j N] [--folder DIR] [--only N,N,..
 Right is exit 0 where the smooth shapes can balance the loads, with tables that curved_judge.py accepts, W-IDLE where a motion is free
 and nowhere else, and the same pressures with weak springs; and exit 4 where nothing balances the loads. `ambiguous` are scenes of
 which the smooth shapes do not tell (a roller turned by a moment, which its faces may hold and a circle may not): they are not counted
-for their exit code. Prints what is wrong with its reason, and a table by kind; DIR (./curved) has the decks and results.txt.
+for their exit code. `open`: exit 3 with friction, of loads that can be balanced. Prints what is wrong with its reason, and a table by kind; DIR (./curved) has the decks and results.txt.
 Exit code 0 when nothing is wrong.
 """
 
@@ -44,7 +44,7 @@ def judge_number(work):
         give_verdict(settings, outcome, scene, path, base)
     except Exception as trouble:  # a fault of the judge must not stop the others
         outcome.word, outcome.reasons = 'wrong', [f'the judge failed: {trouble!r}']
-    if outcome.word in ('wrong', 'unsolved'):
+    if outcome.word in ('wrong', 'unsolved', 'open'):
         shutil.copy(path, os.path.join(settings.folder, f'{number}.inp'))
     return outcome
 
@@ -74,9 +74,14 @@ def give_verdict(settings, outcome, scene, path, base):
         outcome.reasons = [] if balanced == 'no' else [('the loads balance' + (' (plain)' if scene.is_plain else '') + ': '
                                                         if balanced == 'yes' else '') + message(said)]
     elif outcome.code == 3:
-        outcome.word, outcome.reasons = 'ambiguous' if balanced == 'unsure' else 'unsolved', [f'balanced: {balanced}; ' + message(said)]
+        # without friction, or without loads, what can be balanced has a solution; with friction it may have none
+        has_friction = any(pair.nu for pair in scene.pairs) and scene.loads
+        outcome.word = 'ambiguous' if balanced == 'unsure' else 'open' if has_friction and balanced == 'yes' else 'unsolved'
+        outcome.reasons = [f'balanced: {balanced}; ' + message(said)]
     else:
-        outcome.word, outcome.reasons = 'wrong', ['takes too long' if outcome.code is None else message(said)]
+        # faces of a slave that are longer than its master are refused
+        outcome.word = 'ambiguous' if outcome.code == 2 and 'no face of the slave finds the master' in said else 'wrong'
+        outcome.reasons = ['takes too long' if outcome.code is None else message(said)]
 
 
 def compare(settings, outcome, scene, verdict, base):
@@ -124,7 +129,7 @@ def show_one(settings):
 
 
 def summary(outcomes, seconds):
-    words = ('right', 'ambiguous', 'unsolved', 'wrong')
+    words = ('right', 'ambiguous', 'open', 'unsolved', 'wrong')
     out = [f'{"kind":14s}' + ''.join(f'{word:>11s}' for word in words)]
     for kind in [*sorted({outcome.kind for outcome in outcomes}), None]:
         own = [outcome.word for outcome in outcomes if kind in (None, outcome.kind)]
