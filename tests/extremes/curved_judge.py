@@ -134,11 +134,15 @@ def face_angle(mesh, side):
 
 
 def resolution(scene, pair):
-    """What is known of a normal, in radians: from both sides."""
+    """What is not known of a normal, in radians: from both sides. That of a straight side is known."""
     worst = 0.0
     for body, side in (pair.slave, pair.master):
         if body is None:
+            if all(isinstance(curve, Line) for curve, _ in side.pieces):
+                return 0.0
             continue
+        if all(isinstance(curve, Line) for _, curve in scene.bodies[body].mesh.curves(side)):
+            return 0.0
         angle, is_chord = face_angle(scene.bodies[body].mesh, side)
         worst = max(worst, angle if is_chord else 0.5*angle*angle)
     return UNEVEN*worst
