@@ -257,7 +257,8 @@ def check_pair(scene, tables, forces, number, pair, verdict):
                 held |= set(body.mesh.side_nodes(side[1]))
     samples = scene.samples(pair.slave), scene.samples(pair.master)
     known = resolution(scene, pair)
-    spacing = np.median([np.linalg.norm(np.subtract(*body.mesh.x[body.mesh.face_nodes(*face)[:2]])) for face in body.mesh.side(pair.slave[1])])
+    ends = [body.mesh.x[body.mesh.face_nodes(*face)[:2]] for face in body.mesh.side(pair.slave[1])]
+    spacing = np.median([np.linalg.norm(b - a) for a, b in ends])
     nodes = [node for node in body.mesh.side_nodes(pair.slave[1]) if node not in held]
     largest = np.abs(c[nodes]).max(initial=0.0)
     # over the nodes of a quadratic slave MORTAR spreads the force of a point: only sums have a sign there

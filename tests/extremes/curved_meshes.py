@@ -416,10 +416,6 @@ def half_disc(recipe, radius, n, rng, angles=None, centre=(0.0, 0.0)):
             if mesh:
                 return recipe.finish(mesh, rng)
 
-    def place(s, t):
-        a = math.pi*(1 + s)
-        return centre + np.array([radius*math.cos(a), (1 - t)*radius*math.sin(a)*(1.0 - 0.0*t)])*1.0
-
     return fan(recipe, radius, angles, centre, round_side, flat, rng)
 
 

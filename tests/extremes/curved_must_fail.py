@@ -78,7 +78,8 @@ def tables_must_be_right(atrito):
     roller.notices('a displacement with springs', 'nodes.tab', 'u1', lambda u: u + 0.2*largest, lambda row: row['node'] == inner,
                    'displacement with springs', True)
     expect('no W-IDLE', any('W-IDLE' in reason for reason in roller.verdict('').wrong))
-    pin.notices('shear without friction enough', 'contact.tab', 'shear', lambda t: 3*abs(t) + 1.0, lambda row: row['pressure'] > 0, 'friction bound')
+    pin.notices('shear without friction enough', 'contact.tab', 'shear', lambda t: 3*abs(t) + 1.0, lambda row: row['pressure'] > 0,
+                'friction bound')
     pin.notices('a reaction', 'reactions.tab', 'r1', lambda r: r + 1e-2*pin.least, lambda row: True, 'reaction')
     idle_must_be_least(slider)
     nothing_may_hold_what_is_free(slider)

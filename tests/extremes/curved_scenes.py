@@ -7,7 +7,6 @@ exact arcs and lines, meshed in all ways (curved_meshes.py), turned, shifted, in
 """
 
 import math
-import os
 import sys
 
 import numpy as np
@@ -398,7 +397,8 @@ def round_body(m, radius, angles=None, n=None, bore=None, centre=(0.0, 0.0)):
         if recipe.is_free:
             for _ in range(4):
                 inner = 2*math.pi*meshes.stations(max(8, int(0.7*len(angles))), 'uniform', m.rng, True)
-                mesh = meshes.unstructured([meshes.on_circle(centre, radius, angles[:-1]), meshes.on_circle(centre, bore, inner[:-1])[::-1]],
+                loops = [meshes.on_circle(centre, radius, angles[:-1]), meshes.on_circle(centre, bore, inner[:-1])[::-1]]
+                mesh = meshes.unstructured(loops,
                                            [['rim']*(len(angles) - 1), ['hole']*(len(inner) - 1)],
                                            {'rim': ('OUTSIDE', Arc(centre, radius, 1)), 'hole': ('INSIDE', Arc(centre, bore, -1))},
                                            recipe.is_triangles, m.rng)
@@ -452,7 +452,6 @@ def pin(m):
             angles = np.append(angles[:-1:2], angles[0] + 2*math.pi)
     body = scene.add('PIN', round_body(m, radius, angles), *m.stiffness())
     if wall == 'rigid':
-        m.nu, m.slope = (m.nu, m.slope)
         arcs = [(Arc(centre, hole, -1), lambda t, i=i: hole*np.array([math.cos(2*math.pi*(i + t)/3), math.sin(2*math.pi*(i + t)/3)]))
                 for i in range(3)]
         other = (None, Rigid('WALL', arcs))
@@ -594,10 +593,8 @@ def roller_in_v(m):
     number = groove_block(m, points, [lines[0]]*n + [lines[1]]*n, ['WEST']*n + ['EAST']*n, -radius)
     body = m.scene.add('ROLLER', round_body(m, radius, None, centre=centre), *m.stiffness())
     split_round(m, body, centre)
-    nu, slope_law = m.nu, m.slope
     m.pair((body, 'OUTSIDE-WEST'), (number, 'WEST'))
     m.pair((body, 'OUTSIDE-EAST'), (number, 'EAST'))
-    m.nu, m.slope = nu, slope_law
     hold_roller(m, body, centre, radius)
     roller_loads(m, body, centre, radius)
 
@@ -719,8 +716,8 @@ def disc_between_plates(m):
     m.pair((body, 'OUTSIDE-LOW'), flat_ground(m, 1.5*radius, 0.8*radius))
     recipe = m.recipe()
     high = 2*radius + c
-    plate = meshes.block(recipe, [(-1.5*radius, high), (1.5*radius, high), (1.5*radius, high + 0.8*radius), (-1.5*radius, high + 0.8*radius)],
-                         m.count(12, 20, recipe), 4, m.rng)
+    wide, top = 1.5*radius, high + 0.8*radius
+    plate = meshes.block(recipe, [(-wide, high), (wide, high), (wide, top), (-wide, top)], m.count(12, 20, recipe), 4, m.rng)
     upper = scene.add('PLATE', plate, *m.stiffness())
     m.pair((body, 'OUTSIDE-HIGH'), (upper, 'BOTTOM'))
     word = m.pick('upper held', 'upper free', 'upper guided')
@@ -768,8 +765,8 @@ def slider(m):
         a, b = np.array([1.5*width, height + c]), np.array([-1.5*width, height + c])
         other = None, Rigid('UPPER', [(Line(b, a), lambda t: a + t*(b - a))])
     else:
-        top = meshes.block(recipe, [(-1.5*width, height + c), (1.5*width, height + c), (1.5*width, 2*height + c), (-1.5*width, 2*height + c)],
-                           m.count(10, 18, recipe), 3, m.rng)
+        wide, low = 1.5*width, height + c
+        top = meshes.block(recipe, [(-wide, low), (wide, low), (wide, low + height), (-wide, low + height)], m.count(10, 18, recipe), 3, m.rng)
         number = scene.add('UPPER', top, *m.stiffness())
         scene.hold(number, top.side_nodes('TOP'))
         other = number, 'BOTTOM'

@@ -4,11 +4,10 @@ A deck is a list of cards; *BLOCK becomes nodes and elements first. Each relatio
 """
 
 import math
-import random
 
 import numpy as np
 
-from scene_reader import Scene, cards, face_nodes, read_block
+from scene_reader import Scene, cards, read_block
 
 CORNERS = {3: 3, 6: 3}
 
@@ -59,7 +58,7 @@ class Deck:
 
 def explicit(text):
     """Cards with all nodes, elements, sets and surfaces given one by one."""
-    scene, others, order = Scene(), [], []
+    scene, others = Scene(), []
     for keyword, options, data in cards(text):
         if keyword == 'BLOCK':
             read_block(scene, options, data)
@@ -96,10 +95,6 @@ def geometry(scene):
     return out
 
 
-def number(text):
-    return repr(float(text))
-
-
 def times(row, columns, factor):
     for i in columns:
         if i < len(row) and row[i] != '':
@@ -113,7 +108,7 @@ def move_places(deck, q):
     for _, _, data in deck.each('NODE'):
         for row in data:
             row[1:3] = [repr(float(v)) for v in q @ [float(row[1]), float(row[2])]]
-    for keyword, options, data in deck.each('SURFACE'):
+    for _, options, data in deck.each('SURFACE'):
         if options.get('TYPE') == 'SEGMENTS':
             for row in data:
                 for i in range(1, len(row) - 1, 2):
@@ -235,7 +230,8 @@ def turn(deck, rng):
 def units(deck, rng):
     """Lengths and forces in powers of two, which leaves all digits, or of ten."""
     base = rng.choice((2.0, 10.0))
-    a, b = base**rng.randint(-9 if base == 2 else -3, 9 if base == 2 else 3), base**rng.randint(-9 if base == 2 else -3, 9 if base == 2 else 3)
+    most = 9 if base == 2 else 3
+    a, b = base**rng.randint(-most, most), base**rng.randint(-most, most)
     deck = deck.copy()
     factors = {'NODE': ((1, 2), a), 'ELASTIC': ((0,), b/a**2), 'DENSITY': ((0,), b/a**3), 'SOLID SECTION': ((0,), a), 'CLOAD': ((2,), b),
                'BOUNDARY': ((3,), a), 'DSLOAD': ((2,), b/a**2)}

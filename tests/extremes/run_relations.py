@@ -6,9 +6,9 @@ Scene K is one of random_scenes, a history of one (histories.py) or a curved one
 turned, mirrored, in other units, with other numbers; with every solver, in both forms, with two threads; with an empty step behind it,
 its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and all numbers of nodes.tab, reactions.tab and
 contact.tab to 1e-9 of the largest of their column (of a pair in contact.tab), after they were turned back: where friction acts to 1e-7,
-which is what the outer loop is stopped at, and only where both forms agree so far (else there may be several answers). Far from the origin the last digit of a coordinate is more than
-that of the motions: it is allowed, too. Prints a table
-by relation with the largest difference, and what failed; exit code 0 when nothing did.
+which is what the outer loop is stopped at, and only where both forms agree so far (else there may be several
+answers). Far from the origin the last digit of a coordinate is more than that of the motions: it is allowed, too. Prints a table by
+relation with the largest difference, and what failed; exit code 0 when nothing did.
 """
 
 import math
