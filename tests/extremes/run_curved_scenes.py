@@ -5,7 +5,8 @@ run_curved_scenes.py ATRITO FIRST LAST SEED [-j N] [--folder DIR] [--only N,N,..
 Right is exit 0 where the smooth shapes can balance the loads, with tables that curved_judge.py accepts, W-IDLE where a motion is free
 and nowhere else, and the same pressures with weak springs; and exit 4 where nothing balances the loads. `ambiguous` are scenes of
 which the smooth shapes do not tell (a roller turned by a moment, which its faces may hold and a circle may not): they are not counted
-for their exit code. `open`: exit 3 with friction, of loads that can be balanced. Prints what is wrong with its reason, and a table by kind; DIR (./curved) has the decks and results.txt.
+for their exit code. `open`: exit 3 with friction, of loads that can be balanced. Prints what is wrong with its reason, and a table by
+kind; DIR (./curved) has the decks and results.txt.
 Exit code 0 when nothing is wrong.
 """
 
