@@ -27,6 +27,7 @@ import numpy as np
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 from scene_reader import face_nodes, read_deck, read_table
+from shape_functions import GAUSS, line_shapes, quadrature, shapes
 
 EPS = 2.0**-52
 LAW = 1e-7
@@ -43,28 +44,8 @@ MOST_FORCE = 10**10
 TINY = Decimal(10)**-30
 NOISE = Decimal(10)**-60
 
-CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], float)
-NINE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0], [0, 0]], float)
-GAUSS = {2: (np.array([-1, 1])/math.sqrt(3), np.array([1.0, 1.0])),
-         3: (np.array([-math.sqrt(0.6), 0, math.sqrt(0.6)]), np.array([5, 8, 5])/9)}
-
 
 # -- finite elements ------------------------------------------------------------------------------------------------------------
-
-
-def line_shapes(order, t):
-    """Values and derivatives of the Lagrange polynomials at -1, 1 or -1, 0, 1."""
-    if order == 1:
-        return {-1: ((1 - t)/2, -0.5), 1: ((1 + t)/2, 0.5)}
-    return {-1: (t*(t - 1)/2, t - 0.5), 0: (1 - t*t, -2*t), 1: (t*(t + 1)/2, t + 0.5)}
-
-
-def shapes(order, xi, eta):
-    a, b = line_shapes(order, xi), line_shapes(order, eta)
-    at = CORNERS if order == 1 else NINE
-    value = np.array([a[int(i)][0]*b[int(j)][0] for i, j in at])
-    slope = np.array([[a[int(i)][1]*b[int(j)][0], a[int(i)][0]*b[int(j)][1]] for i, j in at])
-    return value, slope
 
 
 def elasticity(kind, e, mu):
@@ -73,20 +54,13 @@ def elasticity(kind, e, mu):
     return e/((1 + mu)*(1 - 2*mu))*np.array([[1 - mu, mu, 0], [mu, 1 - mu, 0], [0, 0, (1 - 2*mu)/2]])
 
 
-def quadrature(kind):
-    n = 3 if kind.endswith('9') else 2
-    points, weights = GAUSS[n]
-    return [(x, y, v*w) for x, v in zip(points, weights) for y, w in zip(points, weights)]
-
-
 def element_matrix(kind, x, d, thickness):
     """Stiffness and the integrals of the shape functions."""
-    order = 2 if kind.endswith('9') else 1
     n = len(x)
     k = np.zeros((2*n, 2*n))
     volume = np.zeros(n)
-    for xi, eta, weight in quadrature(kind):
-        value, slope = shapes(order, xi, eta)
+    for xi, eta, weight in quadrature(n):
+        value, slope = shapes(n, xi, eta)
         jacobian = slope.T @ x
         size = np.linalg.det(jacobian)*weight*thickness
         gradient = np.linalg.solve(jacobian, slope.T)

@@ -1,0 +1,268 @@
+"""Relations between two decks of one scene: what both say must be the same.
+
+run_relations.py ATRITO RANDOM_SCENES FIRST LAST SEED [-j N] [--folder DIR] [--only N,N,..] [--which RELATION,..] [options of atrito]
+
+Scene K is one of random_scenes, a history of one (histories.py) or a curved one (curved_scenes.py), in turn. Its deck is run, and then
+turned, mirrored, in other units, with other numbers; with every solver, in both forms, with two threads; with an empty step behind it,
+its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and all numbers of nodes.tab, reactions.tab and
+contact.tab to 1e-9 of the largest of their column (of a pair in contact.tab), after they were turned back: where friction acts to 1e-7,
+which is what the outer loop is stopped at, and only where both forms agree so far (else there may be several
+answers). Far from the origin the last digit of a coordinate is more than that of the motions: it is allowed, too. Prints a table by
+relation with the largest difference, and what failed; exit code 0 when nothing did.
+"""
+
+import math
+import multiprocessing
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+import curved_scenes
+import deck_relations as relations
+from deck_relations import Back, Deck
+from histories import History
+from run_scenes import chosen_numbers, run, runner_arguments
+from scene_reader import read_deck, read_table
+
+EXACT, WITH_FRICTION = 1e-9, 1e-7
+DIGITS, EPS = 64, 2.0**-52
+OTHER_DECKS = {'quarter turn': relations.quarter_turn, 'turn': relations.turn, 'mirror': relations.mirror, 'units': relations.units,
+               'renumbered': relations.renumber, 'empty step': relations.empty_step}
+OTHER_OPTIONS = {'skyline': ['--solver', 'skyline'], 'banded': ['--solver', 'banded'], 'sparse': ['--solver', 'sparse'],
+                 'dense form': ['--contact', 'dense'], 'sparse form': ['--contact', 'sparse'], 'threads': ['--threads', '2']}
+RELATIONS = [*OTHER_DECKS, *OTHER_OPTIONS, 'step in two', 'restart']
+COLUMNS = {'gap': 'L', 'pressure': 'P', 'weighted_pressure': 'P', 'shear': 'P-', 'slip': 'L-', 'weight': 'A'}
+
+
+class Result:
+    def __init__(self, settings, text, base, name, options=(), deck_folder=None):
+        path = os.path.join(base, name + '.inp')
+        self.folder = deck_folder or os.path.join(base, name)
+        with open(path, 'w') as file:
+            file.write(text)
+        self.path = path
+        self.code, said, _ = run(settings.atrito, path, self.folder, [*settings.options, *options])
+        self.is_idle = 'W-IDLE' in said
+        self.tables = {}
+        if self.code == 0:
+            for table in ('nodes', 'reactions', 'contact'):
+                file = os.path.join(self.folder, table + '.tab')
+                if os.path.exists(file):
+                    self.tables[table] = read_table(file)[0]
+
+
+def frame(table, is_last):
+    """All rows, or those of the last increment."""
+    if not is_last or not len(table['step']):
+        return table
+    last = max(zip(table['step'], table['increment']))
+    rows = (table['step'] == last[0]) & (table['increment'] == last[1])
+    return {name: values[rows] for name, values in table.items()}
+
+
+def largest_difference(first, other, back):
+    """Over all columns, in parts of the largest value of each; and where."""
+    worst = (0.0, '')
+    spared = last_digits(first.tables.get('nodes'))
+    for name, table in first.tables.items():
+        if name not in other.tables:
+            return math.inf, f'{name}.tab is missing'
+        a, b = frame(table, back.is_last), frame(other.tables[name], back.is_last)
+        if len(a['step']) != len(b['step']):
+            return math.inf, f'{name}.tab has {len(b["step"])} rows for {len(a["step"])}'
+        rule = compare_points if name == 'contact' else compare_nodes
+        for part, where in rule(a, b, back, ('r1', 'r2') if name == 'reactions' else ('u1', 'u2')):
+            part = part if part == math.inf else max(part - spared, 0.0)
+            worst = max(worst, (part, f'{name} {where}'), key=lambda one: (not one[0] <= math.inf, one[0]))
+    return worst
+
+
+def last_digits(nodes):
+    """Of the coordinates, in parts of the largest displacement."""
+    if nodes is None:
+        return 0.0
+    u = np.abs(np.stack([nodes['u1'], nodes['u2']])).max(initial=0.0)
+    return DIGITS*EPS*np.abs(np.stack([nodes['x'], nodes['y']])).max(initial=0.0)/u if u > 0 else 0.0
+
+
+def compare_nodes(a, b, back, columns):
+    number = b['node'].astype(int)
+    if back.node:
+        number = np.array([back.node[int(node)] for node in number])
+    order, mine = np.lexsort((number, b['increment'], b['step'])), np.lexsort((a['node'], a['increment'], a['step']))
+    if (number[order] != a['node'][mine]).any():
+        yield math.inf, 'nodes'
+        return
+    there = back.vector(np.stack([b[c] for c in columns], axis=1))[order]/(back.length if columns[0] == 'u1' else back.force)
+    here = np.stack([a[c] for c in columns], axis=1)[mine]
+    scale = np.abs(here).max(initial=0.0)
+    scale = max(scale, np.abs(there).max(initial=0.0))
+    yield (np.abs(here - there).max(initial=0.0)/scale if scale > 0 else 0.0), columns[0][0]
+
+
+def compare_points(a, b, back, _):
+    units = {'L': back.length, 'P': back.force/back.length**2, 'A': back.length**2}
+    for pair in sorted(set(a['pair'])):
+        mine, theirs = a['pair'] == pair, b['pair'] == pair
+        steps = sorted(set(zip(a['step'][mine], a['increment'][mine])))
+        others = sorted(set(zip(b['step'][theirs], b['increment'][theirs])))
+        rows, partners = [], []
+        for (step, increment), (other, another) in zip(steps, others):
+            i = np.flatnonzero(mine & (a['step'] == step) & (a['increment'] == increment))
+            j = np.flatnonzero(theirs & (b['step'] == other) & (b['increment'] == another))
+            if len(i) != len(j):
+                yield math.inf, f'points of pair {int(pair)}'
+                return
+            there = back.vector(np.stack([b['x'][j], b['y'][j]], axis=1))/back.length
+            here = np.stack([a['x'][i], a['y'][i]], axis=1)
+            nearest = ((here[:, None, :] - there[None, :, :])**2).sum(axis=2).argmin(axis=1)
+            rows += list(i)
+            partners += list(j[nearest])
+        for name, unit in COLUMNS.items():
+            x = a[name][rows]
+            y = b[name][partners]/units[unit[0]]*(back.hand if unit.endswith('-') else 1.0)
+            scale = max(np.abs(x).max(initial=0.0), np.abs(y).max(initial=0.0))
+            if name in ('gap', 'slip'):
+                # both are differences of places and motions
+                scale = max(scale, *(np.abs(a[c][rows]).max(initial=0.0) for c in ('gap', 'slip')))
+            if scale > 0:
+                yield np.abs(x - y).max()/scale, f'{name} of pair {int(pair)}'
+
+
+class Outcome:
+    def __init__(self, number):
+        self.number, self.kind, self.code, self.found, self.is_one = number, '', None, {}, True
+
+
+def deck_of(settings, number):
+    if number % 3 == 2:
+        scene = curved_scenes.make(number, settings.seed)
+        return 'curved ' + scene.kind, scene.deck()
+    text = subprocess.run([settings.generator, str(number), str(settings.seed)], capture_output=True, text=True, check=True).stdout
+    if number % 3 == 0:
+        return 'scene', text
+    return 'history', History(text, number, settings.seed, read_deck(text)).deck
+
+
+def judge_number(work):
+    settings, number = work
+    outcome = Outcome(number)
+    base = os.path.join(settings.folder, str(os.getpid()))
+    os.makedirs(base, exist_ok=True)
+    try:
+        outcome.kind, text = deck_of(settings, number)
+        compare_all(settings, outcome, Deck(text), base)
+    except Exception as trouble:  # a fault of the judge must not stop the others
+        outcome.found['judge'] = (math.inf, repr(trouble))
+    if any(not good(outcome, name) for name in outcome.found):
+        with open(os.path.join(settings.folder, f'{number}.inp'), 'w') as file:
+            file.write(Deck(text).text() if 'judge' not in outcome.found else text)
+    return outcome
+
+
+def compare_all(settings, outcome, deck, base):
+    first = Result(settings, deck.text(), base, 'first')
+    outcome.code = first.code
+    outcome.has_friction = deck.has_friction()
+    forms = {}
+    for name, options in OTHER_OPTIONS.items():
+        if name in settings.relations or (outcome.has_friction and name.endswith('form')):
+            forms[name] = compare(settings, outcome, first, Result(settings, deck.text(), base, 'other', options), Back(), name)
+    if outcome.has_friction:
+        outcome.is_one = all(forms[name] <= WITH_FRICTION for name in ('dense form', 'sparse form'))
+    for name, relation in OTHER_DECKS.items():
+        if name in settings.relations:
+            found = relation(deck, random.Random(f'{settings.seed}-{outcome.number}-{name}'))
+            if found:
+                compare(settings, outcome, first, Result(settings, found[0].text(), base, 'other'), found[1], name)
+    if 'step in two' in settings.relations:
+        found = relations.split_step(deck, None)
+        if found:
+            one = Result(settings, found[2].text(), base, 'two-increments')
+            compare(settings, outcome, one, Result(settings, found[0].text(), base, 'other'), found[1], 'step in two')
+    if 'restart' in settings.relations:
+        begin_again(settings, outcome, deck, base)
+
+
+def begin_again(settings, outcome, deck, base):
+    whole, part = relations.begun(deck)
+    first = Result(settings, whole.text(), base, 'whole')
+    begun = Result(settings, part.text(), base, 'other')
+    file = os.path.join(begun.folder, 'other.restart.h5')
+    if begun.code != 0 or not os.path.exists(file):
+        return
+    kept = os.path.join(base, 'kept.h5')
+    shutil.copy(file, kept)
+    compare(settings, outcome, first, Result(settings, whole.text(), base, 'other', ['--restart', kept]), Back(), 'restart')
+
+
+def compare(settings, outcome, first, other, back, name):
+    if name not in RELATIONS:
+        return 0.0
+    if first.code != other.code:
+        found = math.inf, f'exit {other.code} for {first.code}'
+    elif first.code != 0:
+        found = 0.0, ''
+    else:
+        found = largest_difference(first, other, back)
+        if first.is_idle != other.is_idle and name not in ('step in two',):
+            found = math.inf, 'W-IDLE in one only'
+    outcome.found[name] = found
+    if settings.keep and found[0] > EXACT:
+        shutil.copy(other.path, os.path.join(settings.folder, f'{outcome.number}-{name.replace(" ", "-")}.inp'))
+    return found[0]
+
+
+def good(outcome, name):
+    if name == 'judge':
+        return False
+    return outcome.found[name][0] <= (WITH_FRICTION if outcome.has_friction else EXACT) or not outcome.is_one
+
+
+def summary(outcomes, names):
+    out = [f'{"relation":14s}{"same":>7s}{"not":>6s}{"several":>9s}   largest, failing']
+    for name in names:
+        own = [outcome for outcome in outcomes if name in outcome.found]
+        counted = [outcome for outcome in own if outcome.is_one]
+        bad = sorted((outcome for outcome in counted if not good(outcome, name)), key=lambda outcome: -outcome.found[name][0])
+        fine = max((outcome.found[name][0] for outcome in counted if good(outcome, name)), default=0.0)
+        out.append(f'{name:14s}{len(counted) - len(bad):7d}{len(bad):6d}{len(own) - len(counted):9d}   {fine:.1e}  '
+                   + ' '.join(f'{outcome.number} ({outcome.found[name][0]:.0e} {outcome.found[name][1]})' for outcome in bad[:6])
+                   + (' ...' if len(bad) > 6 else ''))
+    return out
+
+
+def main():
+    os.environ['OMP_NUM_THREADS'] = os.environ['OPENBLAS_NUM_THREADS'] = '1'
+    parser = runner_arguments(__doc__, 'relations')
+    parser.add_argument('--which', default=','.join(RELATIONS))
+    parser.add_argument('--keep', action='store_true')
+    settings, settings.options = parser.parse_known_args()
+    settings.relations = settings.which.split(',')
+    os.makedirs(settings.folder, exist_ok=True)
+    begin, outcomes = time.monotonic(), []
+    with multiprocessing.Pool(settings.jobs) as pool, open(os.path.join(settings.folder, 'results.txt'), 'w') as rows:
+        for outcome in pool.imap(judge_number, [(settings, number) for number in chosen_numbers(settings)]):
+            outcomes.append(outcome)
+            bad = '; '.join(f'{name} {part:.1e} {where}' for name, (part, where) in outcome.found.items() if not good(outcome, name))
+            rows.write(f'{outcome.number} {outcome.code} {"one" if outcome.is_one else "several"} "{outcome.kind}" {bad}\n')
+            rows.flush()
+            if bad:
+                print(f'scene {outcome.number} ({outcome.kind}, exit {outcome.code}): {bad}', flush=True)
+    for name in os.listdir(settings.folder):
+        if name.isdigit() and os.path.isdir(os.path.join(settings.folder, name)):
+            shutil.rmtree(os.path.join(settings.folder, name))
+    names = [name for name in [*RELATIONS, 'judge'] if any(name in outcome.found for outcome in outcomes)]
+    print('\n'.join(summary(outcomes, names)))
+    print(f'{len(outcomes)} scenes, {sum(len(outcome.found) for outcome in outcomes)} relations in {time.monotonic() - begin:.0f} s')
+    return 1 if any(not good(outcome, name) for outcome in outcomes for name in outcome.found) else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
