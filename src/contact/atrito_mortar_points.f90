@@ -35,10 +35,9 @@ module atrito_mortar_points
    !> Of a coefficient: the rest is rounding of the integrals.
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
    real(wp), parameter :: ROUND_OFFS = 8.0_wp       !< that a distance may have
-   !> The part of a face that may be uncovered when it is taken as whole.
-   real(wp), parameter :: WHOLE = 2 - 1.0e-8_wp
-   !> A node this far outside of what is covered, on [-1,1], is covered.
-   real(wp), parameter :: AT_NODE = 1.0e-8_wp
+   !> A node this far outside of what is covered, on [-1,1], is covered, and a face with no more that is not is whole: where sides end
+   !> together, rounding of their coordinates decides nothing.
+   real(wp), parameter :: AT_NODE = 1.0e-3_wp
 
    !> Integrals over a face with the weighting functions of its nodes.
    type :: face_integrals_t
@@ -184,7 +183,7 @@ contains
       real(wp) :: away(MOST)
       integer(ip) :: a
 
-      integrals%is_whole = sum(to - from) >= WHOLE
+      integrals%is_whole = sum(to - from) >= 2 - AT_NODE
       integrals%has_point = [(a <= face%n, a=1, MOST)]
       if (integrals%is_whole) then                  ! at the axis dual functions would divide by nothing
          integrals%is_whole = .not. is_at_axis(face%state, face%x(:, :face%n))
