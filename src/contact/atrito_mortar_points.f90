@@ -47,6 +47,7 @@ module atrito_mortar_points
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
       real(wp) :: normal(2, MOST) = 0.0_wp          !< int psi n h ds [L^2], n the direction in which the sides touch
       real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
+      real(wp) :: least = huge(1.0_wp)              !< of g [L]
       real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
       integer(ip) :: n = 0                          !< nodes of the master
       integer(ip), allocatable :: node(:)           !< (n or more) maybe twice
@@ -63,6 +64,7 @@ module atrito_mortar_points
    !> The rows while faces are added.
    type :: rows_t
       type(id_map_t) :: place                       !< of the points of nodes
+      real(wp), allocatable :: least(:)             !< of the gaps that a point sees [L]
       type(terms_t) :: slave, master
    end type rows_t
 
@@ -93,6 +95,7 @@ contains
       call allocate_points(MOST*slave%n, 0_ip, points)
       call begin_terms(rows%slave)
       call begin_terms(rows%master)
+      allocate (rows%least(MOST*slave%n), source=huge(1.0_wp))
       s = 0.0_wp
       do i = 1, slave%n
          face = take_face(mesh, slave, i, segments)
@@ -110,7 +113,7 @@ contains
       end do
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], &
                           segments%first(2:) > segments%first(:slave%n))
-      call finish_points(mesh, rows%slave, rows%master, points)
+      call finish_points(mesh, rows, points)
    end subroutine pair_by_mortar
 
    !> The integrals over the segments of a face.
@@ -139,12 +142,16 @@ contains
             weight = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))
             call add_place(face, t, weight, master, segments%piece(k), nodes, segments%common(k), integrals)
          end do
+         ! a weight of 0: for the least gap alone
+         call add_place(face, segments%from(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
+         call add_place(face, segments%to(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
       end do
       if (integrals%is_whole) call make_dual(face%n, integrals)
    end subroutine integrate_face
 
    !> Adds what a place of the slave is worth. Displacements that are linear along a chord show nothing of the curve that both sides
-   !> take under pressure: it bulges by curvature/8 times the square of the chord in its middle.
+   !> take under pressure: it bulges by curvature/8 times the square of the chord in its middle. The slave's chord is held against the
+   !> curve of the master as it is: what both then give way is the same at all nodes, and nodes that touch do not overlap.
    pure subroutine add_place(face, t, weight, master, piece, nodes, curvature, integrals)
       type(slave_face_t), intent(in) :: face
       real(wp), intent(in) :: t, weight             !< on the face, in [-1,1]
@@ -164,9 +171,10 @@ contains
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
          call look_at_piece(face, t, master, piece, on_master, normal, gap)
          if (size(nodes) == 2) gap = gap + 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
-         if (n == 2) gap = gap - 0.125_wp*curvature*(1 - t**2)*face%length**2
+         if (n == 2) gap = gap + 0.125_wp*master%bend(piece)*(1 - t**2)*face%length**2
          integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
          integrals%weight = integrals%weight + ds*psi
+         integrals%least = min(integrals%least, gap)
          integrals%gap = integrals%gap + (ds*gap)*psi
          integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
       end associate
@@ -325,6 +333,7 @@ contains
          points%length(j) = points%length(j) + integrals%length(a)
          points%weight(j) = points%weight(j) + integrals%weight(a)
          points%gap(j) = points%gap(j) + integrals%gap(a)
+         rows%least(j) = min(rows%least(j), integrals%least)
          points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
          call add_term(j, face%node(a), integrals%slave(a, a), rows%slave)
          do b = 1, face%n
@@ -356,30 +365,31 @@ contains
       terms%value(terms%n) = value
    end subroutine add_term
 
-   !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's.
-   subroutine finish_points(mesh, own, others, points)
+   !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's. The functions psi
+   !> change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
+   subroutine finish_points(mesh, rows, points)
       type(mesh_t), intent(in) :: mesh
-      type(terms_t), intent(in) :: own, others
+      type(rows_t), intent(in) :: rows
       type(contact_points_t), intent(inout) :: points
       integer(ip), allocatable :: first_own(:), first_other(:), of_own(:), of_other(:)
       real(wp) :: round_off
       integer(ip) :: j
 
       deallocate (points%entry, points%coefficient)
-      allocate (points%entry(own%n + others%n), points%coefficient(own%n + others%n))
-      call list_holders(points%n, reshape(own%point(:own%n), [1_ip, own%n]), first_own, of_own)
-      call list_holders(points%n, reshape(others%point(:others%n), [1_ip, others%n]), first_other, of_other)
+      allocate (points%entry(rows%slave%n + rows%master%n), points%coefficient(rows%slave%n + rows%master%n))
+      call list_holders(points%n, reshape(rows%slave%point(:rows%slave%n), [1_ip, rows%slave%n]), first_own, of_own)
+      call list_holders(points%n, reshape(rows%master%point(:rows%master%n), [1_ip, rows%master%n]), first_other, of_other)
       round_off = 0.0_wp
       if (points%n > 0) round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
       do j = 1, points%n
          points%normal(:, j) = points%normal(:, j)/norm2(points%normal(:, j))
          call clear_small_component(points%x(:, j), points%length(j), points%normal(:, j))
-         points%gap(j) = points%gap(j)/points%weight(j)
+         points%gap(j) = max(points%gap(j)/points%weight(j), rows%least(j))
          if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
          points%first(j + 1) = points%first(j)
-         call gather(own, of_own(first_own(j):first_own(j + 1) - 1), j, points)
+         call gather(rows%slave, of_own(first_own(j):first_own(j + 1) - 1), j, points)
          if (.not. is_revolved(mesh)) call place_force(mesh, j, points)
-         call gather(others, of_other(first_other(j):first_other(j + 1) - 1), j, points)
+         call gather(rows%master, of_other(first_other(j):first_other(j + 1) - 1), j, points)
       end do
       call trim_points(points)
    end subroutine finish_points
