@@ -15,7 +15,7 @@ module atrito_mortar_points
    use atrito_id_map, only: id_map_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_master, only: master_t, smooth_normal
+   use atrito_master, only: master_t, smooth_normal, share_of_master
    use atrito_mesh, only: mesh_t, face_nodes, is_revolved, depth_places
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
@@ -150,8 +150,7 @@ contains
    end subroutine integrate_face
 
    !> Adds what a place of the slave is worth. Displacements that are linear along a chord show nothing of the curve that both sides
-   !> take under pressure: it bulges by curvature/8 times the square of the chord in its middle. The slave's chord is held against the
-   !> curve of the master as it is: what both then give way is the same at all nodes, and nodes that touch do not overlap.
+   !> take under pressure: it bulges by curvature/8 times the square of the chord in its middle.
    pure subroutine add_place(face, t, weight, master, piece, nodes, curvature, integrals)
       type(slave_face_t), intent(in) :: face
       real(wp), intent(in) :: t, weight             !< on the face, in [-1,1]
@@ -171,7 +170,7 @@ contains
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
          call look_at_piece(face, t, master, piece, on_master, normal, gap)
          if (size(nodes) == 2) gap = gap + 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
-         if (n == 2) gap = gap + 0.125_wp*master%bend(piece)*(1 - t**2)*face%length**2
+         if (n == 2) gap = gap + 0.125_wp*(1 - t**2)*lift_of(face%length**2, master, piece, size(nodes) == 2, curvature)
          integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
          integrals%weight = integrals%weight + ds*psi
          integrals%least = min(integrals%least, gap)
@@ -180,6 +179,21 @@ contains
       end associate
       if (.not. master%rigid) call add_master(nodes, face_shape_values(size(nodes, kind=ip), 2*on_master - 1), ds*psi, integrals)
    end subroutine add_place
+
+   !> What a chord of the slave adds, 8 times in its middle: less the bulge of the curve that both sides take. A finer master is a curve
+   !> against it, whose nodes between those of the slave would be an overlap in the mean of two sides that touch: as much is added. A
+   !> master that is as fine has its nodes anywhere, if not at those of the slave, and the power says how soon it is a curve.
+   pure real(wp) function lift_of(square, master, piece, is_chord, curvature) result(lift)
+      real(wp), intent(in) :: square                !< of the chord's length [L^2]
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: piece
+      logical, intent(in) :: is_chord               !< the piece of the master is one, too
+      real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
+
+      lift = square
+      if (is_chord) lift = square*max(1 - (sum(master%d(:, piece)**2)/square)**4, 0.0_wp)
+      lift = (curvature + master%bend(piece))*lift - curvature*square
+   end function lift_of
 
    !> Whether a face is covered whole, and which nodes get a weighting function where it is not: those that are covered, or the
    !> one that is nearest to what is.
@@ -266,7 +280,7 @@ contains
          nearest = abs(distance)
          on_master = roots(k)
       end do
-      normal = common_normal(d, face%curvature, smooth_normal(master, piece, on_master), master%curvature(piece))
+      normal = common_normal(d, smooth_normal(master, piece, on_master), share_of_master(master, piece, on_master, face%curvature))
       gap = dot_product(place_at(master, piece, on_master) - x, normal)
    end subroutine look_at_piece
 
