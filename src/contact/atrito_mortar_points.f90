@@ -23,7 +23,7 @@ module atrito_mortar_points
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_revolved_faces, only: is_at_axis
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, clear_small_component
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, sine, clear_small_component, CORNER
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
    implicit none (type, external)
@@ -47,6 +47,8 @@ module atrito_mortar_points
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
       real(wp) :: normal(2, MOST) = 0.0_wp          !< int psi n h ds [L^2], n the direction in which the sides touch
       real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
+      real(wp) :: across(2, MOST) = 0.0_wp          !< the same with the master's normals, and ...
+      real(wp) :: distance(MOST) = 0.0_wp           !< ... along them
       real(wp) :: least = huge(1.0_wp)              !< of g [L]
       real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
       integer(ip) :: n = 0                          !< nodes of the master
@@ -106,6 +108,8 @@ contains
             face%state = mesh%state(slave%element(i))
             face%thickness = thickness(slave%element(i))
             face%places(:face%n) = depth_places(mesh, face%state, face%node(:face%n))
+            face%is_corner(:2) = [is_corner_before(mesh, slave, segments, i), &
+                                  is_corner_before(mesh, slave, segments, mod(i, slave%n) + 1)]
             call integrate_face(mesh, face, i, segments, master_faces, master, integrals)
             call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
@@ -115,6 +119,24 @@ contains
                           segments%first(2:) > segments%first(:slave%n))
       call finish_points(mesh, rows, points)
    end subroutine pair_by_mortar
+
+   !> Face i and the one before it meet at a corner, and both see the master: the normal there is the master's, whatever the slopes.
+   pure logical function is_corner_before(mesh, slave, segments, i) result(is_corner)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      type(segments_t), intent(in) :: segments
+      integer(ip), intent(in) :: i
+      integer(ip) :: k
+
+      k = i - 1
+      if (i == 1) k = slave%n
+      is_corner = segments%first(i + 1) > segments%first(i) .and. segments%first(k + 1) > segments%first(k)
+      if (.not. is_corner) return
+      associate (nodes => face_nodes(mesh, slave%element(i), slave%face(i)), &
+                 before => face_nodes(mesh, slave%element(k), slave%face(k)))
+         is_corner = before(2) == nodes(1) .and. sine(segments%direction(:, 2, k), segments%direction(:, 1, i)) > CORNER
+      end associate
+   end function is_corner_before
 
    !> The integrals over the segments of a face.
    subroutine integrate_face(mesh, face, i, segments, faces, master, integrals)
@@ -159,7 +181,7 @@ contains
       integer(ip), intent(in) :: nodes(:)           !< of the piece; none of a rigid one
       real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
       type(face_integrals_t), intent(inout) :: integrals
-      real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), gap
+      real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), across(2), gap, distance, bulge
 
       associate (n => face%n)
          phi = 0.0_wp
@@ -169,11 +191,17 @@ contains
          integrals%length = integrals%length + ds*psi
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
          call look_at_piece(face, t, master, piece, on_master, normal, gap)
-         if (size(nodes) == 2) gap = gap + 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
-         if (n == 2) gap = gap + 0.125_wp*(1 - t**2)*lift_of(face%length**2, master, piece, size(nodes) == 2, curvature)
+         across = -smooth_normal(master, piece, on_master)
+         distance = dot_product(place_at(master, piece, on_master) - place_on_face(face, t), across)
+         bulge = 0.0_wp
+         if (size(nodes) == 2) bulge = 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
+         if (n == 2) bulge = bulge + 0.125_wp*(1 - t**2)*lift_of(face%length**2, master, piece, size(nodes) == 2, curvature)
+         gap = gap + bulge
+         integrals%across = integrals%across + ds*spread(across, 2, MOST)*spread(psi, 1, 2)
+         integrals%distance = integrals%distance + (ds*(distance + bulge))*psi
          integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
          integrals%weight = integrals%weight + ds*psi
-         integrals%least = min(integrals%least, gap)
+         integrals%least = min(integrals%least, gap, distance + bulge)
          integrals%gap = integrals%gap + (ds*gap)*psi
          integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
       end associate
@@ -320,6 +348,7 @@ contains
       call solve_lu(m, a, info)                     ! M^-1 D, the transpose of A
       a = transpose(a)
       integrals%gap(:n) = matmul(a, integrals%gap(:n))
+      integrals%distance(:n) = matmul(a, integrals%distance(:n))
       integrals%master(:n, :integrals%n) = matmul(a, integrals%master(:n, :integrals%n))
       integrals%slave = 0.0_wp
       do k = 1, n
@@ -346,9 +375,14 @@ contains
          call add_point(mesh, face%node(a), s + rule%s(k), points, rows%place, j)
          points%length(j) = points%length(j) + integrals%length(a)
          points%weight(j) = points%weight(j) + integrals%weight(a)
-         points%gap(j) = points%gap(j) + integrals%gap(a)
+         if (face%is_corner(a)) then
+            points%gap(j) = points%gap(j) + integrals%distance(a)
+            points%normal(:, j) = points%normal(:, j) + integrals%across(:, a)
+         else
+            points%gap(j) = points%gap(j) + integrals%gap(a)
+            points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
+         end if
          rows%least(j) = min(rows%least(j), integrals%least)
-         points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
          call add_term(j, face%node(a), integrals%slave(a, a), rows%slave)
          do b = 1, face%n
             if (b /= a) call add_term(j, face%node(b), integrals%slave(a, b), rows%slave)

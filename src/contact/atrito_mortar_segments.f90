@@ -41,6 +41,7 @@ module atrito_mortar_segments
       real(wp) :: length = 0.0_wp                   !< of the chord [L]
       integer(ip) :: state = 0                      !< of its element
       real(wp) :: thickness = 0.0_wp                !< of its element [L]
+      logical :: is_corner(3) = .false.             !< at the node it meets another face that sees the master, at a corner
       real(wp) :: places(3) = 0.0_wp                !< what the depth goes by at the nodes (depth_places) [L]
    end type slave_face_t
 
