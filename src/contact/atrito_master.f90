@@ -183,9 +183,9 @@ contains
       n = n/norm2(n)
    end function smooth_normal
 
-   !> The share of the master's normal, at a place of a piece, in the direction in which two surfaces touch. The radii are the weights,
-   !> so that of two circles that touch it is the line between their centres, of a curve on a straight side the normal of that, and
-   !> it does not depend on who is the slave. Of straight sides it is the slave's.
+   !> The share of the master's normal, at a place of a piece, in the direction in which two surfaces touch. The radii are the
+   !> weights, so that of two circles that touch it is the line between their centres, of a curve on a straight side the normal of
+   !> that, and it does not depend on who is the slave. Of straight sides it is the slave's.
    pure real(wp) function share_of_master(master, i, t, slave_curvature) result(share)
       type(master_t), intent(in) :: master
       integer(ip), intent(in) :: i

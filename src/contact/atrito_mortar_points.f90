@@ -35,8 +35,8 @@ module atrito_mortar_points
    !> Of a coefficient: the rest is rounding of the integrals.
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
    real(wp), parameter :: ROUND_OFFS = 8.0_wp       !< that a distance may have
-   !> A node this far outside of what is covered, on [-1,1], is covered, and a face with no more that is not is whole: where sides end
-   !> together, rounding of their coordinates decides nothing.
+   !> A node this far outside of what is covered, on [-1,1], is covered, and a face with no more that is not is whole: where sides
+   !> end together, rounding of their coordinates decides nothing.
    real(wp), parameter :: AT_NODE = 1.0e-3_wp
 
    !> Integrals over a face with the weighting functions of its nodes.
@@ -208,9 +208,9 @@ contains
       if (.not. master%rigid) call add_master(nodes, face_shape_values(size(nodes, kind=ip), 2*on_master - 1), ds*psi, integrals)
    end subroutine add_place
 
-   !> What a chord of the slave adds, 8 times in its middle: less the bulge of the curve that both sides take. A finer master is a curve
-   !> against it, whose nodes between those of the slave would be an overlap in the mean of two sides that touch: as much is added. A
-   !> master that is as fine has its nodes anywhere, if not at those of the slave, and the power says how soon it is a curve.
+   !> What a chord of the slave adds, 8 times in its middle: less the bulge of the curve that both sides take. A finer master is a
+   !> curve against it, whose nodes between those of the slave would be an overlap in the mean of two sides that touch: as much is
+   !> added. One that is as fine may have its nodes at those of the slave: the power says how soon it is a curve.
    pure real(wp) function lift_of(square, master, piece, is_chord, curvature) result(lift)
       real(wp), intent(in) :: square                !< of the chord's length [L^2]
       type(master_t), intent(in) :: master
@@ -413,8 +413,8 @@ contains
       terms%value(terms%n) = value
    end subroutine add_term
 
-   !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's. The functions psi
-   !> change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
+   !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's. The functions
+   !> psi change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
    subroutine finish_points(mesh, rows, points)
       type(mesh_t), intent(in) :: mesh
       type(rows_t), intent(in) :: rows

@@ -178,8 +178,8 @@ contains
       if (size(cuts) > 0) cuts = sorted_cuts(cuts(:n))
    end subroutine find_cuts
 
-   !> Whether a place of the face that looks at an end of a piece may see it: from in front, and not from deep inside. What lies on the
-   !> other side of a ring is behind the point where the directions meet; whether it cuts would hang on rounding.
+   !> Whether a place of the face that looks at an end of a piece may see it: from in front, and not from deep inside. What lies on
+   !> the other side of a ring is behind the point where the directions meet; whether it cuts would hang on rounding.
    pure logical function can_see(face, t, master, i, k)
       type(slave_face_t), intent(in) :: face
       real(wp), intent(in) :: t                     !< in [-1,1]

@@ -29,7 +29,8 @@ module atrito_nodal_points
    real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
    !> Nodes of the slave that lie farther apart than so many times those of the master have others between them.
    real(wp), parameter :: NEIGHBOURS = 1.25_wp
-   !> A kink of the master is felt by a point this near to it, in parts of its length; below this cosine sides hardly face each other.
+   !> A kink of the master is felt by a point this near to it, in parts of its length; below this cosine sides hardly face each
+   !> other.
    real(wp), parameter :: NEAR_KINK = 0.05_wp, ASLANT = 0.1_wp
    !> The curvature of a corner, whose radius is nothing.
    real(wp), parameter :: AT_CORNER = huge(1.0_wp)
@@ -201,8 +202,8 @@ contains
       if (.not. master%rigid) call find_coarsest(mesh, master, faces, points)
    end subroutine look_for_master
 
-   !> The gap is measured along the normal that both sides have in common; at a kink of the master it is the slave's. A corner of the
-   !> slave looks along it once more, since the mean normal of its faces may lead far away.
+   !> The gap is measured along the normal that both sides have in common; at a kink of the master it is the slave's. A corner of
+   !> the slave looks along it once more, since the mean normal of its faces may lead far away.
    pure subroutine turn_to_common_normal(master, curvature, x, length, sight, normal, gap)
       type(master_t), intent(in) :: master
       real(wp), intent(in) :: curvature             !< of the slave [1/L]

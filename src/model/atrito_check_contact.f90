@@ -328,7 +328,7 @@ contains
                              'lie '//to_text(points%coarseness, 2)//' times as far apart as those of the master, and with '// &
                              'QUADRATURE=NODAL nothing keeps the master out between them', &
                              expected='QUADRATURE=MORTAR'//trim(merge(', or the finer side as slave', repeat(' ', 28), &
-                                                      slave_stiffness(model, i)*STIFFER > 1.0_wp)), keyword='CONTACT PAIR')
+                                                               slave_stiffness(model, i)*STIFFER > 1.0_wp)), keyword='CONTACT PAIR')
       end if
       if (.not. is_judged) call judge_radius(context%deck, context%interactions(model%pairs(i)%interaction), &
                                              model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)
