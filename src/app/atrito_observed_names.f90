@@ -139,12 +139,15 @@ contains
       if (n == 0) fault%expected = 'quantities of nodes or of the step'
    end subroutine find_pair
 
+   !> As the deck has it.
    pure function slave_name(model, pair) result(name)
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: pair
       character(len=:), allocatable :: name
 
-      name = model%surfaces(model%pairs(pair)%slave)%name
+      associate (one => model%pairs(pair))
+         name = model%surfaces(merge(one%master, one%slave, one%is_exchanged))%name
+      end associate
    end function slave_name
 
    !> `u2(12)`, `rf2(BASE)`.

@@ -3,22 +3,26 @@
 module atrito_master
    use atrito_element_table, only: DEGREE_OF
    use atrito_faces, only: face_list_t
+   use atrito_id_map, only: id_map_t, add_id, find_id
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_piece_tree, only: piece_tree_t, search_t, plant, begin_search, next_leaf, is_far_off, FACING
    use atrito_pieces, only: pieces_t, allocate_pieces, sag_of, sweep_of, place_at, normal_at, cross_piece, cross, END_TOLERANCE
+   use atrito_slave_faces, only: sine, CORNER
    use atrito_smooth_normals, only: smooth_surface
    implicit none (type, external)
    private
-   public :: master_t, sight_t, master_of_faces, master_of_segments, turn_master, smooth_normal, is_out_of_sight, &
-             look_along, look_at_end, nearest_end
+   public :: master_t, sight_t, master_of_faces, master_of_segments, turn_master, smooth_normal, share_of_master, kink_near, &
+             is_out_of_sight, look_along, look_at_end, nearest_end
 
    !> Faces of elements, or rigid segments and arcs.
    type, extends(pieces_t) :: master_t
       logical :: rigid = .false.
       integer(ip) :: degree = 0                     !< of the elements of all faces; 0: rigid, none, or not the same
       real(wp), allocatable :: ends(:, :, :)        !< (2, first and last end, n) unit normals of the smooth surface
-      real(wp), allocatable :: curvature(:)         !< (n) [1/L] >= 0
+      real(wp), allocatable :: curvature(:, :)      !< (first and last end, n) [1/L] >= 0
+      real(wp), allocatable :: kink(:, :)           !< (first and last end, n) 0..1: how far the next piece is another side
+      real(wp) :: straight = 0.0_wp                 !< [1/L] a curvature that is nothing beside those of curves
       real(wp), allocatable :: bend(:)              !< (n) [1/L] the same, convex > 0
       type(piece_tree_t) :: tree
    end type master_t
@@ -32,6 +36,8 @@ module atrito_master
    end type sight_t
 
    real(wp), parameter :: ANY_SIDE_FACES = 2.0_wp  !< no cosine of two normals is above it
+   !> Of the turn at a rigid joint [rad] from which on it is a kink, and of a curvature by the length of a piece that is none.
+   real(wp), parameter :: A_KINK = 0.1_wp, NO_CURVE = 1.0e-5_wp
    !> Closer than this to a node of the master is at the node.
    real(wp), parameter :: NODE_TOLERANCE = 1.0e-10_wp
 
@@ -43,6 +49,7 @@ contains
       type(face_list_t), intent(in) :: faces
       type(master_t), intent(out) :: master
       integer(ip), allocatable :: nodes(:)
+      real(wp), allocatable :: curvature(:)
       integer(ip) :: i
 
       call allocate_pieces(faces%n, master)
@@ -56,9 +63,61 @@ contains
          master%degree = DEGREE_OF(mesh%shape(faces%element(1)))
          if (any(DEGREE_OF(mesh%shape(faces%element(:faces%n))) /= master%degree)) master%degree = 0
       end if
-      call smooth_surface(mesh, faces, master%ends, master%curvature, master%bend)
+      call smooth_surface(mesh, faces, master%ends, curvature, master%bend)
+      call begin_ends(curvature, master)
+      call join_faces(mesh, faces, curvature, master)
       call plant(master%pieces_t, master%tree)
    end subroutine master_of_faces
+
+   !> Each end has the curvature of its piece.
+   pure subroutine begin_ends(curvature, master)
+      real(wp), intent(in) :: curvature(:)          !< of the pieces [1/L]
+      type(master_t), intent(inout) :: master
+
+      master%curvature = spread(curvature, 1, 2)
+      allocate (master%kink(2, master%n), source=0.0_wp)
+      if (master%n > 0) master%straight = NO_CURVE*master%n/sum(norm2(master%d, dim=1))
+   end subroutine begin_ends
+
+   !> At a node that two faces share the curvature is the mean of theirs, so that it does not matter which one is seen; at a corner
+   !> each has its own.
+   pure subroutine join_faces(mesh, faces, curvature, master)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: faces
+      real(wp), intent(in) :: curvature(:)
+      type(master_t), intent(inout) :: master
+      type(id_map_t) :: begins                      ! face of its first node
+      integer(ip) :: i, k, nodes(2)
+      logical :: known
+
+      do i = 1, faces%n
+         nodes = ends_of(i)
+         call add_id(begins, nodes(1), i, known)
+      end do
+      do i = 1, faces%n
+         nodes = ends_of(i)
+         k = find_id(begins, nodes(2))
+         if (k == 0) cycle
+         if (sine(normal_at(master, i, 1.0_wp), normal_at(master, k, 0.0_wp)) > CORNER) then
+            master%kink(2, i) = 1.0_wp
+            master%kink(1, k) = 1.0_wp
+         else
+            master%curvature(2, i) = 0.5_wp*(curvature(i) + curvature(k))
+            master%curvature(1, k) = master%curvature(2, i)
+         end if
+      end do
+
+   contains
+
+      pure function ends_of(i)
+         integer(ip), intent(in) :: i
+         integer(ip) :: ends_of(2)
+
+         associate (nodes => face_nodes(mesh, faces%element(i), faces%face(i)))
+            ends_of = nodes(:2)
+         end associate
+      end function ends_of
+   end subroutine join_faces
 
    !> The same pieces with their outside on the other side.
    pure subroutine turn_master(master)
@@ -76,6 +135,7 @@ contains
       type(master_t), intent(out) :: master
       logical, intent(in), optional :: is_arc(:)    !< (segments); default: none
       real(wp), intent(in), optional :: centre(:, :) !< (2, segments) of arcs [L], as far from one end as from the other
+      real(wp), allocatable :: curvature(:)
       integer(ip) :: i, n
 
       n = max(size(ends, 2, kind=ip) - 1, 0)
@@ -91,13 +151,19 @@ contains
             master%sweep(i) = sweep_of(ends(:, i), ends(:, i + 1), centre(:, i))
          end do
       end if
-      allocate (master%ends(2, 2, n), master%curvature(n), master%bend(n), source=0.0_wp)
+      allocate (master%ends(2, 2, n), curvature(n), master%bend(n), source=0.0_wp)
       do i = 1, n
          master%ends(:, 1, i) = normal_at(master, i, 0.0_wp)
          master%ends(:, 2, i) = normal_at(master, i, 1.0_wp)
          if (.not. abs(master%sweep(i)) > 0.0_wp) cycle
-         master%curvature(i) = 1/norm2(master%a(:, i) - master%centre(:, i))
-         master%bend(i) = sign(master%curvature(i), dot_product(master%ends(:, 1, i), master%a(:, i) - master%centre(:, i)))
+         curvature(i) = 1/norm2(master%a(:, i) - master%centre(:, i))
+         master%bend(i) = sign(curvature(i), dot_product(master%ends(:, 1, i), master%a(:, i) - master%centre(:, i)))
+      end do
+      call begin_ends(curvature, master)
+      do i = 1, n - 1
+         master%kink(2, i) = min(sine(master%ends(:, 2, i), master%ends(:, 1, i + 1))/A_KINK, 1.0_wp)
+         if (abs(master%bend(i) - master%bend(i + 1)) > NO_CURVE*maxval(curvature(i:i + 1))) master%kink(2, i) = 1.0_wp
+         master%kink(1, i + 1) = master%kink(2, i)
       end do
       call plant(master%pieces_t, master%tree)
    end subroutine master_of_segments
@@ -116,6 +182,36 @@ contains
           + share(2)*(master%ends(:, 2, i) - normal_at(master, i, 1.0_wp))
       n = n/norm2(n)
    end function smooth_normal
+
+   !> The share of the master's normal, at a place of a piece, in the direction in which two surfaces touch. The radii are the
+   !> weights, so that of two circles that touch it is the line between their centres, of a curve on a straight side the normal of
+   !> that, and it does not depend on who is the slave. Of straight sides it is the slave's.
+   pure real(wp) function share_of_master(master, i, t, slave_curvature) result(share)
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: t                     !< in [0,1]
+      real(wp), intent(in) :: slave_curvature       !< [1/L] >= 0
+      real(wp) :: both
+
+      both = slave_curvature + ((1 - t)*master%curvature(1, i) + t*master%curvature(2, i))
+      share = slave_curvature/(both + max(master%straight - 0.1_wp*both, 0.0_wp))
+   end function share_of_master
+
+   !> How far a place of a piece is a kink of the master, 0..1: the next piece, which is another side, begins within `reach` of it.
+   pure real(wp) function kink_near(master, i, t, reach) result(kink)
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: t                     !< in [0,1]
+      real(wp), intent(in) :: reach                 !< [L]
+      real(wp) :: away
+      integer(ip) :: k
+
+      kink = 0.0_wp
+      do k = 1, 2
+         away = norm2(place_at(master, i, t) - place_at(master, i, real(k - 1, wp)))
+         kink = max(kink, master%kink(k, i)*max(1 - away/reach, 0.0_wp))
+      end do
+   end function kink_near
 
    !> Whether the whole master lies so far off the line through x along the normal that neither look_along nor look_at_end, in no
    !> more doubt about the normal than this, can find it: most faces of a long slave are so far off a short master.

@@ -15,7 +15,7 @@ module atrito_mortar_points
    use atrito_id_map, only: id_map_t
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
-   use atrito_master, only: master_t, smooth_normal
+   use atrito_master, only: master_t, smooth_normal, share_of_master
    use atrito_mesh, only: mesh_t, face_nodes, is_revolved, depth_places
    use atrito_mortar_segments, only: segments_t, slave_face_t, cut_slave, join_curves, take_face, place_on_face, direction_at
    use atrito_plane_state, only: depth_at
@@ -23,7 +23,7 @@ module atrito_mortar_points
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_revolved_faces, only: is_at_axis
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, clear_small_component
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, sine, clear_small_component, CORNER
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
    implicit none (type, external)
@@ -35,10 +35,9 @@ module atrito_mortar_points
    !> Of a coefficient: the rest is rounding of the integrals.
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
    real(wp), parameter :: ROUND_OFFS = 8.0_wp       !< that a distance may have
-   !> The part of a face that may be uncovered when it is taken as whole.
-   real(wp), parameter :: WHOLE = 2 - 1.0e-8_wp
-   !> A node this far outside of what is covered, on [-1,1], is covered.
-   real(wp), parameter :: AT_NODE = 1.0e-8_wp
+   !> A node this far outside of what is covered, on [-1,1], is covered, and a face with no more that is not is whole: where sides
+   !> end together, rounding of their coordinates decides nothing.
+   real(wp), parameter :: AT_NODE = 1.0e-3_wp
 
    !> Integrals over a face with the weighting functions of its nodes.
    type :: face_integrals_t
@@ -48,6 +47,9 @@ module atrito_mortar_points
       real(wp) :: weight(MOST) = 0.0_wp             !< int psi h ds [L^2]
       real(wp) :: normal(2, MOST) = 0.0_wp          !< int psi n h ds [L^2], n the direction in which the sides touch
       real(wp) :: gap(MOST) = 0.0_wp                !< int psi g h ds [L^3]
+      real(wp) :: across(2, MOST) = 0.0_wp          !< the same with the master's normals, and ...
+      real(wp) :: distance(MOST) = 0.0_wp           !< ... along them
+      real(wp) :: least = huge(1.0_wp)              !< of g [L]
       real(wp) :: slave(MOST, MOST) = 0.0_wp        !< int psi_a phi_b h ds [L^2]
       integer(ip) :: n = 0                          !< nodes of the master
       integer(ip), allocatable :: node(:)           !< (n or more) maybe twice
@@ -64,6 +66,7 @@ module atrito_mortar_points
    !> The rows while faces are added.
    type :: rows_t
       type(id_map_t) :: place                       !< of the points of nodes
+      real(wp), allocatable :: least(:)             !< of the gaps that a point sees [L]
       type(terms_t) :: slave, master
    end type rows_t
 
@@ -94,6 +97,7 @@ contains
       call allocate_points(MOST*slave%n, 0_ip, points)
       call begin_terms(rows%slave)
       call begin_terms(rows%master)
+      allocate (rows%least(MOST*slave%n), source=huge(1.0_wp))
       s = 0.0_wp
       do i = 1, slave%n
          face = take_face(mesh, slave, i, segments)
@@ -104,6 +108,8 @@ contains
             face%state = mesh%state(slave%element(i))
             face%thickness = thickness(slave%element(i))
             face%places(:face%n) = depth_places(mesh, face%state, face%node(:face%n))
+            face%is_corner(:2) = [is_corner_before(mesh, slave, segments, i), &
+                                  is_corner_before(mesh, slave, segments, mod(i, slave%n) + 1)]
             call integrate_face(mesh, face, i, segments, master_faces, master, integrals)
             call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
@@ -113,8 +119,26 @@ contains
       if (allocated(segments%piece)) points%piece = segments%piece(:segments%first(slave%n + 1) - 1)
       points%faces = pack([(int(slave%element(i), lp)*MOST_SIDES + slave%face(i), i=1, slave%n)], &
                           segments%first(2:) > segments%first(:slave%n))
-      call finish_points(mesh, rows%slave, rows%master, points)
+      call finish_points(mesh, rows, points)
    end subroutine pair_by_mortar
+
+   !> Face i and the one before it meet at a corner, and both see the master: the normal there is the master's, whatever the slopes.
+   pure logical function is_corner_before(mesh, slave, segments, i) result(is_corner)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered
+      type(segments_t), intent(in) :: segments
+      integer(ip), intent(in) :: i
+      integer(ip) :: k
+
+      k = i - 1
+      if (i == 1) k = slave%n
+      is_corner = segments%first(i + 1) > segments%first(i) .and. segments%first(k + 1) > segments%first(k)
+      if (.not. is_corner) return
+      associate (nodes => face_nodes(mesh, slave%element(i), slave%face(i)), &
+                 before => face_nodes(mesh, slave%element(k), slave%face(k)))
+         is_corner = before(2) == nodes(1) .and. sine(segments%direction(:, 2, k), segments%direction(:, 1, i)) > CORNER
+      end associate
+   end function is_corner_before
 
    !> The integrals over the segments of a face.
    subroutine integrate_face(mesh, face, i, segments, faces, master, integrals)
@@ -142,6 +166,9 @@ contains
             weight = 0.5_wp*weights(g)*(segments%to(k) - segments%from(k))
             call add_place(face, t, weight, master, segments%piece(k), nodes, segments%common(k), integrals)
          end do
+         ! a weight of 0: for the least gap alone
+         call add_place(face, segments%from(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
+         call add_place(face, segments%to(k), 0.0_wp, master, segments%piece(k), nodes, segments%common(k), integrals)
       end do
       if (integrals%is_whole) call make_dual(face%n, integrals)
    end subroutine integrate_face
@@ -156,7 +183,7 @@ contains
       integer(ip), intent(in) :: nodes(:)           !< of the piece; none of a rigid one
       real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
       type(face_integrals_t), intent(inout) :: integrals
-      real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), gap
+      real(wp) :: ds, psi(MOST), phi(MOST), on_master, normal(2), across(2), gap, distance, bulge
 
       associate (n => face%n)
          phi = 0.0_wp
@@ -166,15 +193,37 @@ contains
          integrals%length = integrals%length + ds*psi
          ds = ds*depth_at(face%state, face%thickness, dot_product(phi(:n), face%places(:n)))
          call look_at_piece(face, t, master, piece, on_master, normal, gap)
-         if (size(nodes) == 2) gap = gap + 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
-         if (n == 2) gap = gap - 0.125_wp*curvature*(1 - t**2)*face%length**2
+         across = -smooth_normal(master, piece, on_master)
+         distance = dot_product(place_at(master, piece, on_master) - place_on_face(face, t), across)
+         bulge = 0.0_wp
+         if (size(nodes) == 2) bulge = 0.5_wp*curvature*on_master*(1 - on_master)*sum(master%d(:, piece)**2)
+         if (n == 2) bulge = bulge + 0.125_wp*(1 - t**2)*lift_of(face%length**2, master, piece, size(nodes) == 2, curvature)
+         gap = gap + bulge
+         integrals%across = integrals%across + ds*spread(across, 2, MOST)*spread(psi, 1, 2)
+         integrals%distance = integrals%distance + (ds*(distance + bulge))*psi
          integrals%normal = integrals%normal + ds*spread(normal, 2, MOST)*spread(psi, 1, 2)
          integrals%weight = integrals%weight + ds*psi
+         integrals%least = min(integrals%least, gap, distance + bulge)
          integrals%gap = integrals%gap + (ds*gap)*psi
          integrals%slave = integrals%slave + ds*spread(psi, 2, MOST)*spread(phi, 1, MOST)
       end associate
       if (.not. master%rigid) call add_master(nodes, face_shape_values(size(nodes, kind=ip), 2*on_master - 1), ds*psi, integrals)
    end subroutine add_place
+
+   !> What a chord of the slave adds, 8 times in its middle: less the bulge of the curve that both sides take. A finer master is a
+   !> curve against it, whose nodes between those of the slave would be an overlap in the mean of two sides that touch: as much is
+   !> added. One that is as fine may have its nodes at those of the slave: the power says how soon it is a curve.
+   pure real(wp) function lift_of(square, master, piece, is_chord, curvature) result(lift)
+      real(wp), intent(in) :: square                !< of the chord's length [L^2]
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: piece
+      logical, intent(in) :: is_chord               !< the piece of the master is one, too
+      real(wp), intent(in) :: curvature             !< of the curve that both sides take under pressure [1/L]
+
+      lift = square
+      if (is_chord) lift = square*max(1 - (sum(master%d(:, piece)**2)/square)**4, 0.0_wp)
+      lift = (curvature + master%bend(piece))*lift - curvature*square
+   end function lift_of
 
    !> Whether a face is covered whole, and which nodes get a weighting function where it is not: those that are covered, or the
    !> one that is nearest to what is.
@@ -186,7 +235,7 @@ contains
       real(wp) :: away(MOST)
       integer(ip) :: a
 
-      integrals%is_whole = sum(to - from) >= WHOLE
+      integrals%is_whole = sum(to - from) >= 2 - AT_NODE
       integrals%has_point = [(a <= face%n, a=1, MOST)]
       if (integrals%is_whole) then                  ! at the axis dual functions would divide by nothing
          integrals%is_whole = .not. is_at_axis(face%state, face%x(:, :face%n))
@@ -261,7 +310,7 @@ contains
          nearest = abs(distance)
          on_master = roots(k)
       end do
-      normal = common_normal(d, face%curvature, smooth_normal(master, piece, on_master), master%curvature(piece))
+      normal = common_normal(d, smooth_normal(master, piece, on_master), share_of_master(master, piece, on_master, face%curvature))
       gap = dot_product(place_at(master, piece, on_master) - x, normal)
    end subroutine look_at_piece
 
@@ -301,6 +350,7 @@ contains
       call solve_lu(m, a, info)                     ! M^-1 D, the transpose of A
       a = transpose(a)
       integrals%gap(:n) = matmul(a, integrals%gap(:n))
+      integrals%distance(:n) = matmul(a, integrals%distance(:n))
       integrals%master(:n, :integrals%n) = matmul(a, integrals%master(:n, :integrals%n))
       integrals%slave = 0.0_wp
       do k = 1, n
@@ -327,8 +377,14 @@ contains
          call add_point(mesh, face%node(a), s + rule%s(k), points, rows%place, j)
          points%length(j) = points%length(j) + integrals%length(a)
          points%weight(j) = points%weight(j) + integrals%weight(a)
-         points%gap(j) = points%gap(j) + integrals%gap(a)
-         points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
+         if (face%is_corner(a)) then
+            points%gap(j) = points%gap(j) + integrals%distance(a)
+            points%normal(:, j) = points%normal(:, j) + integrals%across(:, a)
+         else
+            points%gap(j) = points%gap(j) + integrals%gap(a)
+            points%normal(:, j) = points%normal(:, j) + integrals%normal(:, a)
+         end if
+         rows%least(j) = min(rows%least(j), integrals%least)
          call add_term(j, face%node(a), integrals%slave(a, a), rows%slave)
          do b = 1, face%n
             if (b /= a) call add_term(j, face%node(b), integrals%slave(a, b), rows%slave)
@@ -359,30 +415,31 @@ contains
       terms%value(terms%n) = value
    end subroutine add_term
 
-   !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's.
-   subroutine finish_points(mesh, own, others, points)
+   !> Unit normals, mean gaps, and the rows by points: of each the slave's nodes, its own first, then the master's. The functions
+   !> psi change their signs, and with them the mean may be below all gaps: sides that touch beside a bend do not overlap.
+   subroutine finish_points(mesh, rows, points)
       type(mesh_t), intent(in) :: mesh
-      type(terms_t), intent(in) :: own, others
+      type(rows_t), intent(in) :: rows
       type(contact_points_t), intent(inout) :: points
       integer(ip), allocatable :: first_own(:), first_other(:), of_own(:), of_other(:)
       real(wp) :: round_off
       integer(ip) :: j
 
       deallocate (points%entry, points%coefficient)
-      allocate (points%entry(own%n + others%n), points%coefficient(own%n + others%n))
-      call list_holders(points%n, reshape(own%point(:own%n), [1_ip, own%n]), first_own, of_own)
-      call list_holders(points%n, reshape(others%point(:others%n), [1_ip, others%n]), first_other, of_other)
+      allocate (points%entry(rows%slave%n + rows%master%n), points%coefficient(rows%slave%n + rows%master%n))
+      call list_holders(points%n, reshape(rows%slave%point(:rows%slave%n), [1_ip, rows%slave%n]), first_own, of_own)
+      call list_holders(points%n, reshape(rows%master%point(:rows%master%n), [1_ip, rows%master%n]), first_other, of_other)
       round_off = 0.0_wp
       if (points%n > 0) round_off = ROUND_OFFS*EPS_MACH*maxval(abs(points%x(:, :points%n)))
       do j = 1, points%n
          points%normal(:, j) = points%normal(:, j)/norm2(points%normal(:, j))
          call clear_small_component(points%x(:, j), points%length(j), points%normal(:, j))
-         points%gap(j) = points%gap(j)/points%weight(j)
+         points%gap(j) = max(points%gap(j)/points%weight(j), rows%least(j))
          if (abs(points%gap(j)) <= round_off) points%gap(j) = 0.0_wp
          points%first(j + 1) = points%first(j)
-         call gather(own, of_own(first_own(j):first_own(j + 1) - 1), j, points)
+         call gather(rows%slave, of_own(first_own(j):first_own(j + 1) - 1), j, points)
          if (.not. is_revolved(mesh)) call place_force(mesh, j, points)
-         call gather(others, of_other(first_other(j):first_other(j + 1) - 1), j, points)
+         call gather(rows%master, of_other(first_other(j):first_other(j + 1) - 1), j, points)
       end do
       call trim_points(points)
    end subroutine finish_points

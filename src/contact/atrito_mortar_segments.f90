@@ -7,11 +7,11 @@ module atrito_mortar_segments
    use atrito_face_geometry, only: face_direction, outward_normal
    use atrito_faces, only: face_list_t
    use atrito_growth, only: make_room
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, sight_t, look_along
    use atrito_mesh, only: mesh_t, face_nodes
-   use atrito_piece_tree, only: search_t, begin_search, next_leaf
-   use atrito_pieces, only: place_at, cross
+   use atrito_piece_tree, only: search_t, begin_search, next_leaf, FACING
+   use atrito_pieces, only: place_at, normal_at, cross
    use atrito_shape_functions, only: face_shape_values, face_shape_slopes
    use atrito_slave_faces, only: sine
    use atrito_smooth_normals, only: smooth_surface
@@ -41,6 +41,7 @@ module atrito_mortar_segments
       real(wp) :: length = 0.0_wp                   !< of the chord [L]
       integer(ip) :: state = 0                      !< of its element
       real(wp) :: thickness = 0.0_wp                !< of its element [L]
+      logical :: is_corner(3) = .false.             !< at the node it meets another face that sees the master, at a corner
       real(wp) :: places(3) = 0.0_wp                !< what the depth goes by at the nodes (depth_places) [L]
    end type slave_face_t
 
@@ -48,9 +49,11 @@ module atrito_mortar_segments
    real(wp), parameter :: SAME_CUT = 1.0e-9_wp
    !> A face that is covered to less than this is not covered.
    real(wp), parameter :: LEAST_COVER = 2.0e-6_wp
-   !> Steps of Newton's method for a cut, and when it has come to an end.
+   !> Steps of Newton's method for a cut, and when it has come to an end: the error behind a step is about its square.
    integer, parameter :: MOST_STEPS = 30
-   real(wp), parameter :: DONE = 1.0e-14_wp
+   real(wp), parameter :: DONE = 1.0e-9_wp
+   !> Errors of rounding that a place may have.
+   real(wp), parameter :: ROUND_OFFS = 64.0_wp
 
 contains
 
@@ -165,6 +168,7 @@ contains
             do k = 0, 1
                t = facing_place(face, place_at(master, master%tree%order(i), real(k, wp)))
                if (abs(t) >= 1 - SAME_CUT) cycle
+               if (.not. can_see(face, t, master, master%tree%order(i), k)) cycle
                n = n + 1
                cuts(n) = t
             end do
@@ -173,6 +177,21 @@ contains
       if (.not. allocated(cuts)) allocate (cuts(0))
       if (size(cuts) > 0) cuts = sorted_cuts(cuts(:n))
    end subroutine find_cuts
+
+   !> Whether a place of the face that looks at an end of a piece may see it: from in front, and not from deep inside. What lies on
+   !> the other side of a ring is behind the point where the directions meet; whether it cuts would hang on rounding.
+   pure logical function can_see(face, t, master, i, k)
+      type(slave_face_t), intent(in) :: face
+      real(wp), intent(in) :: t                     !< in [-1,1]
+      type(master_t), intent(in) :: master
+      integer(ip), intent(in) :: i, k               !< the piece; 0 its first end, 1 the last
+      real(wp) :: d(2), distance
+
+      d = direction_at(face, t)
+      distance = dot_product(place_at(master, i, real(k, wp)) - place_on_face(face, t), d)
+      can_see = dot_product(d, normal_at(master, i, real(k, wp))) <= FACING .and. &
+                distance >= -max(face%length, norm2(master%d(:, i)))
+   end function can_see
 
    !> Cuts in ascending order between -1 and 1, each once.
    pure function sorted_cuts(list) result(cuts)
@@ -225,7 +244,7 @@ contains
          if (.not. abs(derivative) > 0.0_wp) exit
          step = value/derivative
          t = t - step
-         if (abs(step) <= DONE) return
+         if (abs(step) <= max(DONE, ROUND_OFFS*EPS_MACH*maxval(abs(x))/face%length)) return
       end do
       if (i <= MOST_STEPS) t = NOWHERE
    end function facing_place

@@ -8,14 +8,14 @@ module atrito_nodal_points
    use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_faces, only: face_list_t
-   use atrito_master, only: master_t, sight_t, smooth_normal, is_out_of_sight, look_along, look_at_end, &
-                            nearest_end
+   use atrito_master, only: master_t, sight_t, smooth_normal, share_of_master, kink_near, is_out_of_sight, look_along, &
+                            look_at_end, nearest_end
    use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_revolved_faces, only: revolved_face_t, mixed_rows_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, clear_small_component, CORNER
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component, CORNER
    use atrito_smooth_normals, only: smooth_surface, common_normal
    implicit none (type, external)
    private
@@ -29,6 +29,11 @@ module atrito_nodal_points
    real(wp), parameter :: MATCH_TOLERANCE = 1.0e-6_wp
    !> Nodes of the slave that lie farther apart than so many times those of the master have others between them.
    real(wp), parameter :: NEIGHBOURS = 1.25_wp
+   !> A kink of the master is felt by a point this near to it, in parts of its length; below this cosine sides hardly face each
+   !> other.
+   real(wp), parameter :: NEAR_KINK = 0.05_wp, ASLANT = 0.1_wp
+   !> The curvature of a corner, whose radius is nothing.
+   real(wp), parameter :: AT_CORNER = huge(1.0_wp)
 
 contains
 
@@ -126,11 +131,13 @@ contains
       type(id_map_t) :: place                       ! point of a node
       type(nodal_rule_t) :: rule
       type(revolved_face_t) :: face
+      logical :: is_corner(size(points%s))
       real(wp) :: s
       integer(ip) :: i, j, k, of_node(3)
 
       call smooth_surface(mesh, slave, ends, of_face, bend)
       allocate (curvature(size(points%s)), source=0.0_wp)
+      is_corner = .false.
       s = 0.0_wp
       do i = 1, slave%n
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
@@ -140,6 +147,8 @@ contains
          do k = 1, merge(rule%n, 0_ip, used(i))
             call add_point(mesh, rule%node(k), s + rule%s(k), points, place, j)
             of_node(k) = j
+            if (points%length(j) > 0.0_wp) is_corner(j) = sine(points%normal(:, j)/norm2(points%normal(:, j)), &
+                                                               rule%normal(:, k)) > CORNER
             points%length(j) = points%length(j) + rule%weight(k)
             curvature(j) = curvature(j) + rule%weight(k)*of_face(i)
             if (face%n > 0) then
@@ -154,7 +163,7 @@ contains
          if (used(i)) call note_mixed(face, of_node, mixed)
          s = s + rule%s(rule%n)
       end do
-      curvature(:points%n) = curvature(:points%n)/points%length(:points%n)
+      curvature(:points%n) = merge(AT_CORNER, curvature(:points%n)/points%length(:points%n), is_corner(:points%n))
       do i = 1, points%n
          points%normal(:, i) = points%normal(:, i)/norm2(points%normal(:, i))
          call clear_small_component(points%x(:, i), points%length(i), points%normal(:, i))
@@ -183,8 +192,8 @@ contains
          if (sight%piece == 0) sight = nearest_end(points%x(:, i), points%normal(:, i), master, any_side=.true.)
          points%piece(i) = sight%piece
          points%gap(i) = sight%distance
-         if (curvature(i) > 0.0_wp) call turn_to_common_normal(master, sight, curvature(i), points%x(:, i), points%length(i), &
-                                                               points%normal(:, i), points%gap(i))
+         call turn_to_common_normal(master, curvature(i), points%x(:, i), points%length(i), sight, points%normal(:, i), &
+                                    points%gap(i))
          if (abs(points%gap(i)) <= round_off) points%gap(i) = 0.0_wp
          points%first(i + 1) = points%first(i)
          call add_entries([points%node(i)], [1.0_wp], i, points)
@@ -195,16 +204,29 @@ contains
       if (.not. master%rigid) call find_coarsest(mesh, master, faces, points)
    end subroutine look_for_master
 
-   !> On a curved slave the gap is measured along the normal that both sides have in common.
-   pure subroutine turn_to_common_normal(master, sight, curvature, x, length, normal, gap)
+   !> The gap is measured along the normal that both sides have in common; at a kink of the master it is the slave's. A corner of
+   !> the slave looks along it once more, since the mean normal of its faces may lead far away.
+   pure subroutine turn_to_common_normal(master, curvature, x, length, sight, normal, gap)
       type(master_t), intent(in) :: master
-      type(sight_t), intent(in) :: sight
       real(wp), intent(in) :: curvature             !< of the slave [1/L]
       real(wp), intent(in) :: x(2), length          !< [L]
+      type(sight_t), intent(inout) :: sight
       real(wp), intent(inout) :: normal(2)
-      real(wp), intent(out) :: gap                  !< [L]
+      real(wp), intent(inout) :: gap                !< [L]
+      real(wp) :: n(2), of_master(2), share
+      type(sight_t) :: again
 
-      normal = common_normal(normal, curvature, smooth_normal(master, sight%piece, sight%t), master%curvature(sight%piece))
+      of_master = smooth_normal(master, sight%piece, sight%t)
+      share = share_of_master(master, sight%piece, sight%t, curvature)*min(-dot_product(normal, of_master)/ASLANT, 1.0_wp) &
+              *(1 - kink_near(master, sight%piece, sight%t, NEAR_KINK*length))
+      n = common_normal(normal, of_master, share)
+      if (curvature >= AT_CORNER) then
+         again = look_along(x, n, 2*length, master)
+         if (again%piece > 0) sight = again
+      else if (.not. share > 0.0_wp) then
+         return
+      end if
+      normal = n
       call clear_small_component(x, length, normal)
       gap = dot_product(place_at(master, sight%piece, sight%t) - x, normal)
    end subroutine turn_to_common_normal

@@ -10,8 +10,8 @@ module atrito_smooth_normals
    private
    public :: smooth_surface, common_normal
 
-   !> A smaller turn of the normal [rad] is rounding of the coordinates: the surface is straight there.
-   real(wp), parameter :: NO_TURN = 1.0e-6_wp
+   !> A smaller turn of the normal [rad] is rounding of the coordinates: the surface is straight there; a turn like this is not.
+   real(wp), parameter :: NO_TURN = 1.0e-6_wp, A_TURN = 1.0e-4_wp
 
 contains
 
@@ -60,7 +60,7 @@ contains
       end do
       call bend_chords(is_chord, beside, slope, curvature, bend)
       turn = turn + joints/max(n_joints, 1_ip)
-      curvature = merge(turn*curvature, 0.0_wp, turn > NO_TURN)
+      curvature = turn*shown(turn)*curvature
    end subroutine smooth_surface
 
    !> The slopes of a curve against the two chords that meet at one of its points, as of a circle through their three ends: the
@@ -112,17 +112,25 @@ contains
       if (.not. a*b > 0.0_wp) flatter = 0.0_wp
    end function flatter
 
-   !> The direction in which two surfaces touch, out of the slave: of their normals the mean with the radii as weights, so that for
-   !> two circles that touch it is the line between their centres, for a curve on a straight side the normal of that, and it does
-   !> not depend on who is the slave. Of straight sides it is the slave's.
-   pure function common_normal(slave_normal, slave_curvature, master_normal, master_curvature) result(n)
-      real(wp), intent(in) :: slave_normal(2), slave_curvature    !< unit vector out of the body, [1/L] >= 0
-      real(wp), intent(in) :: master_normal(2), master_curvature
+   !> The part of a turn [rad] that is no rounding, without a step in between.
+   elemental real(wp) function shown(turn)
+      real(wp), intent(in) :: turn
+      real(wp) :: x
+
+      x = min(max((turn - NO_TURN)/(A_TURN - NO_TURN), 0.0_wp), 1.0_wp)
+      shown = x**2*(3 - 2*x)
+   end function shown
+
+   !> The direction in which two surfaces touch, out of the slave: of their normals the mean, in which the master's has the share
+   !> that share_of_master tells.
+   pure function common_normal(slave_normal, master_normal, share) result(n)
+      real(wp), intent(in) :: slave_normal(2), master_normal(2) !< unit vectors out of the bodies
+      real(wp), intent(in) :: share                 !< 0..1
       real(wp) :: n(2)
 
       n = slave_normal
-      if (.not. slave_curvature > 0.0_wp) return
-      n = (master_curvature*slave_normal - slave_curvature*master_normal)/(master_curvature + slave_curvature)
+      if (.not. share > 0.0_wp) return
+      n = (1 - share)*slave_normal - share*master_normal
       n = n/norm2(n)
    end function common_normal
 

@@ -184,7 +184,8 @@ contains
       call define_keyword(k, 'CONTACT PAIR', LEVEL_MODEL, 'two surfaces that may touch', &
                           doc='The contact points are the slave''s nodes. NODAL: the gap at each, by the trapezoidal or '// &
                           'Simpson''s rule. MORTAR: the gap in the mean round each, by integrals over segments cut at '// &
-                          'the nodes of both sides, for sides that do not match.')
+                          'the nodes of both sides, for sides that do not match. A slave that is stiffer and finer than its '// &
+                          'master is exchanged with it, which is told.')
       call add_option(k, 'INTERACTION!', KIND_NAME, 'the law of contact')
       call add_option(k, 'QUADRATURE+', KIND_WORD, 'how the gap is measured; left out: NODAL where the sides match or the '// &
                       'master is rigid, else MORTAR', choices='NODAL MORTAR')

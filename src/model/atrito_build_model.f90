@@ -34,6 +34,7 @@ module atrito_build_model
    use atrito_check_pairs_twice, only: warn_of_pairs_twice
    use atrito_check_mesh, only: check_mesh
    use atrito_clearance, only: clearance_t, read_clearances, set_clearances
+   use atrito_contact_roles, only: choose_roles
    use atrito_contact_rules, only: contact_rules_t, read_contact_rules
    use atrito_deck, only: deck_t, token_text, line_item, keyword_name
    use atrito_build_context, only: build_context_t, prepare_context, has_errors
@@ -163,6 +164,7 @@ contains
       call note_unused_interactions(model, context)
       call adjust_pairs(context, adjusted)
       if (has_errors()) return
+      call choose_roles(clearances, context)
       call pair_all(model, points)
       do i = 1, size(points, kind=ip)
          call close_adjusted(adjusted(i), points(i))

@@ -1,6 +1,7 @@
 !> Checks of the contact pairs: first what their surfaces are, then, in a model that is right otherwise, where their points lie.
 module atrito_check_contact
    use atrito_average, only: least_spacing
+   use atrito_contact_roles, only: STIFFER
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
@@ -11,6 +12,7 @@ module atrito_check_contact
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_model, only: model_t, pair_t, interaction_t, SURFACE_SEGMENTS, QUADRATURE_AUTO, FRICTION_NONLOCAL, KERNEL_LINE
    use atrito_number_list, only: number_list_t, add_number, numbers_of
+   use atrito_pairing, only: slave_stiffness
    use atrito_points, only: contact_points_t
    use atrito_sorting, only: sorted_places, each_once
    use atrito_strings, only: to_text
@@ -325,7 +327,8 @@ contains
                              //to_text(model%mesh%node_id(points%coarse_node))//' the nodes of the slave '//of_pair(model, i)// &
                              'lie '//to_text(points%coarseness, 2)//' times as far apart as those of the master, and with '// &
                              'QUADRATURE=NODAL nothing keeps the master out between them', &
-                             expected='QUADRATURE=MORTAR, or the finer side as slave', keyword='CONTACT PAIR')
+                             expected='QUADRATURE=MORTAR'//trim(merge(', or the finer side as slave', repeat(' ', 28), &
+                                                               slave_stiffness(model, i)*STIFFER > 1.0_wp)), keyword='CONTACT PAIR')
       end if
       if (.not. is_judged) call judge_radius(context%deck, context%interactions(model%pairs(i)%interaction), &
                                              model%interactions(model%pairs(i)%interaction), least_spacing(points%x), is_judged)

@@ -79,6 +79,7 @@ module atrito_model
 
    type :: pair_t
       integer(ip) :: interaction = 0, slave = 0, master = 0   !< places in the model's lists
+      logical :: is_exchanged = .false.                       !< the deck has them the other way round (choose_roles)
       integer(ip) :: quadrature = QUADRATURE_AUTO             !< as the deck asks for
       logical :: is_adjusted = .false.                        !< ADJUST: slave nodes are moved onto the master
       real(wp) :: adjust = 0.0_wp                             !< up to this gap [L] ...

@@ -14,7 +14,7 @@ module atrito_pairing
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
-   public :: order_slaves, pair_all, pair_surfaces, element_thickness, make_master
+   public :: order_slaves, pair_all, pair_surfaces, element_thickness, make_master, slave_stiffness
 
 contains
 
@@ -166,6 +166,19 @@ contains
          compliance(i) = 0.5_wp*(c(1, 1) + c(2, 2))    ! of an isotropic material they are the same
       end do
    end function face_compliance
+
+   !> How many times as stiff the slave of a pair is as its master, in the mean along their sides; 0 of a rigid master.
+   pure real(wp) function slave_stiffness(model, i) result(stiffness)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< the pair
+
+      stiffness = 0.0_wp
+      associate (slave => model%surfaces(model%pairs(i)%slave), master => model%surfaces(model%pairs(i)%master))
+         if (min(slave%faces%n, master%faces%n) == 0 .or. master%kind == SURFACE_SEGMENTS) return
+         stiffness = sum(face_compliance(model, master%faces))/master%faces%n &
+                     /(sum(face_compliance(model, slave%faces))/slave%faces%n)
+      end associate
+   end function slave_stiffness
 
    !> Thickness [L] of each element.
    pure function element_thickness(model) result(thickness)

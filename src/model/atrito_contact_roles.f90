@@ -1,0 +1,156 @@
+!> Which side of a pair is the slave, where the deck's choice is unstable: pressures at many nodes of a stiff side against few of a
+!> soft one are not determined by what these can do, and alternate. The softer side carries them well, finer or coarser.
+module atrito_contact_roles
+   use atrito_build_context, only: build_context_t
+   use atrito_clearance, only: clearance_t
+   use atrito_diagnostics, only: report_note, report_warning
+   use atrito_face_geometry, only: has_quarter_node
+   use atrito_faces, only: chain_report_t, face_list_t, order_chain
+   use atrito_kinds, only: ip, wp
+   use atrito_mesh, only: face_nodes
+   use atrito_model, only: model_t, QUADRATURE_NODAL
+   use atrito_pairing, only: pair_surfaces, slave_stiffness
+   use atrito_points, only: contact_points_t
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: choose_roles
+
+   !> A slave that is so many times as stiff as its master is on the wrong side if it is finer, too: where this ratio times the one
+   !> of their nodes less 1 is as large as FINER; below that the noise is hardly that of faces that match.
+   real(wp), parameter, public :: STIFFER = 3.0_wp
+   real(wp), parameter :: FINER = 2.0_wp
+
+contains
+
+   !> Exchanges the sides of such pairs; for models without any error, before their points are made. Where the deck says something
+   !> node by node of the slave, or asks for its nodes, it is warned of.
+   subroutine choose_roles(clearances, context)
+      type(clearance_t), intent(in) :: clearances(:)
+      type(build_context_t), intent(inout) :: context
+      real(wp) :: stiffness, fineness
+      integer(ip) :: i
+
+      do i = 1, size(context%model%pairs, kind=ip)
+         stiffness = slave_stiffness(context%model, i)
+         if (stiffness < STIFFER) cycle
+         fineness = slave_fineness(context%model, i)
+         if (stiffness*(fineness - 1) < FINER) cycle
+         if (can_exchange(context%model, i, clearances)) then
+            call exchange(context, i, stiffness, fineness)
+         else
+            call warn(context, i, stiffness, fineness)
+         end if
+      end do
+   end subroutine choose_roles
+
+   !> Distances of the slave's points over one of the nodes of the master that they face.
+   real(wp) function slave_fineness(model, i) result(fineness)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< the pair
+      type(contact_points_t), allocatable :: points(:)
+      logical :: is_faced(model%mesh%n_nodes)
+
+      associate (pair => model%pairs(i))
+         call pair_surfaces(model, [pair%slave], [pair%master], [pair%quadrature], points)
+         is_faced = .false.
+         if (points(1)%n > 0) is_faced(points(1)%entry) = .true.
+         is_faced = is_faced .and. is_on(model, model%surfaces(pair%master)%faces)
+         fineness = real(points(1)%n - 1, wp)/max(count(is_faced) - 1, 1)
+      end associate
+   end function slave_fineness
+
+   pure function is_on(model, faces)
+      type(model_t), intent(in) :: model
+      type(face_list_t), intent(in) :: faces
+      logical :: is_on(model%mesh%n_nodes)             !< the nodes of the faces
+      integer(ip) :: i
+
+      is_on = .false.
+      do i = 1, faces%n
+         is_on(face_nodes(model%mesh, faces%element(i), faces%face(i))) = .true.
+      end do
+   end function is_on
+
+   !> The master can be the slave, and nothing else in the deck hangs on who it is.
+   logical function can_exchange(model, i, clearances) result(can)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i
+      type(clearance_t), intent(in) :: clearances(:)
+      type(face_list_t) :: faces
+      type(chain_report_t) :: report
+      integer(ip) :: k
+
+      associate (pair => model%pairs(i))
+         can = pair%quadrature /= QUADRATURE_NODAL .and. .not. pair%is_adjusted .and. pair%outline == 0
+         do k = 1, size(clearances, kind=ip)
+            can = can .and. (clearances(k)%pair /= i .or. clearances(k)%is_uniform)
+         end do
+         can = can .and. n_uses(pair%slave) == 1 .and. n_uses(pair%master) == 1
+         if (.not. can) return
+         faces = model%surfaces(pair%master)%faces
+         call order_chain(model%mesh, faces, report)
+         can = report%branch_node == 0 .and. report%loose_face == 0
+         do k = 1, faces%n
+            can = can .and. .not. has_quarter_node(model%mesh%x(:, face_nodes(model%mesh, faces%element(k), faces%face(k))))
+         end do
+      end associate
+
+   contains
+
+      !> By pairs and ties.
+      pure integer(ip) function n_uses(surface)
+         integer(ip), intent(in) :: surface
+
+         n_uses = count(model%pairs%slave == surface, kind=ip) + count(model%pairs%master == surface, kind=ip)
+         if (allocated(model%ties)) n_uses = n_uses + count(model%ties%slave == surface .or. model%ties%master == surface, kind=ip)
+      end function n_uses
+   end function can_exchange
+
+   subroutine exchange(context, i, stiffness, fineness)
+      type(build_context_t), intent(inout) :: context
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: stiffness, fineness
+      type(chain_report_t) :: report
+      integer(ip) :: former
+
+      associate (model => context%model, pair => context%model%pairs(i))
+         call report_note(context%deck, context%slaves(i), 'N-ROLES', side(context, i, stiffness, fineness)// &
+                          ': the softer side carries the pressures, '//model%surfaces(pair%master)%name//' is the slave', &
+                          keyword='CONTACT PAIR')
+         pair%is_exchanged = .true.
+         former = pair%slave
+         pair%slave = pair%master
+         pair%master = former
+         call order_chain(model%mesh, model%surfaces(pair%slave)%faces, report)
+      end associate
+   end subroutine exchange
+
+   subroutine warn(context, i, stiffness, fineness)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: stiffness, fineness
+
+      associate (pair => context%model%pairs(i))
+         call report_warning(context%deck, context%slaves(i), 'W-STIFF-SLAVE', side(context, i, stiffness, fineness)// &
+                             ': pressures on it may alternate from node to node', expected= &
+                             context%model%surfaces(pair%master)%name//', the softer side, as slave'// &
+                             trim(merge(', with QUADRATURE=MORTAR', repeat(' ', 24), pair%quadrature == QUADRATURE_NODAL)), &
+                             keyword='CONTACT PAIR')
+      end associate
+   end subroutine warn
+
+   !> `the slave A is 200 times as stiff as B and 1.7 times as fine`
+   pure function side(context, i, stiffness, fineness) result(text)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: i
+      real(wp), intent(in) :: stiffness, fineness
+      character(len=:), allocatable :: text
+
+      associate (surfaces => context%model%surfaces, pair => context%model%pairs(i))
+         text = 'the slave '//surfaces(pair%slave)%name//' is '//to_text(stiffness, 2)//' times as stiff as '// &
+                surfaces(pair%master)%name//' and '//to_text(fineness, 2)//' times as fine'
+      end associate
+   end function side
+
+end module atrito_contact_roles
