@@ -27,7 +27,7 @@ module atrito_bodies
       real(wp) :: slenderness = 1.0_wp         !< shorter over longer side of the box round the nodes
       real(wp), allocatable :: modes(:, :)     !< (3, n_modes): translations along 1 and 2, rotation about the centre at `size`
       logical :: is_rigid = .false.            !< a rigid surface that moves: no elements, no equations, its nodes carry its motion
-      logical :: is_touched = .false.          !< of a rigid one: a contact point sees it
+      logical :: is_touched = .false.          !< of a rigid one: a contact point sees it, or a bilateral row holds it
    end type body_t
 
    type :: bodies_t

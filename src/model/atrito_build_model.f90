@@ -49,7 +49,6 @@ module atrito_build_model
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
-   use atrito_rigid_motions, only: keep_reference_lists
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports
@@ -186,7 +185,6 @@ contains
          call hold_axis(context)
          call turn_supports(context)
          call build_loads(context)
-         call keep_reference_lists(context)
          call build_requests(context)
       end do
       call keep_sources(context)

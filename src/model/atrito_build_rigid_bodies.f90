@@ -11,7 +11,7 @@ module atrito_build_rigid_bodies
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_rigid_bodies, is_reference, make_solver_mesh, ROTATION_DOF, CARRIERS
+   public :: build_rigid_bodies, is_reference, make_solver_mesh, carriers_of, ROTATION_DOF, CARRIERS
 
    integer(ip), parameter :: ROTATION_DOF = 6_ip
    !> Nodes whose displacements give those of any place of a rigid body: itself, and one along each axis.
@@ -123,6 +123,15 @@ contains
       is_reference = .false.
       if (allocated(context%model%rigid_bodies)) is_reference = any(context%model%rigid_bodies%node == node)
    end function is_reference
+
+   !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.
+   pure function carriers_of(model, i) result(nodes)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< of the rigid bodies
+      integer(ip) :: nodes(CARRIERS)
+
+      nodes = model%mesh%n_nodes + CARRIERS*(i - 1) + [1_ip, 2_ip, 3_ip]
+   end function carriers_of
 
    !> The mesh with three more nodes for each rigid surface that moves, of which the displacement of any place of it is the sum by
    !> its barycentric coordinates: so a contact point sees a rigid master as it sees a face of elements.

@@ -120,11 +120,12 @@ module atrito_model
       integer(ip) :: n_nodes = 0, n_far = 0         !< of the slave that are tied, and that are not
    end type tie_t
 
-   !> SPRING1 holds one node, SPRING2 and SPRINGA two; dof 0: along the line between them.
+   !> SPRING1 holds one node, SPRING2 and SPRINGA two; dof 0: along the line between them, 6: rotations of reference nodes.
    type :: spring_t
       integer(ip) :: id = 0                         !< the user's number
       integer(ip) :: node(2) = 0, dof(2) = 0        !< second node 0: the ground
-      real(wp) :: stiffness = 0.0_wp                !< [F/L], > 0
+      real(wp) :: stiffness = 0.0_wp                !< [F/L], > 0; of dof 6 [F L]
+      real(wp) :: arm = 1.0_wp                      !< of dof 6: what the row has the rotations times [L]
    end type spring_t
 
    !> Loads on elements; several add up.

@@ -76,6 +76,11 @@ contains
                if (len(text) > 0) text = text//', '
                text = text//trim(DOF_NAMES(held%dof(k)))//' = '//number(value, DIGITS)
             end do
+            do k = 1, model%inclined%n
+               if (model%inclined%node(k) /= node) cycle
+               if (len(text) > 0) text = text//', '
+               text = text//'along its axis '//to_text(model%inclined%dof(k))//': '//number(model%inclined%value(k), DIGITS)
+            end do
             if (len(text) == 0) text = 'free'
             call add_entry(page, 'rigid body '//model%surfaces(model%rigid_bodies(i)%surface)%name, &
                            'reference node '//to_text(model%mesh%node_id(node))//', '//text)
@@ -143,8 +148,8 @@ contains
             if (body%is_section) cycle
             call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 14)// &
                           right(number(body%u(2), DIGITS), 14)//right(number(body%rotation, DIGITS), 14)// &
-                          right(held(body%is_prescribed(1), body%reaction(1)), 14)// &
-                          right(held(body%is_prescribed(2), body%reaction(2)), 14)// &
+                          right(held(body%has_reaction(1), body%reaction(1)), 14)// &
+                          right(held(body%has_reaction(2), body%reaction(2)), 14)// &
                           right(held(body%is_prescribed(3), body%moment), 14))
          end associate
       end do
