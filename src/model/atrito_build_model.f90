@@ -49,6 +49,7 @@ module atrito_build_model
    use atrito_plane_state, only: FULL_STATE
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
+   use atrito_rigid_rows, only: add_rigid_rows
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports
@@ -159,6 +160,7 @@ contains
       call note_unused_interactions(model, context)
       call adjust_pairs(context, adjusted)
       if (has_errors()) return
+      call add_rigid_rows(context)
       call pair_all(model, points)
       do i = 1, size(points, kind=ip)
          call close_adjusted(adjusted(i), points(i))

@@ -2,7 +2,7 @@
 module atrito_rigid_report
    use atrito_kinds, only: ip, wp
    use atrito_load_resultants, only: last_factor
-   use atrito_model, only: model_t, nodal_values_t
+   use atrito_model, only: model_t, nodal_values_t, rigid_body_name
    use atrito_page, only: page_t, add_entry, add_line, add_blank, left, right, number
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
@@ -82,7 +82,7 @@ contains
                text = text//'along its axis '//to_text(model%inclined%dof(k))//': '//number(model%inclined%value(k), DIGITS)
             end do
             if (len(text) == 0) text = 'free'
-            call add_entry(page, 'rigid body '//model%surfaces(model%rigid_bodies(i)%surface)%name, &
+            call add_entry(page, 'rigid body '//rigid_body_name(model, i), &
                            'reference node '//to_text(model%mesh%node_id(node))//', '//text)
          end associate
       end do

@@ -9,7 +9,7 @@ module atrito_rigid_bodies
    use atrito_build_rigid_bodies, only: carriers_of, CARRIERS
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, rigid_body_t, nodal_values_t
+   use atrito_model, only: model_t, rigid_body_name, rigid_body_t, nodal_values_t
    use atrito_plane_state, only: STATES
    use atrito_points, only: contact_points_t
    implicit none (type, external)
@@ -142,7 +142,7 @@ contains
       do i = 1, bodies%n_rigid
          nodes = carriers_of(model, i)
          associate (body => list(bodies%n + i))
-            body%name = model%surfaces(model%rigid_bodies(i)%surface)%name
+            body%name = rigid_body_name(model, i)
             body%is_rigid = .true.
             body%is_touched = model%rigid_bodies(i)%is_section
             body%nodes = nodes

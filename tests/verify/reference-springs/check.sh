@@ -104,4 +104,24 @@ for form in dense sparse; do
       "$(value "700*($(rigid "steps-$form" 1 u2))")" 1e-12
 done
 
+# 6. Nodes of elements as a rigid body: they move as one, wherever its reference node is and by every option that names them; a rigid
+#    body of elements does what the drawn surface does, and both what the displacements do that it takes.
+for form in dense sparse; do
+   run 0 "$here/nodes.inp" "top-$form" --digits 17 --contact $form --quiet
+   near "a rigid top, $form" "$(awk 'NR == FNR { if (!/^#/) { u = $4; v = $5; turn = $6 } next }
+      !/^#/ && $4 == 1.5 { n++; d = $5 - (u - turn*($4 - 3)); e = $6 - (v + turn*($3 - 3)); if (d < 0) d = -d; if (e < 0) e = -e
+         if (d > most) most = d; if (e > most) most = e } END { if (n == 13) print most + 0; else print "none" }' \
+      "top-$form/rigid.tab" "top-$form/nodes.tab")" 0 1e-13
+done
+same_tables 'a rigid top, both forms' top-dense/nodes.tab top-sparse/nodes.tab 1e-8
+run 0 "$here/nodes.inp" elsewhere --digits 17 --quiet --set rx=-7.5
+same_column 'another reference node' top-dense elsewhere contact pressure 1e-8
+sed 's/TIE NSET=U-TOP/ELSET=U/' "$here/nodes.inp" >rigid.inp
+sed 's/TIE NSET=U-TOP/ANALYTICAL SURFACE=DRAWN/; s/^L-TOP, U-BOTTOM/L-TOP, DRAWN/; s/^L-BOTTOM, 1, 2/&\nU-TOP, 1, 2/' "$here/nodes.inp" >drawn.inp
+for form in dense sparse; do
+   for deck in rigid drawn; do run 0 $deck.inp $deck-$form --digits 17 --contact $form --quiet; done
+   same_column "elements or a drawn surface, $form" drawn-$form rigid-$form contact pressure 1e-8
+   for name in u1 u2 ur; do same_column "elements or a drawn surface, $form" drawn-$form rigid-$form rigid $name 1e-8; done
+done
+
 finish
