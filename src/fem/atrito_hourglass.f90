@@ -55,13 +55,14 @@ contains
       real(wp), intent(in) :: u(:, :)              !< (2, n_nodes) [L]
       real(wp), intent(out) :: ratio
       integer(ip), intent(out) :: element
-      integer(ip) :: on_sides(fem%mesh%n_nodes), i
+      integer(ip), allocatable :: on_sides(:)      ! of each node in the middle of a side the elements there
+      integer(ip) :: i
       real(wp) :: seen, all_seen, whole, most_unseen
 
       ratio = 0.0_wp
       element = 0
       if (.not. any([(has_hourglass(fem%mesh, body%elements(i)), i=1, size(body%elements, kind=ip))])) return
-      on_sides = 0
+      allocate (on_sides(fem%mesh%n_nodes), source=0_ip)
       do i = 1, size(body%elements, kind=ip)
          associate (nodes => fem%mesh%nodes(CORNERS + 1:, body%elements(i)))
             on_sides(pack(nodes, nodes > 0)) = on_sides(pack(nodes, nodes > 0)) + 1

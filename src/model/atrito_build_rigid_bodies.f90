@@ -115,11 +115,14 @@ contains
       character(len=:), allocatable :: set
       integer(ip), allocatable :: members(:)
       type(token_t) :: place
-      logical :: is_one(context%model%mesh%n_nodes), found
+      logical, allocatable :: is_one(:)
+      logical :: found
       integer(ip) :: i, e
 
       ok = .true.
-      is_one = .false.
+      allocate (nodes(0))
+      if (.not. any([(has_option(context%deck, card, trim(NODE_OPTIONS(i))), i=1, size(NODE_OPTIONS, kind=ip))])) return
+      allocate (is_one(context%model%mesh%n_nodes), source=.false.)
       do i = 1, size(NODE_OPTIONS, kind=ip)
          call option_text(context%deck, card, trim(NODE_OPTIONS(i)), set, found, place)
          if (.not. found .or. .not. ok) cycle
