@@ -287,7 +287,10 @@ contains
 
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
-         if (model%points(i)%n == 0) then
+         if (model%points(i)%n == 0 .and. model%points(i)%n_left_out < model%points(i)%n_faces) then
+           call report_error(context%deck, context%slaves(i), 'E-PAIR', 'the slave has no other nodes than the tips of the crack', &
+                              expected='a slave of several faces, or the other surface as the slave', keyword='CONTACT PAIR')
+         else if (model%points(i)%n == 0) then
             call report_blind(context%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, context%slaves(i), &
                               model%points(i)%n_seeing)
          else

@@ -54,4 +54,9 @@ near 'slip in the middle' "$(column slips-dense/contact.tab slip | sed -n 6p)" 0
 crack slips-mortar type=CPS8 up=8 low=11 beside=5 rows=8 shear=0.5 angle=30
 all_near 'shear of the faces, mortar' slips-mortar-dense/contact.tab status 2 0
 near 'slip in the middle, mortar' "$(column slips-mortar-dense/contact.tab slip | sed -n 8p)" 0.00032 0.00003
+
+# 3. A slave of one face of the first degree has no node that could carry contact.
+awk -v up=1 -v low=3 -v beside=2 -v rows=2 -f "$here/crack.awk" </dev/null >short.inp
+run 2 short.inp short --quiet
+says 'a short slave' short.err 'the slave has no other nodes than the tips of the crack'
 finish
