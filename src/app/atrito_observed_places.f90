@@ -1,6 +1,5 @@
 !> Where --observe looks: the nodes that an argument names, with their weights in a mean.
 module atrito_observed_places
-   use atrito_bilateral_rows, only: ROW_SUPPORT
    use atrito_element, only: body_load
    use atrito_element_table, only: MOST_NODES
    use atrito_expression_calls, only: argument_t
@@ -205,11 +204,7 @@ contains
       do i = 1, size(model%steps, kind=ip)
          has_support = has_support .or. any_of(model%steps(i)%prescribed) .or. any_of(model%steps(i)%rigid_prescribed)
       end do
-      do i = 1, model%bilateral%n
-         associate (rows => model%bilateral)
-            if (rows%kind(i) == ROW_SUPPORT) has_support = has_support .or. is_one(rows%node(rows%first(i)))
-         end associate
-      end do
+      has_support = has_support .or. any_of(model%inclined)
 
    contains
 

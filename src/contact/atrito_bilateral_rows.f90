@@ -1,5 +1,5 @@
 !> Rows that hold whatever the sign of their force: ties, equations, supports along any direction, springs,
-!> pre-tension sections.
+!> pre-tension sections, nodes of rigid bodies.
 !>
 !> Row j asks for sum_k vector(:, k) . u(node(k)) = value(j) + compliance(j) q_j, k from first(j) to first(j+1) - 1, with a force
 !> q_j of any sign, which takes vector(:, k) q_j from the loads of node(k).
@@ -9,10 +9,12 @@ module atrito_bilateral_rows
    implicit none (type, external)
    private
    public :: bilateral_rows_t, begin_rows, add_row, trim_rows
-   public :: ROW_SUPPORT, ROW_EQUATION, ROW_TIE, ROW_SPRING, ROW_SECTION, ROW_KIND_NAME
+   public :: ROW_SUPPORT, ROW_EQUATION, ROW_TIE, ROW_SPRING, ROW_SECTION, ROW_RIGID, &
+             ROW_KIND_NAME
 
-   integer(ip), parameter :: ROW_SUPPORT = 1, ROW_EQUATION = 2, ROW_TIE = 3, ROW_SPRING = 4, ROW_SECTION = 5
-   character(len=8), parameter :: ROW_KIND_NAME(5) = ['support ', 'equation', 'tie     ', 'spring  ', 'section ']
+   integer(ip), parameter :: ROW_SUPPORT = 1, ROW_EQUATION = 2, ROW_TIE = 3, ROW_SPRING = 4, ROW_SECTION = 5, ROW_RIGID = 6
+   character(len=10), parameter :: ROW_KIND_NAME(6) = [character(len=10) :: 'support', 'equation', 'tie', 'spring', 'section', &
+                                                                                                                       'rigid body']
 
    type :: bilateral_rows_t
       integer(ip) :: n = 0

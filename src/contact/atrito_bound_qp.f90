@@ -277,7 +277,7 @@ contains
 
       force = abs(problem%g0) + abs(matmul(problem%g, a))
       do i = 1, problem%m
-         if (problem%c(i, i) > 0.0_wp) force(i) = force(i)/problem%c(i, i)
+         force(i) = force(i)/yield_of(problem, 0.0_wp, i)
       end do
       force(system%set) = (abs(problem%g0(system%set)) + abs(matmul(problem%g(system%set, :), a)))*system%scale**2
    end function forces_of_places
@@ -326,8 +326,22 @@ contains
       type(box_state_t), intent(in) :: state
       integer(ip), intent(in) :: i
 
-      force = row_round_off(problem, state, i)/(problem%c(i, i) + d(i))
+      force = row_round_off(problem, state, i)/yield_of(problem, d(i), i)
    end function force_round_off
+
+   !> What a force moves its row by, with the compliance of its law; where that is nothing, as between rigid surfaces, by as much as
+   !> the softest row, so that a force there is no less than others.
+   pure real(wp) function yield_of(problem, d, i) result(yields)
+      type(bound_qp_t), intent(in) :: problem
+      real(wp), intent(in) :: d                  !< of the row [L/F]
+      integer(ip), intent(in) :: i
+      integer(ip) :: j
+
+      yields = problem%c(i, i) + d
+      if (yields > 0.0_wp) return
+      yields = maxval([(problem%c(j, j), j=1, problem%m)])
+      if (.not. yields > 0.0_wp) yields = 1.0_wp
+   end function yield_of
 
    !> Forces that are what refinement leaves of none become none.
    pure subroutine clear_vanishing(problem, d, state)
@@ -349,7 +363,7 @@ contains
       integer(ip), intent(in) :: i
 
       ! a place may be met exactly by a force that is none
-      is_vanishing = abs(state%q(i))*(problem%c(i, i) + d(i)) <= VANISHING*(state%slack/CLOSES)
+      is_vanishing = abs(state%q(i))*yield_of(problem, d(i), i) <= VANISHING*(state%slack/CLOSES)
    end function is_vanishing
 
    pure real(wp) function largest(x)

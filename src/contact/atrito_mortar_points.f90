@@ -5,7 +5,8 @@
 !> On a face that is covered whole psi_j are dual to the shape functions, int psi_j phi_k = delta_jk int phi_k, so that the slave's
 !> part of the row is its own node alone (Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012). On a face that hangs over the end of
 !> the master they are hat functions of the nodes that are covered, constant beyond them. Either sum to one, so a uniform pressure
-!> is carried over exactly.
+!> is carried over exactly. At the tip of a crack, a node of both sides, there is no row: the last face has the hat functions of its
+!> other nodes.
 module atrito_mortar_points
    use atrito_dense, only: solve_lu
    use atrito_element_table, only: MOST_SIDES
@@ -23,7 +24,7 @@ module atrito_mortar_points
    use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
    use atrito_shape_functions, only: face_shape_values, gauss_rule
    use atrito_revolved_faces, only: is_at_axis
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, sine, clear_small_component, CORNER
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, sine, clear_small_component, CORNER
    use atrito_sorting, only: sorted_places
    use atrito_smooth_normals, only: common_normal
    implicit none (type, external)
@@ -87,7 +88,7 @@ contains
       type(slave_face_t) :: face
       type(nodal_rule_t) :: rule
       real(wp) :: s
-      integer(ip) :: i
+      integer(ip) :: i, tips(2)
 
       points%rigid = master%rigid
       points%is_mortar = .true.
@@ -98,6 +99,7 @@ contains
       call begin_terms(rows%slave)
       call begin_terms(rows%master)
       allocate (rows%least(MOST*slave%n), source=huge(1.0_wp))
+      tips = common_ends(mesh, slave, master_faces)
       s = 0.0_wp
       do i = 1, slave%n
          face = take_face(mesh, slave, i, segments)
@@ -110,7 +112,7 @@ contains
             face%places(:face%n) = depth_places(mesh, face%state, face%node(:face%n))
             face%is_corner(:2) = [is_corner_before(mesh, slave, segments, i), &
                                   is_corner_before(mesh, slave, segments, mod(i, slave%n) + 1)]
-            call integrate_face(mesh, face, i, segments, master_faces, master, integrals)
+            call integrate_face(mesh, face, i, tips, segments, master_faces, master, integrals)
             call add_face(mesh, face, rule, s, integrals, rows, points)
          end if
          s = s + rule%s(rule%n)
@@ -141,10 +143,10 @@ contains
    end function is_corner_before
 
    !> The integrals over the segments of a face.
-   subroutine integrate_face(mesh, face, i, segments, faces, master, integrals)
+   subroutine integrate_face(mesh, face, i, tips, segments, faces, master, integrals)
       type(mesh_t), intent(in) :: mesh
       type(slave_face_t), intent(in) :: face
-      integer(ip), intent(in) :: i
+      integer(ip), intent(in) :: i, tips(:)         !< nodes of both sides
       type(segments_t), intent(in) :: segments
       type(face_list_t), intent(in) :: faces        !< of the master
       type(master_t), intent(in) :: master
@@ -153,7 +155,7 @@ contains
       integer(ip), allocatable :: nodes(:)
       integer(ip) :: k, g
 
-      call judge_cover(face, segments%from(segments%first(i):segments%first(i + 1) - 1), &
+      call judge_cover(face, tips, segments%from(segments%first(i):segments%first(i + 1) - 1), &
                        segments%to(segments%first(i):segments%first(i + 1) - 1), integrals)
       call gauss_rule(N_GAUSS, gauss, weights)
       k = MOST*(segments%first(i + 1) - segments%first(i))
@@ -227,26 +229,30 @@ contains
 
    !> Whether a face is covered whole, and which nodes get a weighting function where it is not: those that are covered, or the
    !> one that is nearest to what is.
-   pure subroutine judge_cover(face, from, to, integrals)
+   pure subroutine judge_cover(face, tips, from, to, integrals)
       type(slave_face_t), intent(in) :: face
+      integer(ip), intent(in) :: tips(:)            !< nodes without a point
       real(wp), intent(in) :: from(:), to(:)        !< of its segments
       type(face_integrals_t), intent(inout) :: integrals
       real(wp), parameter :: NODES(MOST) = [-1.0_wp, 1.0_wp, 0.0_wp]
       real(wp) :: away(MOST)
+      logical :: may_have(MOST)
       integer(ip) :: a
 
       integrals%is_whole = sum(to - from) >= 2 - AT_NODE
-      integrals%has_point = [(a <= face%n, a=1, MOST)]
+      may_have = [(a <= face%n .and. .not. any(tips == face%node(a)), a=1, MOST)]
+      integrals%has_point = may_have
+      if (any(.not. may_have(:face%n))) integrals%is_whole = .false.
       if (integrals%is_whole) then                  ! at the axis dual functions would divide by nothing
          integrals%is_whole = .not. is_at_axis(face%state, face%x(:, :face%n))
          return
       end if
       away = huge(1.0_wp)
       do a = 1, face%n
-         away(a) = minval(max(from - NODES(a), NODES(a) - to))
+         if (may_have(a)) away(a) = minval(max(from - NODES(a), NODES(a) - to))
       end do
       integrals%has_point = away <= AT_NODE
-      if (.not. any(integrals%has_point)) integrals%has_point = [(a == minloc(away, dim=1), a=1, MOST)]
+      if (.not. any(integrals%has_point)) integrals%has_point = [(a == minloc(away, dim=1) .and. may_have(a), a=1, MOST)]
    end subroutine judge_cover
 
    !> The functions that are integrated with: shape functions on a whole face, which make_dual combines; else hats.
@@ -272,6 +278,7 @@ contains
 
       psi = 0.0_wp
       select case (count(in_use))
+      case (0)                                      ! both ends are tips
       case (1)
          where (in_use) psi = 1.0_wp
       case (2)

@@ -12,10 +12,10 @@ module atrito_nodal_points
                             look_at_end, nearest_end
    use atrito_pieces, only: place_at
    use atrito_plane_state, only: depth_at, IS_TAPERED, STATES
-   use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, trim_points
+   use atrito_points, only: contact_points_t, allocate_points, add_point, add_entries, drop_points, trim_points
    use atrito_revolved_faces, only: revolved_face_t, mixed_rows_t, revolve_face, note_mixed, mix_rows
    use atrito_shape_functions, only: face_shape_values
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component, CORNER
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component, CORNER
    use atrito_smooth_normals, only: smooth_surface, common_normal
    implicit none (type, external)
    private
@@ -62,6 +62,7 @@ contains
       call trim_points(points)
       if (.not. master%rigid) points%matching = are_matching(mesh, slave, master, points)
       call mix_rows(mixed, points)
+      call drop_points(common_ends(mesh, slave, master_faces), points)
    end subroutine pair_with_master
 
    !> A face is a candidate when each of its nodes finds the master along the face's normal there. On a curved slave that normal is

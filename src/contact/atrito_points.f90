@@ -6,7 +6,7 @@ module atrito_points
    use atrito_mesh, only: mesh_t
    implicit none (type, external)
    private
-   public :: contact_points_t, sliding_t, allocate_points, add_point, add_entries, trim_points
+   public :: contact_points_t, sliding_t, allocate_points, add_point, add_entries, drop_points, trim_points
 
    !> A motion in which both sides of a pair slide along themselves (atrito_sliding_motions).
    type :: sliding_t
@@ -99,6 +99,39 @@ contains
          end do
       end associate
    end subroutine add_entries
+
+   !> Takes away the points of some nodes.
+   pure subroutine drop_points(nodes, points)
+      integer(ip), intent(in) :: nodes(:)           !< 0: none
+      type(contact_points_t), intent(inout) :: points
+      integer(ip) :: i, n, k, at
+
+      n = 0
+      at = 1
+      do i = 1, points%n
+         if (any(nodes == points%node(i))) cycle
+         n = n + 1
+         points%node(n) = points%node(i)
+         points%x(:, n) = points%x(:, i)
+         points%s(n) = points%s(i)
+         points%normal(:, n) = points%normal(:, i)
+         points%length(n) = points%length(i)
+         points%weight(n) = points%weight(i)
+         points%gap(n) = points%gap(i)
+         associate (from => points%first(i), entries => points%first(i + 1) - points%first(i))
+            do k = 0, entries - 1                   ! never to a place behind that it is taken from
+               points%entry(at + k) = points%entry(from + k)
+               points%coefficient(at + k) = points%coefficient(from + k)
+            end do
+            k = entries
+         end associate
+         points%first(n) = at
+         at = at + k
+      end do
+      points%first(n + 1) = at
+      points%n = n
+      call trim_points(points)
+   end subroutine drop_points
 
    !> Gives back what was allocated for more points and entries.
    pure subroutine trim_points(points)

@@ -3,10 +3,10 @@ module atrito_slave_faces
    use atrito_face_geometry, only: face_arc_length, face_direction, outward_normal
    use atrito_faces, only: face_list_t
    use atrito_kinds, only: ip, wp, EPS_MACH
-   use atrito_mesh, only: mesh_t, face_nodes
+   use atrito_mesh, only: mesh_t, face_end, face_nodes
    implicit none (type, external)
    private
-   public :: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component
+   public :: nodal_rule_t, nodal_rule, common_ends, turn_at, sine, clear_small_component
 
    !> The nodal rule on a face, in the order of travel.
    type :: nodal_rule_t
@@ -21,6 +21,29 @@ module atrito_slave_faces
    real(wp), parameter, public :: CORNER = 0.8_wp
 
 contains
+
+   !> The ends of a slave that are nodes of its master, too: at the tip of a crack nothing opens or slips, so there is no point.
+   !> 0: none.
+   pure function common_ends(mesh, slave, master) result(nodes)
+      type(mesh_t), intent(in) :: mesh
+      type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
+      type(face_list_t), intent(in) :: master       !< n = 0: it is rigid
+      integer(ip) :: nodes(2)
+      logical :: is_common(2)
+      integer(ip) :: i
+
+      nodes = 0
+      if (slave%n == 0) return
+      nodes = [mesh%nodes(slave%face(1), slave%element(1)), &
+               mesh%nodes(face_end(mesh, slave%element(slave%n), slave%face(slave%n)), slave%element(slave%n))]
+      is_common = .false.
+      do i = 1, master%n
+         associate (e => master%element(i), f => master%face(i))
+            is_common = is_common .or. nodes == mesh%nodes(f, e) .or. nodes == mesh%nodes(face_end(mesh, e, f), e)
+         end associate
+      end do
+      where (.not. is_common) nodes = 0
+   end function common_ends
 
    !> Sine of the angle by which the normal turns along a face, or from it to the next ones of the chain; 0 at a corner.
    pure real(wp) function turn_at(mesh, slave, i, rule) result(turn)

@@ -47,7 +47,7 @@ module atrito_foreign_keywords
         subject_t('flow and networks of fluids', 'a program for flow; a pressure that is known: *DLOAD, *DSLOAD (P, HP)', .true.), &
                                   subject_t('bodies in space', PLANE, .true.), &
                                   subject_t('beams, shells, membranes and trusses', PLANE, .true.), &
-             subject_t('constraints that couple nodes in space', '*EQUATION, *TIE, or *RIGID BODY with a reference node', .true.), &
+             subject_t('constraints that couple nodes in space', '*EQUATION, *TIE, or *RIGID BODY, TIE NSET=, REF NODE=', .true.), &
                               subject_t('a bolt that is tightened', '*PRE-TENSION SECTION, or *TEMPERATURE of the shank', .true.), &
                       subject_t('masses, dashpots, connectors and gaps between two nodes', '*SPRING, or a *CONTACT PAIR', .true.), &
                    subject_t('sectors that repeat', 'the whole section, or half of it with *BOUNDARY along the line of symmetry'), &

@@ -165,11 +165,7 @@ module atrito_foreign_words
                                 phrase_t('NODE/SYSTEM', 'coordinates x, y'), &
                                 phrase_t('NSET/ELEMENT', 'the numbers of the nodes'), &
                                 phrase_t('RESTART/STEP', 'atrito --restart FILE, which goes on from the last increment in it'), &
-                             phrase_t('RIGIDBODY/ELSET', 'ANALYTICAL SURFACE= of a *SURFACE, TYPE=SEGMENTS, or a stiff material'), &
-                                phrase_t('RIGIDBODY/NSET', '*EQUATION, or ANALYTICAL SURFACE= of a *SURFACE, TYPE=SEGMENTS'), &
-                                phrase_t('RIGIDBODY/PINNSET', 'ANALYTICAL SURFACE= of a *SURFACE, TYPE=SEGMENTS'), &
-                                phrase_t('RIGIDBODY/ROTNODE', 'ANALYTICAL SURFACE= of a *SURFACE, TYPE=SEGMENTS, with REF NODE='), &
-                                phrase_t('RIGIDBODY/TIENSET', 'ANALYTICAL SURFACE= of a *SURFACE, TYPE=SEGMENTS'), &
+                                phrase_t('RIGIDBODY/ROTNODE', 'REF NODE= alone, whose dof 6 is the rotation'), &
                                 phrase_t('SOLIDSECTION/COMPOSITE', 'a *SOLID SECTION for each layer, of its own elements'), &
                                 phrase_t('SOLIDSECTION/ORIENTATION', 'an isotropic *ELASTIC, or axes along x and y'), &
                                 phrase_t('STATIC/FULLYPLASTIC', 'no such option'), &

@@ -287,13 +287,19 @@ contains
       call add_item(k, 'yc', KIND_REAL, 'coordinate of its centre', dimension='L')
       call add_example(k, '*SURFACE, NAME=sole|plate, S1|*SURFACE, NAME=floor, TYPE=SEGMENTS|START, -1., 0.|LINE, 2., 0.')
 
-      call define_keyword(k, 'RIGID BODY', LEVEL_MODEL, 'makes a drawn surface a rigid body', &
-                          doc='Without a reference node it is fixed. With one it moves with that node: *BOUNDARY prescribes '// &
+      call define_keyword(k, 'RIGID BODY', LEVEL_MODEL, 'makes a drawn surface, or nodes, a rigid body', &
+                      doc='A surface without a reference node is fixed. With one it moves with that node: *BOUNDARY prescribes '// &
                           'its dofs 1, 2 and 6, the rotation about the node, *CLOAD loads them, and what is not prescribed '// &
-                          'is free. Beside CAX elements it moves along the axis alone. rigid.tab has motions and reactions.')
-      call add_option(k, 'ANALYTICAL SURFACE!', KIND_NAME, 'a surface of TYPE=SEGMENTS')
+                          'is free. Nodes of elements that belong to it move as it does, whatever their elements would do '// &
+                          'otherwise. Beside CAX elements it moves along the axis alone. rigid.tab has motions and reactions.')
+      call add_option(k, 'ANALYTICAL SURFACE', KIND_NAME, 'a surface of TYPE=SEGMENTS')
+      call add_option(k, 'NSET', KIND_NAME, 'nodes of elements')
+      call add_option(k, 'PIN NSET', KIND_NAME, 'the same: nodes have no rotation of their own')
+      call add_option(k, 'TIE NSET', KIND_NAME, 'the same')
+      call add_option(k, 'ELSET', KIND_NAME, 'the nodes of these elements')
       call add_option(k, 'REF NODE', KIND_ID_OR_NAME, 'a node of no element, or a set of one')
-      call add_example(k, '*RIGID BODY, ANALYTICAL SURFACE=floor|*RIGID BODY, ANALYTICAL SURFACE=punch, REF NODE=1000')
+      call add_example(k, '*RIGID BODY, ANALYTICAL SURFACE=floor|*RIGID BODY, ANALYTICAL SURFACE=punch, REF NODE=1000|'// &
+                       '*RIGID BODY, REF NODE=1001, TIE NSET=plate-TOP')
    end subroutine define_surface_keywords
 
    !> Decks in parts.

@@ -290,9 +290,10 @@ contains
       type(keyword_list_t), intent(inout) :: k
 
       call define_keyword(k, 'TRANSFORM', LEVEL_MODEL, 'local axes of nodes', &
-                          doc='*BOUNDARY, *CLOAD and *EQUATION at these nodes are along the local axes; what is printed is '// &
-                          'along x and y. R: the local x axis points from the origin to a, local y to the side of b. C: local '// &
-                          'x is the direction from a to the node, local y is that turned by +90 degrees.')
+                          doc='*BOUNDARY, *CLOAD, *EQUATION and *SPRING at these nodes, reference nodes too, are along the '// &
+                          'local axes; what is printed is along x and y. R: the local x axis points from the origin to a, '// &
+                          'local y to the side of b. C: local x is the direction from a to the node, local y is that turned '// &
+                          'by +90 degrees.')
       call add_option(k, 'NSET!', KIND_NAME, 'the nodes')
       call add_option(k, 'TYPE', KIND_WORD, 'rectangular or cylindrical', default='R', choices='R C -S')
       call add_form(k, 'the axes', 1, 1)
@@ -310,7 +311,7 @@ contains
                           'many, taken in order. All dofs may be prescribed or take part in other equations.')
       call add_form(k, 'the number of terms, then the terms, up to four a line', 2, ANY_NUMBER)
       call add_item(k, 'node', KIND_ID_OR_NAME, 'number of a node, or a node set; or the number of terms, alone')
-      call add_item(k, '[dof]', KIND_INTEGER, '1 or 2; terms of 3 to 6 are 0')
+      call add_item(k, '[dof]', KIND_INTEGER, '1 or 2, of a reference node also 6, its rotation; other terms of 3 to 6 are 0')
       call add_item(k, '[coefficient]', KIND_REAL, 'not all of them 0', dimension='-')
       call add_item(k, '[further terms]...', KIND_TEXT, 'node, dof, coefficient')
       call add_example(k, '*EQUATION|2|17, 1, 1., 205, 1, -1.')
@@ -368,10 +369,10 @@ contains
       call add_option(k, '-NONLINEAR', KIND_FLAG, 'force by a table')
       call add_option(k, '-ORIENTATION', KIND_NAME, 'local axes')
       call add_form(k, 'the dofs; SPRINGA has none', 1, 1)
-      call add_item(k, 'dof', KIND_INTEGER, 'of the first node, 1 or 2')
+      call add_item(k, 'dof', KIND_INTEGER, 'of the first node, 1 or 2; of a reference node also 6, its rotation')
       call add_item(k, 'second dof', KIND_INTEGER, 'of the second node, of SPRING2', default='dof')
       call add_form(k, 'the stiffness', 0, 1)
-      call add_item(k, 'stiffness', KIND_REAL, 'force over elongation, > 0', dimension='F/L')
+      call add_item(k, 'stiffness', KIND_REAL, 'force over elongation, > 0; of dof 6 moment over rotation [F L]', dimension='F/L')
       call add_item(k, '(further)...', KIND_REAL, 'of other programs')
       call add_example(k, '*ELEMENT, TYPE=SPRING1, ELSET=bedding|1001, 17|*SPRING, ELSET=bedding|2|2.5e4')
    end subroutine define_springs

@@ -4,7 +4,7 @@
 !> round-off, which far from the origin would cost digits.
 module atrito_element
    use atrito_axisymmetric, only: axisymmetric_stiffness
-   use atrito_element_table, only: BEST_OF, MOST_NODES, POINTS_OF, ERROR_POINTS_OF, has_mean_dilatation, point_count
+   use atrito_element_table, only: BEST_OF, CORNERS_OF, DEGREE_OF, MOST_NODES, POINTS_OF, has_mean_dilatation, point_count
    use atrito_kinds, only: ip, wp, EPS_MACH
    use atrito_plane_state, only: elastic_t, elasticity_matrix, IS_REDUCED, IS_TAPERED, COMPONENTS, depth_at, STATES
    use atrito_reduced_integration, only: hourglass_stiffness
@@ -406,6 +406,35 @@ contains
       end do
    end subroutine pressure_load
 
+   !> Points for a force per volume. Of triangles they are exact: shape functions and Jacobian, which is of the degree 2 with curved
+   !> sides, times the depth and the place where these are not constant.
+   pure integer(ip) function volume_points(n_nodes, state, is_linear) result(n)
+      integer(ip), intent(in) :: n_nodes, state    !< places in SHAPES and STATES
+      logical, intent(in) :: is_linear             !< in the place
+      integer(ip) :: degree
+
+      n = POINTS_OF(n_nodes)
+      if (IS_REDUCED(state) .and. n_nodes == 8) n = BEST_OF(n_nodes) ! as other programs have it
+      if (CORNERS_OF(n_nodes) /= 3) return
+      associate (own => DEGREE_OF(n_nodes))
+         degree = own + 2*(own - 1)
+         if (STATES(state)%has_hoop .or. IS_TAPERED(state)) degree = degree + own
+         if (is_linear) degree = degree + own
+      end associate
+      select case (degree)
+      case (:1)
+         n = 1
+      case (2)
+         n = 3
+      case (3:4)
+         n = 6
+      case (5:6)
+         n = 16
+      case default
+         n = 25
+      end select
+   end function volume_points
+
    !> Nodal forces [F] of a force per volume, constant or linear in the place: density + A x.
    pure subroutine body_load(x, density, thickness, state, f, slope, places)
       real(wp), intent(in) :: x(:, :)              !< (2, n) [L]
@@ -422,9 +451,7 @@ contains
       if (present(places)) goes_by = places
       n_nodes = size(x, 2, kind=ip)
       f = 0.0_wp
-      n_points = POINTS_OF(n_nodes)
-      if (STATES(state)%has_hoop .or. IS_TAPERED(state) .or. present(slope)) n_points = ERROR_POINTS_OF(n_nodes) ! a higher degree
-      if (IS_REDUCED(state) .and. n_nodes == 8) n_points = BEST_OF(n_nodes) ! as other programs have it
+      n_points = volume_points(n_nodes, state, present(slope))
       here = density
       do point = 1, n_points
          call rule_point(n_nodes, n_points, point, xi, weight)

@@ -224,8 +224,9 @@ contains
 
    !> Points and weights of the Gauss rule with 1, 2 or 3 points on [-1,1].
    pure subroutine gauss_rule(n, points, weights)
-      integer(ip), intent(in) :: n                 !< 1, 2 or 3
+      integer(ip), intent(in) :: n                 !< 1 .. 5
       real(wp), intent(out) :: points(n), weights(n)
+      real(wp) :: near, far
 
       if (n == 1) then
          points = 0.0_wp
@@ -233,9 +234,19 @@ contains
       else if (n == 2) then
          points = [-1.0_wp, 1.0_wp]/sqrt(3.0_wp)
          weights = 1.0_wp
-      else
+      else if (n == 3) then
          points = [-1.0_wp, 0.0_wp, 1.0_wp]*sqrt(0.6_wp)
          weights = [5.0_wp, 8.0_wp, 5.0_wp]/9.0_wp
+      else if (n == 4) then
+         near = sqrt((3 - 2*sqrt(1.2_wp))/7)
+         far = sqrt((3 + 2*sqrt(1.2_wp))/7)
+         points = [-far, -near, near, far]
+         weights = (18 + [-1, 1, 1, -1]*sqrt(30.0_wp))/36
+      else
+         near = sqrt(5 - 2*sqrt(10.0_wp/7))/3
+         far = sqrt(5 + 2*sqrt(10.0_wp/7))/3
+         points = [-far, -near, 0.0_wp, near, far]
+         weights = [[322.0_wp, 322.0_wp, 512.0_wp, 322.0_wp, 322.0_wp] + [-13, 13, 0, 13, -13]*sqrt(70.0_wp)]/900
       end if
    end subroutine gauss_rule
 
@@ -252,7 +263,7 @@ contains
    !> node to node.
    pure subroutine rule_point(n_nodes, n, k, xi, weight)
       integer(ip), intent(in) :: n_nodes           !< place in SHAPES
-      integer(ip), intent(in) :: n                 !< 1, 4 or 9; 1, 3 or 6
+      integer(ip), intent(in) :: n                 !< 1, 4 or 9; 1, 3, 6, 16 or 25
       integer(ip), intent(in) :: k                 !< 1 .. n
       real(wp), intent(out) :: xi(2), weight
       real(wp) :: points(3), weights(3)
@@ -271,11 +282,15 @@ contains
    end subroutine rule_point
 
    pure subroutine triangle_point(n, k, xi, weight)
-      integer(ip), intent(in) :: n                 !< 1, 3 or 6
+      integer(ip), intent(in) :: n                 !< exact for polynomials of degree 1, 2, 4, 6, 8: 1, 3, 6, 16, 25
       integer(ip), intent(in) :: k
       real(wp), intent(out) :: xi(2), weight
       real(wp) :: t
 
+      if (n > 6) then
+         call collapsed_point(n, k, xi, weight)
+         return
+      end if
       if (n == 1) then
          t = 2*SIXTH
          weight = T1_WEIGHT
@@ -290,5 +305,22 @@ contains
       if (mod(k, 3_ip) == 2) xi(1) = 1 - 2*t
       if (mod(k, 3_ip) == 0) xi(2) = 1 - 2*t
    end subroutine triangle_point
+
+   !> Gauss points of the square whose side at xi = 1 is drawn together to a corner: the Jacobian takes one degree.
+   pure subroutine collapsed_point(n, k, xi, weight)
+      integer(ip), intent(in) :: n                 !< a square
+      integer(ip), intent(in) :: k
+      real(wp), intent(out) :: xi(2), weight
+      real(wp) :: points(5), weights(5)
+      integer(ip) :: order, i, j
+
+      order = nint(sqrt(real(n, wp)), ip)
+      call gauss_rule(order, points(:order), weights(:order))
+      i = mod(k - 1, order) + 1
+      j = (k - 1)/order + 1
+      xi(1) = 0.5_wp*(1 + points(i))
+      xi(2) = 0.5_wp*(1 + points(j))*(1 - xi(1))
+      weight = 0.25_wp*weights(i)*weights(j)*(1 - xi(1))
+   end subroutine collapsed_point
 
 end module atrito_shape_functions

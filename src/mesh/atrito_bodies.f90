@@ -29,7 +29,7 @@ module atrito_bodies
       real(wp), allocatable :: slides(:, :)    !< (4, n) motions in which its contacts let it slide, as modes; the work of loads on
       !< each that is none, over their sizes
       logical :: is_rigid = .false.            !< a rigid surface that moves: no elements, no equations, its nodes carry its motion
-      logical :: is_touched = .false.          !< of a rigid one: a contact point sees it
+      logical :: is_touched = .false.          !< of a rigid one: a contact point sees it, or a bilateral row holds it
    end type body_t
 
    type :: bodies_t

@@ -73,7 +73,7 @@ module atrito_build_context
       logical :: sections_undetermined = .false.             !< a *SOLID SECTION could not be understood
       logical :: pairs_undetermined = .false.                !< a *CONTACT PAIR could not be understood
       logical :: rigid_undetermined = .false.                !< a *RIGID BODY names another surface than it should
-      integer(ip), allocatable :: loose_held(:, :)     !< (2, n_nodes) LOOSE_*: supports of nodes of no element
+      integer(ip), allocatable :: loose_held(:, :)     !< (3, n_nodes) LOOSE_*: supports of nodes of no element; third: rotations
       integer(ip), allocatable :: dof_entry(:, :)      !< (2, n_nodes): place in open%supports; 0: free
       real(wp), allocatable :: axes(:, :, :)           !< (2, dof, n_nodes) local axes; 0: along x and y; not allocated: nowhere
       integer(ip), allocatable :: dof_token(:, :)      !< (2, n_nodes): token of the line that prescribes it

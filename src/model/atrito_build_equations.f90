@@ -1,18 +1,17 @@
 !> Bilateral rows of *EQUATION.
 module atrito_build_equations
    use atrito_bilateral_rows, only: add_row, ROW_EQUATION
-   use atrito_build_context, only: has_lost_elements, build_context_t, ids_text
-   use atrito_build_loads, only: in_no_element
-   use atrito_build_rigid_bodies, only: is_reference
+   use atrito_build_context, only: build_context_t
+   use atrito_build_rigid_bodies, only: is_reference, ROTATION_DOF
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_integer, get_real
    use atrito_kinds, only: ip, wp
    use atrito_load_lists, only: add_nodal_value, trim_nodal_values
-   use atrito_local_axes, only: dof_direction
    use atrito_model, only: model_t
    use atrito_references, only: find_nodes
    use atrito_refinement, only: is_refined
+   use atrito_row_dofs, only: check_row_dof, check_row_nodes, row_terms, TERMS_A_DOF, WHAT_DOF
    use atrito_set_partners, only: order_like
    use atrito_strings, only: to_text
    use atrito_turn_supports, only: row_weight
@@ -148,7 +147,6 @@ contains
       type(data_line_t), intent(in) :: line
       type(term_t), intent(inout) :: terms(:)
       logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
       type(token_t) :: place
       logical :: good(3)
       integer(ip) :: i
@@ -167,13 +165,10 @@ contains
                                 'in the plane; this term is 0', keyword=KEYWORD)
                cycle
             end if
-            if (good(2) .and. (terms(i)%dof < 1 .or. terms(i)%dof > PLANE_DOFS)) then
-               good(2) = .false.
-               call report_error(context%deck, line_item(context%deck, line, item + 2), 'E-DOF', 'dof '//to_text(terms(i)%dof)// &
-                                 ' does not exist in the plane', expected=WHAT_DOF, keyword=KEYWORD)
-            end if
+            if (good(2)) call check_row_dof(context, line_item(context%deck, line, item + 2), terms(i)%nodes, terms(i)%dof, &
+                                            KEYWORD, good(2))
          end associate
-         if (good(1)) call check_nodes(context, place, terms(i)%nodes, good(1))
+         if (good(1)) call check_row_nodes(context, place, terms(i)%nodes, 'nodes of elements', KEYWORD, good(1))
          ok = ok .and. all(good)
       end do
    end subroutine read_term_line
@@ -202,19 +197,6 @@ contains
       end do
    end function terms_in_plane
 
-   subroutine check_nodes(context, place, nodes, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: nodes(:)
-      logical, intent(out) :: ok
-
-      ok = .not. any(in_no_element(context, nodes))
-      if (ok .or. has_lost_elements(context)) return
-      call report_error(context%deck, place, 'E-NODE', 'node '//ids_text(pack(context%model%mesh%node_id(nodes), &
-                                          in_no_element(context, nodes)))//' belongs to no element', expected='nodes of elements', &
-                        keyword=KEYWORD)
-   end subroutine check_nodes
-
    !> On a refined mesh the nodes of sets are put into the order of those of the first.
    subroutine order_sets(context, place, terms, ok)
       type(build_context_t), intent(in) :: context
@@ -239,8 +221,8 @@ contains
       type(token_t), intent(in) :: place
       type(term_t), intent(in) :: terms(:)
       integer(ip), intent(in) :: group
-      integer(ip) :: i, k, nodes(size(terms))
-      real(wp) :: vectors(2, size(terms))
+      integer(ip) :: i, k, node, nodes(TERMS_A_DOF, size(terms))
+      real(wp) :: vectors(2, TERMS_A_DOF, size(terms)), scale
 
       associate (n => size(terms(1)%nodes, kind=ip))
          if (any([(size(terms(i)%nodes) /= 1 .and. size(terms(i)%nodes) /= n, i=1, size(terms, kind=ip))])) then
@@ -250,17 +232,20 @@ contains
          end if
          do k = 1, n
             do i = 1, size(terms, kind=ip)
-               nodes(i) = terms(i)%nodes(min(k, size(terms(i)%nodes, kind=ip)))
-               vectors(:, i) = terms(i)%coefficient*dof_direction(context, nodes(i), terms(i)%dof)
+               node = terms(i)%nodes(min(k, size(terms(i)%nodes, kind=ip)))
+               call row_terms(context, node, terms(i)%dof, 1.0_wp, nodes(:, i), vectors(:, :, i))
+               vectors(:, :, i) = terms(i)%coefficient*vectors(:, :, i)
             end do
-            if (is_empty(nodes, vectors)) then
+            if (is_empty([nodes], reshape(vectors, [2_ip, size(nodes, kind=ip)]))) then
                call report_error(context%deck, place, 'E-VALUE', 'all coefficients of this equation are 0, or cancel', &
                                  expected='a coefficient other than 0', keyword=KEYWORD)
                return
             end if
-            call add_nodal_value(context%model%equations, nodes(1), terms(1)%dof, terms(1)%coefficient)
-            call add_row(nodes, vectors, 0.0_wp, 0.0_wp, row_weight(context%model), &
-                         [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
+            scale = 1.0_wp                               ! rotations have another unit: the largest entry is 1 as of motions
+            if (any(terms%dof == ROTATION_DOF)) scale = 1/maxval(abs(vectors))
+            call add_nodal_value(context%model%equations, terms(1)%nodes(k), terms(1)%dof, scale*terms(1)%coefficient)
+            call add_row([nodes], reshape(scale*vectors, [2_ip, size(nodes, kind=ip)]), 0.0_wp, 0.0_wp, &
+                         row_weight(context%model), [ROW_EQUATION, group, context%model%equations%n], context%model%bilateral)
          end do
       end associate
    end subroutine add_equations

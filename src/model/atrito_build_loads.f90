@@ -77,7 +77,10 @@ contains
       end do
       call warn_of_replaced(context)
       call trim_nodal_values(context%open%forces)
-      call turn_forces(context, context%model%steps(context%open%number)%node_loads)
+      associate (step => context%model%steps(context%open%number))
+         call turn_forces(context, context%open%forces, step%node_loads)
+         call turn_forces(context, context%open%references%loads, step%rigid_loads)
+      end associate
       call trim_element_loads(context%model%steps(context%open%number)%element_loads)
    end subroutine build_loads
 
@@ -275,28 +278,33 @@ contains
       end associate
    end subroutine add_force
 
-   !> The forces of a step along x and y.
-   subroutine turn_forces(context, loads)
+   !> Forces along x and y; moments stay.
+   pure subroutine turn_forces(context, forces, loads)
       type(build_context_t), intent(in) :: context
+      type(nodal_values_t), intent(in) :: forces       !< along the dofs of the deck
       type(nodal_values_t), intent(inout) :: loads
       real(wp) :: along(2), from
       integer(ip) :: axis, i
 
       if (.not. allocated(context%axes)) then
-         loads = context%open%forces
+         loads = forces
+         call trim_nodal_values(loads)
          return
       end if
-      associate (forces => context%open%forces)
-         do i = 1, forces%n
-            from = from_of(forces, i)
-            along = dof_direction(context, forces%node(i), forces%dof(i))
-            do axis = 1, 2
-               if (along(axis) == 0.0_wp .or. (forces%value(i) == 0.0_wp .and. from == 0.0_wp)) cycle
-               call add_nodal_value(loads, forces%node(i), axis, forces%value(i)*along(axis), from*along(axis), &
-                                    amplitude_of(forces, i), source_of(forces, i))
-            end do
+      do i = 1, forces%n
+         from = from_of(forces, i)
+         if (forces%dof(i) == ROTATION_DOF) then
+            call add_nodal_value(loads, forces%node(i), ROTATION_DOF, forces%value(i), from, amplitude_of(forces, i), &
+                                 source_of(forces, i))
+            cycle
+         end if
+         along = dof_direction(context, forces%node(i), forces%dof(i))
+         do axis = 1, 2
+            if (along(axis) == 0.0_wp .or. (forces%value(i) == 0.0_wp .and. from == 0.0_wp)) cycle
+            call add_nodal_value(loads, forces%node(i), axis, forces%value(i)*along(axis), from*along(axis), &
+                                 amplitude_of(forces, i), source_of(forces, i))
          end do
-      end associate
+      end do
       call trim_nodal_values(loads)
    end subroutine turn_forces
 

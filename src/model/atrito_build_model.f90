@@ -52,7 +52,7 @@ module atrito_build_model
    use atrito_points, only: contact_points_t
    use atrito_refine_model, only: refine_model
    use atrito_refined_equations, only: note_free_sides
-   use atrito_rigid_motions, only: keep_reference_lists
+   use atrito_rigid_rows, only: add_rigid_rows
    use atrito_sources, only: keep_sources
    use atrito_strings, only: deck_name
    use atrito_turn_supports, only: turn_supports
@@ -165,6 +165,7 @@ contains
       call adjust_pairs(context, adjusted)
       if (has_errors()) return
       call choose_roles(clearances, context)
+      call add_rigid_rows(context)
       call pair_all(model, points)
       do i = 1, size(points, kind=ip)
          call close_adjusted(adjusted(i), points(i))
@@ -192,7 +193,6 @@ contains
          call hold_axis(context)
          call turn_supports(context)
          call build_loads(context)
-         call keep_reference_lists(context)
          call build_requests(context)
       end do
       call keep_sources(context)

@@ -10,7 +10,7 @@
 module atrito_build_pretension
    use atrito_bilateral_rows, only: add_row, ROW_SECTION
    use atrito_build_context, only: build_context_t, note_place, section_cut_t
-   use atrito_build_rigid_bodies, only: CARRIERS, is_reference
+   use atrito_build_rigid_bodies, only: carriers_of, is_reference
    use atrito_build_temperatures, only: double_temperatures
    use atrito_deck, only: card_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error, report_warning
@@ -234,7 +234,7 @@ contains
    !> The rows that hold the sides together; no nodes are made any more.
    subroutine add_pretension_rows(context)
       type(build_context_t), intent(inout) :: context
-      integer(ip) :: i, k, node, group
+      integer(ip) :: i, k, nodes(3), group
       real(wp) :: n(2), t(2), weight
 
       if (size(context%cuts) == 0) return
@@ -243,11 +243,11 @@ contains
          associate (cut => context%cuts(i))
             n = cut%normal
             t = [-n(2), n(1)]
-            node = context%model%mesh%n_nodes + CARRIERS*(cut%body - 1) + 1
+            nodes = carriers_of(context%model, cut%body)
             group = context%model%bilateral%n_groups + 1
             do k = 1, size(cut%own, kind=ip)
-               call add_row([cut%own(k), cut%other(k), node], reshape([n, -n, -1.0_wp, 0.0_wp], [2, 3]), 0.0_wp, 0.0_wp, weight, &
-                            [ROW_SECTION, group, cut%body], context%model%bilateral)
+               call add_row([cut%own(k), cut%other(k), nodes(1)], reshape([n, -n, -1.0_wp, 0.0_wp], [2, 3]), 0.0_wp, 0.0_wp, &
+                            weight, [ROW_SECTION, group, cut%body], context%model%bilateral)
                call add_row([cut%own(k), cut%other(k)], reshape([t, -t], [2, 2]), 0.0_wp, 0.0_wp, weight, &
                             [ROW_SECTION, group, cut%body], context%model%bilateral)
             end do

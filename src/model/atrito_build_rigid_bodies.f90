@@ -1,21 +1,23 @@
-!> *RIGID BODY: rigid surfaces, and those that move with a reference node.
+!> *RIGID BODY: rigid surfaces, those that move with a reference node, and nodes of elements that do.
 module atrito_build_rigid_bodies
    use atrito_build_context, only: build_context_t
    use atrito_deck, only: card_t, token_t, keyword_name
    use atrito_diagnostics, only: report_error
-   use atrito_items, only: option_text
+   use atrito_items, only: has_option, option_text
    use atrito_kinds, only: ip, wp
-   use atrito_model, only: model_t, rigid_body_t, surface_t, SURFACE_SEGMENTS
+   use atrito_model, only: model_t, rigid_body_name, rigid_body_t, SURFACE_SEGMENTS
    use atrito_name_list, only: find_name
-   use atrito_references, only: find_nodes, report_unknown
+   use atrito_references, only: find_elements, find_nodes, report_unknown
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: build_rigid_bodies, is_reference, make_solver_mesh, ROTATION_DOF, CARRIERS
+   public :: build_rigid_bodies, read_tied_nodes, is_reference, make_solver_mesh, carriers_of, ROTATION_DOF, CARRIERS
 
    integer(ip), parameter :: ROTATION_DOF = 6_ip
    !> Nodes whose displacements give those of any place of a rigid body: itself, and one along each axis.
    integer(ip), parameter :: CARRIERS = 3_ip
+   !> Options that name nodes, or elements with them.
+   character(len=8), parameter :: NODE_OPTIONS(4) = ['NSET    ', 'PIN NSET', 'TIE NSET', 'ELSET   ']
 
 contains
 
@@ -30,25 +32,36 @@ contains
       end do
    end subroutine build_rigid_bodies
 
+   !> A drawn surface, nodes, or both.
    subroutine read_card(card, context)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(inout) :: context
       type(token_t) :: place
       character(len=:), allocatable :: name
-      integer(ip) :: i
-      logical :: found
+      integer(ip) :: surface
+      logical :: found, has_nodes
 
+      has_nodes = any([(has_option(context%deck, card, trim(NODE_OPTIONS(surface))), surface=1, size(NODE_OPTIONS))])
       call option_text(context%deck, card, 'ANALYTICAL SURFACE', name, found, place)
-      if (.not. found) return
-      i = find_name(context%surface_names, name)
-      if (i == 0) then
+      if (.not. found) then
+         if (has_nodes) then
+            call read_reference(card, 0_ip, context)
+         else if (card%ok) then
+            call report_error(context%deck, card%place, 'E-OPTION-MISSING', '*RIGID BODY has neither a surface nor nodes', &
+                              expected='ANALYTICAL SURFACE=, or REF NODE= and one of NSET=, TIE NSET=, ELSET=', &
+                              keyword='RIGID BODY')
+         end if
+         return
+      end if
+      surface = find_name(context%surface_names, name)
+      if (surface == 0) then
          call report_unknown(context, place, 'surface', 'E-SURFACE', context%surface_names, 'RIGID BODY')
-      else if (context%model%surfaces(i)%kind /= SURFACE_SEGMENTS) then
+      else if (context%model%surfaces(surface)%kind /= SURFACE_SEGMENTS) then
          call report_error(context%deck, place, 'E-SURFACE', 'surface '//name//' is made of element faces', &
                            expected='a surface of TYPE=SEGMENTS', keyword='RIGID BODY')
       else
-         context%model%surfaces(i)%is_rigid_body = .true.
-         call read_reference(card, i, context)
+         context%model%surfaces(surface)%is_rigid_body = .true.
+         call read_reference(card, surface, context)
          return
       end if
       context%rigid_undetermined = .true.
@@ -57,15 +70,23 @@ contains
    !> REF NODE=: one node of no element, of one surface alone.
    subroutine read_reference(card, surface, context)
       type(card_t), intent(in) :: card
-      integer(ip), intent(in) :: surface
+      integer(ip), intent(in) :: surface               !< 0: none
       type(build_context_t), intent(inout) :: context
+      type(rigid_body_t) :: body
       type(token_t) :: place
       character(len=:), allocatable :: name, wrong
-      integer(ip), allocatable :: nodes(:)
+      integer(ip), allocatable :: nodes(:), tied(:)
       logical :: ok
 
+      call read_tied_nodes(card, context, body%name, tied, ok)
+      if (.not. (ok .and. card%ok)) return
       call option_text(context%deck, card, 'REF NODE', name, ok, place)
-      if (.not. ok .or. .not. card%ok) return
+      if (.not. ok) then
+         if (allocated(body%name)) call report_error(context%deck, card%place, 'E-OPTION-MISSING', &
+                                                     'nodes of a rigid body need REF NODE=, with which they move', &
+                                                     expected='*RIGID BODY, REF NODE=number, TIE NSET=name', keyword='RIGID BODY')
+         return
+      end if
       call find_nodes(context, place, nodes, ok, 'RIGID BODY')
       if (.not. ok) return
       if (size(nodes) /= 1) then
@@ -76,12 +97,53 @@ contains
       if (len(wrong) > 0) then
          call report_error(context%deck, place, 'E-NODE', wrong, &
                            expected='a node of no element that is the reference of this surface alone', keyword='RIGID BODY')
-      else
-         context%model%rigid_bodies = [context%model%rigid_bodies, &
-                                       rigid_body_t(surface, nodes(1), &
-                                                    reach_of(context%model%surfaces(surface), context%model%mesh%x(:, nodes(1))))]
+         return
       end if
+      body%surface = surface
+      body%node = nodes(1)
+      body%size = reach_of(context, surface, tied, context%model%mesh%x(:, nodes(1)))
+      context%model%rigid_bodies = [context%model%rigid_bodies, body]
    end subroutine read_reference
+
+   !> The nodes of elements that a card names, each once. The name is that of the first option; not allocated: there is none.
+   subroutine read_tied_nodes(card, context, name, nodes, ok)
+      type(card_t), intent(in) :: card
+      type(build_context_t), intent(in) :: context
+      character(len=:), allocatable, intent(out) :: name
+      integer(ip), allocatable, intent(out) :: nodes(:)
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: set
+      integer(ip), allocatable :: members(:)
+      type(token_t) :: place
+      logical, allocatable :: is_one(:)
+      logical :: found
+      integer(ip) :: i, e
+
+      ok = .true.
+      allocate (nodes(0))
+      if (.not. any([(has_option(context%deck, card, trim(NODE_OPTIONS(i))), i=1, size(NODE_OPTIONS, kind=ip))])) return
+      allocate (is_one(context%model%mesh%n_nodes), source=.false.)
+      do i = 1, size(NODE_OPTIONS, kind=ip)
+         call option_text(context%deck, card, trim(NODE_OPTIONS(i)), set, found, place)
+         if (.not. found .or. .not. ok) cycle
+         if (.not. allocated(name)) name = set
+         if (NODE_OPTIONS(i) == 'ELSET') then
+            call find_elements(context, place, members, ok, 'RIGID BODY')
+            do e = 1, size(members, kind=ip)
+               is_one(pack(context%model%mesh%nodes(:, members(e)), context%model%mesh%nodes(:, members(e)) > 0)) = .true.
+            end do
+         else
+            call find_nodes(context, place, members, ok, 'RIGID BODY')
+            is_one(members) = .true.
+         end if
+      end do
+      nodes = pack([(i, i=1, size(is_one, kind=ip))], is_one)
+      nodes = pack(nodes, context%around%first(nodes + 1) > context%around%first(nodes))
+      if (.not. ok .or. .not. allocated(name) .or. size(nodes) > 0) return
+      ok = .false.
+      call report_error(context%deck, card%place, 'E-NODE', 'no node of '//name//' belongs to an element', &
+                        expected='nodes of elements', keyword='RIGID BODY')
+   end subroutine read_tied_nodes
 
    !> Why a node cannot be the reference of a surface; '' where it can.
    function what_is_wrong(context, surface, node) result(wrong)
@@ -94,25 +156,33 @@ contains
          if (context%around%first(node + 1) > context%around%first(node)) then
             wrong = id//' belongs to an element'
          else if (any(others%node == node)) then
-            wrong = id//' is the reference node of surface ' &
-                    //context%model%surfaces(others(findloc(others%node, node, dim=1))%surface)%name
-         else if (any(others%surface == surface)) then
+            wrong = id//' is the reference node of '//trim(merge('surface', 'set    ', &
+                                                                 others(findloc(others%node, node, dim=1))%surface > 0))//' ' &
+                    //rigid_body_name(context%model, findloc(others%node, node, dim=1, kind=ip))
+         else if (surface > 0 .and. any(others%surface == surface)) then
             wrong = 'surface '//context%model%surfaces(surface)%name//' has the reference node ' &
                     //to_text(context%model%mesh%node_id(others(findloc(others%surface, surface, dim=1))%node))
          end if
       end associate
    end function what_is_wrong
 
-   !> Largest distance of a surface from a place: by this the nodes that carry its motion stand apart.
-   pure real(wp) function reach_of(surface, x) result(reach)
-      type(surface_t), intent(in) :: surface
+   !> Largest distance of a surface and of nodes from a place: by this the nodes that carry its motion stand apart.
+   pure real(wp) function reach_of(context, surface, nodes, x) result(reach)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: surface, nodes(:)     !< surface 0: none
       real(wp), intent(in) :: x(2)
       integer(ip) :: i
 
       reach = 0.0_wp
-      do i = 1, size(surface%points, 2, kind=ip)
-         reach = max(reach, norm2(surface%points(:, i) - x))
-      end do
+      if (surface > 0) then
+         associate (points => context%model%surfaces(surface)%points)
+            reach = maxval([(norm2(points(:, i) - x), i=1, size(points, 2, kind=ip))])
+         end associate
+      end if
+      associate (mesh => context%model%mesh)
+         if (size(nodes) > 0) reach = max(reach, maxval([(norm2(mesh%x(:, nodes(i)) - x), i=1, size(nodes, kind=ip))]))
+         if (.not. reach > 0.0_wp) reach = norm2(maxval(mesh%x(:, :mesh%n_nodes), dim=2) - minval(mesh%x(:, :mesh%n_nodes), dim=2))
+      end associate
    end function reach_of
 
    !> Which nodes are reference nodes.
@@ -123,6 +193,15 @@ contains
       is_reference = .false.
       if (allocated(context%model%rigid_bodies)) is_reference = any(context%model%rigid_bodies%node == node)
    end function is_reference
+
+   !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.
+   pure function carriers_of(model, i) result(nodes)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                     !< of the rigid bodies
+      integer(ip) :: nodes(CARRIERS)
+
+      nodes = model%mesh%n_nodes + CARRIERS*(i - 1) + [1_ip, 2_ip, 3_ip]
+   end function carriers_of
 
    !> The mesh with three more nodes for each rigid surface that moves, of which the displacement of any place of it is the sum by
    !> its barycentric coordinates: so a contact point sees a rigid master as it sees a face of elements.

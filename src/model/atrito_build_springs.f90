@@ -1,9 +1,9 @@
 !> *ELEMENT, TYPE=SPRING1, SPRING2 and SPRINGA, and *SPRING: bilateral rows with a compliance.
 module atrito_build_springs
    use atrito_bilateral_rows, only: add_row, ROW_SPRING
-   use atrito_build_context, only: has_lost_elements, build_context_t, has_errors, LOOSE_HELD
+   use atrito_build_context, only: build_context_t, has_errors, LOOSE_HELD
+   use atrito_build_rigid_bodies, only: ROTATION_DOF
    use atrito_turn_supports, only: row_weight
-   use atrito_build_loads, only: in_no_element
    use atrito_deck, only: deck_t, card_t, data_line_t, token_t, line_item, keyword_name
    use atrito_diagnostics, only: report_error
    use atrito_id_map, only: id_map_t, add_id, find_id
@@ -15,6 +15,7 @@ module atrito_build_springs
    use atrito_name_list, only: name_list_t, add_name, find_name, names_of
    use atrito_references, only: get_id, find_one_node, report_unknown
    use atrito_refinement, only: is_refined
+   use atrito_row_dofs, only: arm_of, check_row_dof, check_row_nodes, has_no_unknowns, row_node, row_terms, TERMS_A_DOF, WHAT_DOF
    use atrito_strings, only: string_t, to_text
    implicit none (type, external)
    private
@@ -119,7 +120,8 @@ contains
       call get_id(context%deck, place, 'element number', spring%id, ok, 'SPRING')
       do i = 1, n_ends
          call find_one_node(context, line_item(context%deck, line, i + 1), spring%node(i), good, 'SPRING')
-         if (good .and. n_ends == 1) call check_node(context, line_item(context%deck, line, i + 1), spring%node(i), good)
+         if (good .and. n_ends == 1) call check_row_nodes(context, line_item(context%deck, line, i + 1), spring%node(i:i), &
+                                                          'nodes of elements that are not springs', 'SPRING', good)
          ok = ok .and. good
       end do
       if (.not. ok) return
@@ -152,19 +154,6 @@ contains
          is_element = find_element(context%model%mesh, id) > 0
       end if
    end function is_element
-
-   subroutine check_node(context, place, node, ok)
-      type(build_context_t), intent(in) :: context
-      type(token_t), intent(in) :: place
-      integer(ip), intent(in) :: node
-      logical, intent(out) :: ok
-
-      ok = .not. any(in_no_element(context, [node]))
-      if (ok .or. has_lost_elements(context)) return
-      call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(node))// &
-                        ' belongs to no element', expected='nodes of elements that are not springs', &
-                        keyword='SPRING')
-   end subroutine check_node
 
    !> *SPRING: dofs, stiffness.
    subroutine read_spring_card(card, context, reading)
@@ -200,18 +189,18 @@ contains
                               expected='a set for each type', keyword='SPRING')
          end if
       else
-         call read_constants(card, context, dof, stiffness, ok)
+         call read_constants(card, context, pack_places(reading%set == set), dof, stiffness, ok)
       end if
       if (ok) call add_springs(context, pack_places(reading%set == set), reading%place, dof, stiffness)
    end subroutine read_spring_card
 
-   subroutine read_constants(card, context, dof, stiffness, ok)
+   subroutine read_constants(card, context, places, dof, stiffness, ok)
       type(card_t), intent(in) :: card
       type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: places(:)             !< of the springs
       integer(ip), intent(out) :: dof(2)
-      real(wp), intent(out) :: stiffness               !< [F/L]
+      real(wp), intent(out) :: stiffness               !< [F/L]; of dof 6 [F L]
       logical, intent(out) :: ok
-      character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
       logical :: good(3)
       integer(ip) :: i
 
@@ -224,16 +213,41 @@ contains
          call get_integer(deck, line_item(deck, line, 1_ip), WHAT_DOF, dof(1), good(1), keyword='SPRING')
          call get_integer(deck, line_item(deck, line, 2_ip), WHAT_DOF, dof(2), good(2), dof(1), 'SPRING')
          do i = 1, 2
-            if (.not. good(i) .or. (dof(i) >= 1 .and. dof(i) <= 2)) cycle
-            good(i) = .false.
-            call report_error(deck, line_item(deck, line, i), 'E-DOF', 'dof '//to_text(dof(i))//' does not exist in the plane', &
-                              expected=WHAT_DOF, keyword='SPRING')
-            if (i == 1 .and. dof(2) == dof(1)) exit
+            if (good(i)) call check_row_dof(context, line_item(deck, line, i), moving_ends(context, places, i), dof(i), 'SPRING', &
+                                            good(i))
+            if (.not. good(i) .and. dof(2) == dof(1)) exit
          end do
+         if (all(good(:2))) call check_kinds(context, line_item(deck, line, 2_ip), places, dof, good(2))
          call read_stiffness(deck, line_item(deck, deck%lines(card%first_line + 1), 1_ip), stiffness, good(3))
       end associate
       ok = all(good)
    end subroutine read_constants
+
+   !> The first or the second ends of springs, but for the ground.
+   pure function moving_ends(context, places, i) result(nodes)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: places(:), i
+      integer(ip), allocatable :: nodes(:)
+      integer(ip) :: k
+
+      nodes = [(context%model%springs(places(k))%node(i), k=1, size(places, kind=ip))]
+      nodes = pack(nodes, nodes > 0)
+      nodes = pack(nodes,.not. has_no_unknowns(context, nodes))
+   end function moving_ends
+
+   !> A spring holds two displacements together, or two rotations.
+   subroutine check_kinds(context, place, places, dof, ok)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: places(:), dof(2)
+      logical, intent(out) :: ok
+      integer(ip) :: k
+
+      ok = (dof(1) == ROTATION_DOF) .eqv. (dof(2) == ROTATION_DOF)
+      ok = ok .or. .not. any([(context%model%springs(places(k))%node(2) > 0, k=1, size(places, kind=ip))])
+      if (.not. ok) call report_error(context%deck, place, 'E-DOF', 'one end moves, the other one turns', &
+                                      expected='two dofs of one kind', keyword='SPRING')
+   end subroutine check_kinds
 
    !> Of SPRINGA the last line has the stiffness; one before it says nothing.
    subroutine read_axial(card, context, stiffness, ok)
@@ -270,7 +284,7 @@ contains
       integer(ip), intent(in) :: places(:), dof(2)
       type(token_t), intent(in) :: tokens(:)           !< of all springs
       real(wp), intent(in) :: stiffness
-      integer(ip) :: i, group, n
+      integer(ip) :: i, group
       real(wp) :: vectors(2, 2)
       logical :: ok
 
@@ -281,13 +295,35 @@ contains
             spring%stiffness = stiffness
             call find_directions(context, spring, tokens(places(i)), vectors, ok)
             if (ok) call ground_ends(context, tokens(places(i)), spring, vectors, ok)
-            if (.not. ok) cycle
-            n = count(spring%node > 0, kind=ip)
-            call add_row(spring%node(:n), vectors(:, :n), 0.0_wp, 1/stiffness, row_weight(context%model), &
-                         [ROW_SPRING, group, places(i)], context%model%bilateral)
+            if (ok) call add_spring(context, spring, vectors, [ROW_SPRING, group, places(i)])
          end associate
       end do
    end subroutine add_springs
+
+   !> The row of a spring. One of rotations takes them times an arm: its force is a moment over that.
+   subroutine add_spring(context, spring, vectors, identity)
+      type(build_context_t), intent(inout) :: context
+      type(spring_t), intent(inout) :: spring
+      real(wp), intent(in) :: vectors(2, 2)            !< of its ends, where they move along them
+      integer(ip), intent(in) :: identity(3)
+      integer(ip) :: i, n, nodes(TERMS_A_DOF, 2)
+      real(wp) :: terms(2, TERMS_A_DOF, 2)
+
+      n = count(spring%node > 0, kind=ip)
+      if (any(spring%dof(:n) == ROTATION_DOF)) spring%arm = maxval([(arm_of(context, spring%node(i)), i=1, n)])
+      terms = 0.0_wp
+      do i = 1, n
+         if (spring%dof(i) == ROTATION_DOF) then
+            call row_terms(context, spring%node(i), ROTATION_DOF, spring%arm, nodes(:, i), terms(:, :, i))
+            if (i == 2) terms(:, :, i) = -terms(:, :, i)
+         else
+            nodes(:, i) = row_node(context, spring%node(i))
+            terms(:, 1, i) = vectors(:, i)
+         end if
+      end do
+      call add_row([nodes(:, :n)], reshape(terms(:, :, :n), [2_ip, TERMS_A_DOF*n]), 0.0_wp, spring%arm**2/spring%stiffness, &
+                   row_weight(context%model), identity, context%model%bilateral)
+   end subroutine add_spring
 
    subroutine find_directions(context, spring, place, vectors, ok)
       type(build_context_t), intent(in) :: context
@@ -299,6 +335,7 @@ contains
 
       ok = .true.
       vectors = 0.0_wp
+      if (spring%dof(1) == ROTATION_DOF) return
       if (spring%dof(1) > 0) then
          vectors(:, 1) = dof_direction(context, spring%node(1), spring%dof(1))
          if (spring%node(2) > 0) vectors(:, 2) = -dof_direction(context, spring%node(2), spring%dof(2))
@@ -319,16 +356,20 @@ contains
       type(spring_t), intent(inout) :: spring
       real(wp), intent(inout) :: vectors(2, 2)
       logical, intent(out) :: ok
-      logical :: is_ground(2), is_held(2)
+      logical :: is_ground(2), is_held(3)
       integer(ip) :: i
 
       ok = .true.
       if (spring%node(2) == 0) return                  ! SPRING1: its node has been looked at
-      is_ground = in_no_element(context, spring%node)
+      is_ground = has_no_unknowns(context, spring%node)
       do i = 1, 2
          if (.not. is_ground(i)) cycle
          is_held = context%loose_held(:, spring%node(i)) == LOOSE_HELD
-         if (all(is_held .or. (abs(vectors(:, i)) <= 0.0_wp .and. .not. has_local_axes(context, spring%node(i))))) cycle
+         if (spring%dof(i) == ROTATION_DOF) then
+            if (is_held(3)) cycle
+         else if (all(is_held(:2) .or. (abs(vectors(:, i)) <= 0.0_wp .and. .not. has_local_axes(context, spring%node(i))))) then
+            cycle
+         end if
          call report_error(context%deck, place, 'E-NODE', 'node '//to_text(context%model%mesh%node_id(spring%node(i)))// &
                            ' belongs to no element and is not held', expected='nodes of elements that are not springs, or ' &
                            //'the ground: a node that *BOUNDARY holds at 0 in all steps', keyword='SPRING')

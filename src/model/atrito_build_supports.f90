@@ -25,7 +25,7 @@ module atrito_build_supports
    private
    public :: build_supports
 
-   integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6
+   integer(ip), parameter :: PLANE_DOFS = 2, LAST_DOF = 6, LOOSE_DOFS = 3
    character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)'
 
    !> Two values of one dof are the same when they differ by less than this part of the values: expressions are rounded.
@@ -51,7 +51,7 @@ contains
       if (context%open%number == 1) then
          allocate (context%dof_entry(PLANE_DOFS, context%model%mesh%n_nodes), &
                    context%dof_token(PLANE_DOFS, context%model%mesh%n_nodes), &
-                   context%loose_held(PLANE_DOFS, context%model%mesh%n_nodes), source=0_ip)
+                   context%loose_held(LOOSE_DOFS, context%model%mesh%n_nodes), source=0_ip)
          call read_cards(context, 0_ip, numbered)
       else
          call carry_values(context, context%open%supports, keeps_zeros=.true.)
@@ -195,7 +195,7 @@ contains
       do dof = first, min(last, PLANE_DOFS)
          call prescribe(line, nodes, dof, [(value, i=1, size(nodes, kind=ip))], context)
       end do
-      if (last == ROTATION_DOF) call prescribe_references(line, nodes, ROTATION_DOF, [(value, i=1, size(nodes, kind=ip))], context)
+      if (last == ROTATION_DOF) call turn(line, nodes, [(value, i=1, size(nodes, kind=ip))], context)
       if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), first, last, value, numbered)
    end subroutine read_line
 
@@ -220,7 +220,7 @@ contains
          call prescribe(line, nodes, dof, zeros, context)
          if (size(nodes) == 1 .and. is_refined(context%refinement)) call take_number(line, nodes(1), dof, dof, 0.0_wp, numbered)
       end do
-      if (held(ROTATION_DOF)) call prescribe_references(line, nodes, ROTATION_DOF, zeros, context)
+      if (held(ROTATION_DOF)) call turn(line, nodes, zeros, context)
    end subroutine read_word_line
 
    !> Node or set, first dof[, last dof]: what both kinds of line begin with.
@@ -380,6 +380,22 @@ contains
          if (is_reference(context, nodes(i))) call prescribe_reference(context, line%first_token, nodes(i), dof, value(i))
       end do
    end subroutine prescribe_references
+
+   !> Prescribes the rotation of reference nodes; that of the ground, for springs.
+   subroutine turn(line, nodes, value, context)
+      type(data_line_t), intent(in) :: line
+      integer(ip), intent(in) :: nodes(:)
+      real(wp), intent(in) :: value(:)                 !< of each node [-]
+      type(build_context_t), intent(inout) :: context
+      logical :: loose(size(nodes))
+      integer(ip) :: i
+
+      call prescribe_references(line, nodes, ROTATION_DOF, value, context)
+      loose = in_no_element(context, nodes)
+      do i = 1, size(nodes, kind=ip)
+         if (loose(i)) call hold_loose(context, nodes(i), LOOSE_DOFS, value(i))
+      end do
+   end subroutine turn
 
    !> A node of no element that is held at 0 in all steps is the ground, for springs.
    pure subroutine hold_loose(context, node, dof, value)

@@ -2,6 +2,7 @@
 module atrito_check_contact
    use atrito_average, only: least_spacing
    use atrito_contact_roles, only: STIFFER
+   use atrito_crack_tips, only: is_crack_tip
    use atrito_deck, only: deck_t, token_t
    use atrito_diagnostics, only: report_error, report_warning, report_note
    use atrito_build_context, only: build_context_t, ids_text, place_text, has_errors, is_invalid
@@ -127,7 +128,7 @@ contains
       call check_slave(model, context, slave, context%slaves(i), known)
       call check_master(model, context, master, context%masters(i))
       if (model%surfaces(slave)%kind /= SURFACE_SEGMENTS .and. model%surfaces(master)%kind /= SURFACE_SEGMENTS) then
-         call check_shared_nodes(context%deck, model, slave, master, context%masters(i), known)
+         call check_shared_nodes(context, model, slave, master, context%masters(i), known)
       end if
    end subroutine check_sides
 
@@ -215,28 +216,40 @@ contains
                         expected='a surface on the outline of a body', keyword='CONTACT PAIR')
    end subroutine report_no_faces
 
-   subroutine check_shared_nodes(deck, model, slave, master, place, known)
-      type(deck_t), intent(in) :: deck
+   !> Nodes of both sides: the tips of a crack, where there is no contact, or an error.
+   subroutine check_shared_nodes(context, model, slave, master, place, known)
+      type(build_context_t), intent(in) :: context
       type(model_t), intent(in) :: model
       integer(ip), intent(in) :: slave, master
       type(token_t), intent(in) :: place
       type(pairs_context_t), intent(in) :: known
       type(number_list_t) :: shared
       integer(ip), allocatable :: nodes(:)
+      logical, allocatable :: is_tip(:)
       integer(ip) :: i, k
 
-      associate (faces => model%surfaces(slave)%faces)
+      associate (faces => model%surfaces(slave)%faces, others => model%surfaces(master)%faces)
          do i = 1, faces%n
             nodes = face_nodes(model%mesh, faces%element(i), faces%face(i))
             do k = 1, size(nodes, kind=ip)
                if (is_on(known, nodes(k), master)) call add_number(shared, nodes(k))
             end do
          end do
+         if (shared%n == 0) return
+         nodes = each_once(numbers_of(shared))
+         allocate (is_tip(size(nodes)), source=.false.)
+         ! a crack has two tips: where there are more, none of them needs to be looked at
+         if (size(nodes) <= 2) is_tip = [(is_crack_tip(model%mesh, context%around, nodes(k), faces, others), k=1, size(nodes))]
       end associate
-      if (shared%n > 0) call report_error(deck, place, 'E-PAIR', 'slave and master share node '// &
-                                          ids_text(model%mesh%node_id(each_once(numbers_of(shared)))), &
-                                          expected='surfaces of different bodies, each with its own nodes', &
-                                          keyword='CONTACT PAIR')
+      if (any(.not. is_tip)) then
+         call report_error(context%deck, place, 'E-PAIR', 'slave and master share node '// &
+                           ids_text(model%mesh%node_id(pack(nodes,.not. is_tip))), &
+                           expected='surfaces of different bodies, each with its own nodes, or faces of a crack that end at '// &
+                           'common tips', keyword='CONTACT PAIR')
+      else if (.not. has_errors()) then
+         call report_note(context%deck, place, 'N-TIP', 'slave and master share node '//ids_text(model%mesh%node_id(nodes))// &
+                          ', the tip of a crack: there is no contact point there', keyword='CONTACT PAIR')
+      end if
    end subroutine check_shared_nodes
 
    !> A node belongs to a master.
@@ -276,7 +289,10 @@ contains
 
       is_judged = .false.
       do i = 1, size(model%pairs, kind=ip)
-         if (model%points(i)%n == 0) then
+         if (model%points(i)%n == 0 .and. model%points(i)%n_left_out < model%points(i)%n_faces) then
+           call report_error(context%deck, context%slaves(i), 'E-PAIR', 'the slave has no other nodes than the tips of the crack', &
+                              expected='a slave of several faces, or the other surface as the slave', keyword='CONTACT PAIR')
+         else if (model%points(i)%n == 0) then
             call report_blind(context%deck, model%mesh, model%surfaces(model%pairs(i)%slave)%faces, context%slaves(i), &
                               model%points(i)%n_seeing)
          else

@@ -22,7 +22,7 @@ module atrito_model
    public :: FRICTION_NONE, FRICTION_LOCAL, FRICTION_NONLOCAL, KERNEL_POINTS, KERNEL_LINE
    public :: QUADRATURE_AUTO, QUADRATURE_NODAL, QUADRATURE_MORTAR
    public :: METHOD_ANDERSON, METHOD_PICARD, METHOD_NEWTON, METHOD_NAME, FRICTION_NAME, KERNEL_NAME
-   public :: is_due
+   public :: is_due, rigid_body_name
    public :: LOAD_PRESSURE, LOAD_BODY, LOAD_TRACTION, LOAD_HYDROSTATIC, LOAD_LINEAR, is_on_volume
 
    integer(ip), parameter :: SURFACE_ELEMENTS = 1, SURFACE_SEGMENTS = 2
@@ -105,11 +105,12 @@ module atrito_model
       integer(ip), allocatable :: source(:)         !< place in model%sources; 0, or not allocated: no line of the deck
    end type nodal_values_t
 
-   !> A rigid surface that moves with a reference node, as a body does that turns about it.
+   !> A rigid surface that moves with a reference node, as a body does that turns about it; or nodes of bodies that do.
    type :: rigid_body_t
-      integer(ip) :: surface = 0, node = 0          !< places; the node belongs to no element
-      real(wp) :: size = 1.0_wp                     !< largest distance of the surface from the node [L]
+      integer(ip) :: surface = 0, node = 0          !< places; the node belongs to no element; surface 0: it has none
+      real(wp) :: size = 1.0_wp                     !< largest distance of its surface and nodes from the node [L]
       logical :: is_section = .false.               !< a *PRE-TENSION SECTION: its node moves along 1 alone
+      character(len=:), allocatable :: name         !< where there is no surface: that of the set of its nodes
    end type rigid_body_t
 
    type :: tie_t
@@ -121,11 +122,12 @@ module atrito_model
       integer(ip) :: n_nodes = 0, n_far = 0         !< of the slave that are tied, and that are not
    end type tie_t
 
-   !> SPRING1 holds one node, SPRING2 and SPRINGA two; dof 0: along the line between them.
+   !> SPRING1 holds one node, SPRING2 and SPRINGA two; dof 0: along the line between them, 6: rotations of reference nodes.
    type :: spring_t
       integer(ip) :: id = 0                         !< the user's number
       integer(ip) :: node(2) = 0, dof(2) = 0        !< second node 0: the ground
-      real(wp) :: stiffness = 0.0_wp                !< [F/L], > 0
+      real(wp) :: stiffness = 0.0_wp                !< [F/L], > 0; of dof 6 [F L]
+      real(wp) :: arm = 1.0_wp                      !< of dof 6: what the row has the rotations times [L]
    end type spring_t
 
    !> Loads on elements; several add up.
@@ -274,6 +276,21 @@ contains
 
       is_on_volume = kind == LOAD_BODY .or. kind == LOAD_LINEAR
    end function is_on_volume
+
+   !> The name of a rigid body.
+   pure function rigid_body_name(model, i) result(name)
+      type(model_t), intent(in) :: model
+      integer(ip), intent(in) :: i                  !< of the rigid bodies
+      character(len=:), allocatable :: name
+
+      associate (body => model%rigid_bodies(i))
+         if (body%surface > 0) then
+            name = model%surfaces(body%surface)%name
+         else
+            name = body%name
+         end if
+      end associate
+   end function rigid_body_name
 
    !> Whether an increment is printed.
    pure elemental logical function is_due(every, increment, ends_step)

@@ -117,7 +117,8 @@ module atrito_results
       logical :: is_prescribed(3) = .false.         !< u1, u2, rotation
       real(wp) :: u(2) = 0.0_wp                     !< of the node [L]
       real(wp) :: rotation = 0.0_wp                 !< about it, counter-clockwise [rad]
-      real(wp) :: reaction(2) = 0.0_wp              !< [F]; 0 where nothing is prescribed
+      logical :: has_reaction(2) = .false.          !< along x and y: also where it is held along an inclined axis
+      real(wp) :: reaction(2) = 0.0_wp              !< [F]; 0 where there is none
       real(wp) :: force = 0.0_wp                    !< in a section, that of its load and its reaction [F]
       real(wp) :: moment = 0.0_wp                   !< about the node [F L]; 0 where the rotation is free
    end type rigid_result_t

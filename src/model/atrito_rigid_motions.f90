@@ -6,14 +6,14 @@ module atrito_rigid_motions
    use atrito_deck, only: token_t
    use atrito_diagnostics, only: report_error
    use atrito_kinds, only: ip, wp
-   use atrito_load_lists, only: add_nodal_value, amplitude_of, replace_nodal_value, replace_source, trim_nodal_values
+   use atrito_load_lists, only: add_nodal_value, amplitude_of, replace_nodal_value, replace_source
    use atrito_local_axes, only: has_local_axes
    use atrito_mesh, only: is_revolved
    use atrito_model, only: nodal_values_t
    use atrito_strings, only: to_text
    implicit none (type, external)
    private
-   public :: prescribe_reference, load_reference, is_prescribed, carry_reference_loads, keep_reference_lists
+   public :: prescribe_reference, load_reference, is_prescribed, entry_of, carry_reference_loads
 
    !> Two values of one dof are the same when they differ by less than this part of them: expressions are rounded.
    real(wp), parameter :: SAME_VALUE = 1.0e-12_wp
@@ -21,7 +21,7 @@ module atrito_rigid_motions
 contains
 
    !> Whether a reference node can be displaced or loaded there: not along a radius nor about the axis of bodies of revolution, nor
-   !> along axes of its own.
+   !> along axes of its own where it moves along one axis alone.
    logical function can_move(context, place, node, dof, value, keyword) result(can)
       type(build_context_t), intent(in) :: context
       type(token_t), intent(in) :: place            !< of the line
@@ -29,11 +29,13 @@ contains
       real(wp), intent(in) :: value
       character(len=*), intent(in) :: keyword
 
-      can = .true.
-      if (has_local_axes(context, node)) then
-         can = .false.
+      associate (body => context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, node, dim=1)))
+         can = .not. (has_local_axes(context, node) .and. (is_revolved(context%model%mesh) .or. body%is_section))
+      end associate
+      if (.not. can) then
          call report_error(context%deck, place, 'E-NODE', 'reference node '//to_text(context%model%mesh%node_id(node)) &
-                           //' has local axes', expected='a reference node without *TRANSFORM', keyword=keyword)
+                           //' moves along one axis alone, and has local axes', expected='a node without *TRANSFORM', &
+                           keyword=keyword)
       else if (context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, node, dim=1))%is_section) then
          can = dof == 1 .or. abs(value) <= 0.0_wp
          if (.not. can) call report_error(context%deck, place, 'E-DOF', 'the node of a pre-tension section has no dof ' &
@@ -152,17 +154,5 @@ contains
                            references%old_loads)
       end associate
    end subroutine carry_reference_loads
-
-   !> The step has what is prescribed and applied.
-   pure subroutine keep_reference_lists(context)
-      type(build_context_t), intent(inout) :: context
-
-      associate (step => context%model%steps(context%open%number), references => context%open%references)
-         step%rigid_prescribed = references%prescribed
-         step%rigid_loads = references%loads
-         call trim_nodal_values(step%rigid_prescribed)
-         call trim_nodal_values(step%rigid_loads)
-      end associate
-   end subroutine keep_reference_lists
 
 end module atrito_rigid_motions

@@ -174,6 +174,9 @@ contains
       do i = 1, size(body%is_prescribed)
          call exchange(archive, 'is_prescribed', body%is_prescribed(i))
       end do
+      do i = 1, size(body%has_reaction)
+         call exchange(archive, 'has_reaction', body%has_reaction(i))
+      end do
       call exchange_vector(archive, 'u', body%u)
       call exchange(archive, 'rotation', body%rotation)
       call exchange_vector(archive, 'reaction', body%reaction)

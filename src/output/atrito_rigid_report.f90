@@ -2,7 +2,7 @@
 module atrito_rigid_report
    use atrito_kinds, only: ip, wp
    use atrito_load_resultants, only: last_factor
-   use atrito_model, only: model_t, nodal_values_t
+   use atrito_model, only: model_t, nodal_values_t, rigid_body_name
    use atrito_page, only: page_t, add_entry, add_line, add_blank, left, right, number
    use atrito_results, only: results_t
    use atrito_strings, only: string_t, to_text
@@ -76,8 +76,13 @@ contains
                if (len(text) > 0) text = text//', '
                text = text//trim(DOF_NAMES(held%dof(k)))//' = '//number(value, DIGITS)
             end do
+            do k = 1, model%inclined%n
+               if (model%inclined%node(k) /= node) cycle
+               if (len(text) > 0) text = text//', '
+               text = text//'along its axis '//to_text(model%inclined%dof(k))//': '//number(model%inclined%value(k), DIGITS)
+            end do
             if (len(text) == 0) text = 'free'
-            call add_entry(page, 'rigid body '//model%surfaces(model%rigid_bodies(i)%surface)%name, &
+            call add_entry(page, 'rigid body '//rigid_body_name(model, i), &
                            'reference node '//to_text(model%mesh%node_id(node))//', '//text)
          end associate
       end do
@@ -143,8 +148,8 @@ contains
             if (body%is_section) cycle
             call add_line(page, '   '//left(body%name, 15)//right(number(body%u(1), DIGITS), 14)// &
                           right(number(body%u(2), DIGITS), 14)//right(number(body%rotation, DIGITS), 14)// &
-                          right(held(body%is_prescribed(1), body%reaction(1)), 14)// &
-                          right(held(body%is_prescribed(2), body%reaction(2)), 14)// &
+                          right(held(body%has_reaction(1), body%reaction(1)), 14)// &
+                          right(held(body%has_reaction(2), body%reaction(2)), 14)// &
                           right(held(body%is_prescribed(3), body%moment), 14))
          end associate
       end do

@@ -136,8 +136,8 @@ contains
          call add_integers(table, 'dof_1', springs%dof(1))
          call add_integers(table, 'node_2', second)
          call add_integers(table, 'dof_2', springs%dof(2))
-         call add_reals(table, 'relative_u', 'L', results%row_force(rows)/springs%stiffness, 0.0_wp)
-         call add_reals(table, 'force', 'F', results%row_force(rows), scales%force)
+         call add_reals(table, 'relative_u', 'L', springs%arm*results%row_force(rows)/springs%stiffness, 0.0_wp)
+         call add_reals(table, 'force', 'F', springs%arm*results%row_force(rows), scales%force)
          call add_integers(table, 'increment', [results%increment])
       end associate
    end subroutine build_springs

@@ -206,7 +206,8 @@ contains
 
       associate (all_rows => model%bilateral)
          rows = pack([(i, i=1, all_rows%n)], [(all_rows%kind(i) == ROW_SUPPORT, i=1, all_rows%n)])
-         nodes = [(all_rows%node(all_rows%first(rows(i))), i=1, size(rows, kind=ip))]
+         allocate (nodes(0))
+         if (size(rows) > 0) nodes = model%inclined%node(:size(rows)) ! in the row others carry the motion of a reference node
          call place_supports(model, nodes, u, symbols, supports, kept)
          do i = 1, size(kept, kind=ip)
             associate (row => rows(findloc(nodes, kept(i), dim=1)))

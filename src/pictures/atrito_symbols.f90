@@ -273,6 +273,7 @@ contains
       body = 0
       if (allocated(model%rigid_bodies)) body = findloc(model%rigid_bodies%node, node, dim=1, kind=ip)
       if (body == 0) return
+      if (model%rigid_bodies(body)%surface == 0) return
       room = 0.5_wp*(span(symbols%window(1)) + span(symbols%window(2)))
       if (all(place >= symbols%window%low - room) .and. all(place <= symbols%window%high + room)) return
       associate (points => model%surfaces(model%rigid_bodies(body)%surface)%points)

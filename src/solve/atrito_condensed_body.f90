@@ -9,6 +9,7 @@ module atrito_condensed_body
    use atrito_bodies, only: mode_at, order_by_dissection
    use atrito_dense, only: solve_cholesky, orthonormalise, multiply
    use atrito_dense_blocks, only: add_inverse_form, factor_in_blocks
+   use atrito_hourglass, only: free_hourglass
    use atrito_profile, only: profile_t, begin_profile, profile_length, half_bandwidth, skyline_flops, banded_flops, sparse_flops, &
                              skyline_bytes, banded_bytes, sparse_bytes, sparse_entries
    use atrito_results, only: body_result_t
@@ -21,7 +22,8 @@ module atrito_condensed_body
    use atrito_timers, only: start_phase, stop_phase
    implicit none (type, external)
    private
-   public :: condensed_body_t, condense_body, check_held, factor_body, choose_solver, set_load, contact_response, &
+   public :: check_held, hourglass_text, loose_text
+   public :: condensed_body_t, condense_body, factor_body, choose_solver, set_load, contact_response, &
              add_flexibilities, &
              expand_body, motion_text, body_text, how_it_moves, is_turn, sparse_cost
 
@@ -165,17 +167,47 @@ contains
       grain = merge(fem%grain, 0.0_wp, solver_kind == SOLVER_SPARSE)
    end function grain_for
 
-   !> status: STATUS_SINGULAR when a body can move and no contact point touches it.
+   !> status: STATUS_SINGULAR when a body can move, or take a shape without strain, and no contact point touches it.
    subroutine check_held(fem, i_body, status)
       type(fem_t), intent(in) :: fem
       integer(ip), intent(in) :: i_body
       type(status_t), intent(inout) :: status
 
-      if (fem%bodies%list(i_body)%n_retained > 0 .or. size(fem%bodies%list(i_body)%modes, 2) == 0) return
-      if (fem%bodies%list(i_body)%is_touched) return
+      if (fem%bodies%list(i_body)%n_retained > 0 .or. fem%bodies%list(i_body)%is_touched) return
+      if (size(fem%bodies%list(i_body)%modes, 2) == 0) then
+         if (len(hourglass_text(fem, i_body)) > 0) call set_status(status, STATUS_SINGULAR, hourglass_text(fem, i_body))
+         return
+      end if
       call set_status(status, STATUS_SINGULAR, motion_text(fem, i_body, fem%bodies%list(i_body)%modes(:, 1)) &
                       //'; no support and no contact pair holds it')
    end subroutine check_held
+
+   !> Why a body has no stiffness at a node.
+   function loose_text(fem, i_body, what, node, dof) result(text)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      character(len=*), intent(in) :: what         !< was found
+      integer(ip), intent(in) :: node, dof         !< node: the user's number
+      character(len=:), allocatable :: text
+
+      text = hourglass_text(fem, i_body)
+   if (len(text) == 0) text = 'body '//fem%bodies%list(i_body)%name//': '//what//', node '//to_text(node)//' dof '//to_text(dof)// &
+                                 ': a part of the body can move by itself there (elements joined at one node only, or distorted)'
+   end function loose_text
+
+   !> That a body can take a shape that costs nothing, and what to do; '' where its supports prevent it.
+   function hourglass_text(fem, i_body) result(text)
+      type(fem_t), intent(in) :: fem
+      integer(ip), intent(in) :: i_body
+      character(len=:), allocatable :: text
+      integer(ip) :: element
+
+      text = ''
+      element = free_hourglass(fem, fem%bodies%list(i_body))
+      if (element > 0) text = 'body '//fem%bodies%list(i_body)%name//': element '//to_text(element)//' can take a shape that '// &
+                              'strains none of its points, an hourglass of reduced integration, which no support and no other '// &
+                              'element prevents; full integration (CPE8, CPS8) does, or more elements'
+   end function hourglass_text
 
    !> Factors and condenses a body whose solver has its matrix. status: as condense_body.
    subroutine factor_body(fem, i_body, body, result, status)
@@ -190,9 +222,7 @@ contains
       call report_pivots(fem, i_body, body%solver, result)
       call report_fronts(body%solver, result)
       if (.not. is_ok(status)) then
-         call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': '//status%text//', node ' &
-                         //to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
-                         //': a part of the body can move by itself there (elements joined at one node only, or distorted)')
+         call set_status(status, STATUS_SINGULAR, loose_text(fem, i_body, status%text, result%worst_node, result%worst_dof))
          return
       end if
       call factor_contact(fem, i_body, body, status)
@@ -262,6 +292,10 @@ contains
          call name_equation(fem, i_body, first + i, result)
       end do
       if (10.0_wp**(-result%digits_lost) > smallest_ratio(fem%bodies%list(i_body)%n)) return
+      if (len(hourglass_text(fem, i_body)) > 0) then
+         call set_status(status, STATUS_SINGULAR, hourglass_text(fem, i_body))
+         return
+      end if
       call set_status(status, STATUS_SINGULAR, 'body '//fem%bodies%list(i_body)%name//': its stiffness seen from the contact' &
                       //' line is round-off alone at node '//to_text(result%worst_node)//' dof '//to_text(result%worst_dof) &
                       //': it is too slender, or hardly held')

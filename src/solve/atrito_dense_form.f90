@@ -5,6 +5,7 @@ module atrito_dense_form
                                 forget_loads
    use atrito_bound_qp, only: bound_qp_t, DEPENDENT_POINTS
    use atrito_contact_form, only: CONTACT_DENSE
+   use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_flexibility, set_right_hand_sides
    use atrito_contact_solution, only: contact_solution_t, serves_as_start
    use atrito_dense_refinement, only: refine_dense_solution
@@ -165,7 +166,7 @@ contains
          solution = nothing
          status = fine
       end if
-      if (gives_way_nowhere(problem)) then
+      if (gives_way_nowhere(problem, data%line)) then
          call set_status(status, STATUS_SINGULAR, DEPENDENT_POINTS)
       else
          call solve_contact_line(problem, data%line, controls, data%reporter, solution, status)
@@ -173,14 +174,17 @@ contains
       if (has_dependent_points(status)) call solve_shared_points(problem, data%fem, data%rows, data%line, controls, data%reporter, &
                                                                  solution, status)
    end subroutine solve_line
-   !> Whether a force displaces nothing but a rigid surface: a held node faces one that moves.
-   pure logical function gives_way_nowhere(problem) result(nowhere)
+   !> Whether a force displaces nothing but rigid surfaces, and its law does not give way: a held node faces one that moves, an
+   !> equation joins two of them.
+   pure logical function gives_way_nowhere(problem, line) result(nowhere)
       type(bound_qp_t), intent(in) :: problem
+      type(contact_line_t), intent(in) :: line
       integer(ip) :: i
 
       nowhere = .false.
       do i = 1, problem%m
-         nowhere = nowhere .or. problem%c(i, i) <= 0.0_wp
+         if (problem%c(i, i) > 0.0_wp) cycle
+         nowhere = nowhere .or. i > problem%n_normal .or. .not. line%delta(line%point(i)) > 0.0_wp
       end do
    end function gives_way_nowhere
 

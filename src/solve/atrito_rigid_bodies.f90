@@ -6,9 +6,10 @@
 !> entries like those of a face of elements: what is prescribed comes in with their values, what is free with the motions.
 module atrito_rigid_bodies
    use atrito_bodies, only: bodies_t, body_t, mode_at, MOVES_RIGIDLY
+   use atrito_build_rigid_bodies, only: carriers_of, CARRIERS
    use atrito_kinds, only: ip, wp
    use atrito_mesh, only: mesh_t
-   use atrito_model, only: model_t, rigid_body_t, nodal_values_t
+   use atrito_model, only: model_t, rigid_body_name, rigid_body_t, nodal_values_t
    use atrito_plane_state, only: STATES
    use atrito_points, only: contact_points_t
    implicit none (type, external)
@@ -16,7 +17,7 @@ module atrito_rigid_bodies
    public :: attach_points, hold_carriers, append_rigid_bodies, set_rigid_motions, add_rigid_loads, carriers_of, &
              prescribed_motion, hold_the_same, has_moving_surfaces, DOF_OF_MOTION
 
-   integer(ip), parameter :: CARRIERS = 3_ip, MOTIONS = 3_ip
+   integer(ip), parameter :: MOTIONS = 3_ip
    integer(ip), parameter :: DOF_OF_MOTION(MOTIONS) = [1_ip, 2_ip, 6_ip]
 
 contains
@@ -26,15 +27,6 @@ contains
 
       has_moving_surfaces = allocated(model%solver_mesh)
    end function has_moving_surfaces
-
-   !> The nodes that carry the motion of a rigid body: at its reference node, and at its size from that along 1 and along 2.
-   pure function carriers_of(model, i) result(nodes)
-      type(model_t), intent(in) :: model
-      integer(ip), intent(in) :: i                     !< of the rigid bodies
-      integer(ip) :: nodes(CARRIERS)
-
-      nodes = model%mesh%n_nodes + CARRIERS*(i - 1) + [1_ip, 2_ip, 3_ip]
-   end function carriers_of
 
    !> Adds to the points of each pair whose master moves what that moves by where they meet it. In a rotation the places along a
    !> normal move alike along it, so it does not matter which of them is taken for the gap.
@@ -150,7 +142,7 @@ contains
       do i = 1, bodies%n_rigid
          nodes = carriers_of(model, i)
          associate (body => list(bodies%n + i))
-            body%name = model%surfaces(model%rigid_bodies(i)%surface)%name
+            body%name = rigid_body_name(model, i)
             body%is_rigid = .true.
             body%is_touched = model%rigid_bodies(i)%is_section
             body%nodes = nodes
@@ -160,6 +152,11 @@ contains
             do k = 1, size(points, kind=ip)
                if (model%pairs(k)%master == model%rigid_bodies(i)%surface .and. points(k)%n > 0) body%is_touched = .true.
             end do
+            if (model%bilateral%n > 0) then
+               do k = 1, CARRIERS
+                  if (any(model%bilateral%node == nodes(k))) body%is_touched = .true.
+               end do
+            end if
          end associate
          bodies%of_node(nodes) = bodies%n + i
       end do

@@ -28,7 +28,7 @@ contains
          associate (body => results%rigid(i), node => data%model%rigid_bodies(i)%node)
             results%u(:, node) = body%u
             results%reaction(:, node) = body%reaction
-            results%prescribed(:, node) = body%is_prescribed(:2) .and. [.true.,.not. body%is_section]
+            results%prescribed(:, node) = body%has_reaction .and. [.true.,.not. body%is_section]
          end associate
       end do
       ! nothing but round-off goes to the ground where all rigid surfaces of pairs move
@@ -115,7 +115,12 @@ contains
          body%reaction(1) = 0.0_wp                     ! on the full circle these balance in themselves
          body%moment = 0.0_wp
       end if
-      where (.not. body%is_prescribed(:2)) body%reaction = 0.0_wp
+      body%has_reaction = body%is_prescribed(:2)
+      associate (inclined => data%model%inclined)
+         if (inclined%n > 0) body%has_reaction = body%has_reaction .or. any(inclined%node(:inclined%n) &
+                                                                            == data%model%rigid_bodies(i)%node)
+      end associate
+      where (.not. body%has_reaction) body%reaction = 0.0_wp
       if (.not. body%is_prescribed(3)) body%moment = 0.0_wp
       if (.not. body%is_section) return
       body%reaction(2) = 0.0_wp                        ! round-off: these are no dofs

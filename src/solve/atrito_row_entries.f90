@@ -15,8 +15,8 @@ module atrito_row_entries
 
 contains
 
-   !> B by rows, its columns the displacements of one body after the other, then the rigid motions of all bodies if they are asked
-   !> for.
+   !> B by rows, its columns the displacements of one body after the other, then the rigid motions: of all bodies if they are asked
+   !> for, else of those alone that have no displacements, so that B' q has all that the forces do to every body.
    pure subroutine build_constraint_rows(fem, rows, line, with_motions, constraints)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
@@ -31,13 +31,12 @@ contains
       end do
       first_motion = first_motions(fem%bodies) + before(fem%bodies%n + 1)
       constraints%n = size(line%point, kind=ip)
-      constraints%n_columns = before(fem%bodies%n + 1)
-      if (with_motions) constraints%n_columns = first_motion(fem%bodies%n + 1) - 1
+      constraints%n_columns = first_motion(fem%bodies%n + 1) - 1
       constraints%point = line%point
       n = 0
       do i = 1, constraints%n
          n = n + 2*(rows%first(line%point(i) + 1) - rows%first(line%point(i)))
-         if (with_motions) n = n + MOST_MODES*count_bodies(bodies_of_row(rows, line%point(i), fem%bodies%of_node))
+         n = n + MOST_MODES*count_bodies(bodies_of_row(rows, line%point(i), fem%bodies%of_node))
       end do
       allocate (constraints%first(constraints%n + 1), constraints%column(n), constraints%value(n))
       constraints%first(1) = 1
@@ -45,8 +44,8 @@ contains
          at = constraints%first(i)
          call displacements_of_row(fem, rows, line, i, before, n, constraints%column(at:), constraints%value(at:))
          at = at + n
-         n = 0
-         if (with_motions) call motions_of_row(fem, rows, line, i, first_motion, n, constraints%column(at:), constraints%value(at:))
+         call motions_of_row(fem, rows, line, i, first_motion, n, constraints%column(at:), constraints%value(at:), &
+                             rigid_only=.not. with_motions)
          constraints%first(i + 1) = at + n
       end do
       n = constraints%first(constraints%n + 1) - 1
@@ -91,7 +90,7 @@ contains
    end subroutine displacements_of_row
 
    !> The direction of an unknown at the nodes of its point, moved by the rigid motions of their bodies.
-   pure subroutine motions_of_row(fem, rows, line, i, first_motion, n, motion, value)
+   pure subroutine motions_of_row(fem, rows, line, i, first_motion, n, motion, value, rigid_only)
       type(fem_t), intent(in) :: fem
       type(contact_rows_t), intent(in) :: rows
       type(contact_line_t), intent(in) :: line
@@ -100,15 +99,20 @@ contains
       integer(ip), intent(out) :: n              !< entries
       integer(ip), intent(inout) :: motion(:)
       real(wp), intent(inout) :: value(:)
+      logical, intent(in), optional :: rigid_only !< of rigid bodies alone; default .false.
       real(wp) :: direction(2), vector(2)
       integer(ip) :: k, node, b, mode, e, kept
+      logical :: of_all
 
+      of_all = .true.
+      if (present(rigid_only)) of_all = .not. rigid_only
       direction = direction_of(rows, line, i)
       n = 0
       do k = rows%first(line%point(i)), rows%first(line%point(i) + 1) - 1
          node = rows%node(k)
          b = fem%bodies%of_node(node)
          if (b == 0) cycle
+         if (.not. (of_all .or. fem%bodies%list(b)%is_rigid)) cycle
          vector = direction_of_entry(rows, line%point(i), k, direction)
          do mode = 1, size(fem%bodies%list(b)%modes, 2, kind=ip)
             do e = 1, n

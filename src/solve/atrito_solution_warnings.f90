@@ -1,10 +1,11 @@
 !> What a careful user should know of a solution, told as warnings and notes.
 module atrito_solution_warnings
    use atrito_blas_info, only: is_reference_blas
-   use atrito_condensed_body, only: motion_text
+   use atrito_condensed_body, only: hourglass_text, motion_text
    use atrito_contact_problem, only: motion_body
    use atrito_contact_solution, only: contact_solution_t
    use atrito_friction_law, only: FRICTION_NONE
+   use atrito_hourglass, only: worst_hourglass
    use atrito_kinds, only: ip, wp
    use atrito_linear_limits, only: warn_of_large
    use atrito_messages, only: add_warning
@@ -20,6 +21,7 @@ module atrito_solution_warnings
    real(wp), parameter :: MANY_DIGITS = 10.0_wp             !< lost digits worth a warning
    real(wp), parameter :: MUCH_LOST = 1.0e8_wp              !< condition of the contact line worth a warning
    real(wp), parameter :: LARGE_FRICTION = 3.0_wp           !< from here on other solutions have been seen
+   real(wp), parameter :: LARGE_HOURGLASS = 1.0_wp          !< as much strain energy as is seen is not
 
 contains
 
@@ -45,6 +47,7 @@ contains
                                                      //to_text(log10(solution%inner%condition), 3)//' digits of 16: a stiff slave' &
                                                                  //' with more points than its soft master has nodes, or points' &
                                                                  //' that are almost one')
+      call warn_of_hourglass(data, results)
       call note_shared_points(data%fem%mesh, data%rows, data%line, solution)
       call warn_of_others(data%model, results)
       call warn_of_large(results, data%model%asks_nlgeom)
@@ -63,6 +66,30 @@ contains
       call motion_body(data%fem, solution%inner%undetermined, b, mode)
       text = motion_text(data%fem, b, mode)
    end function idle_text
+
+   !> Elements of reduced integration that contact alone keeps in shape, and rows of them whose displacements are for a good part
+   !> what their points do not see.
+   subroutine warn_of_hourglass(data, results)
+      type(scene_data_t), intent(in) :: data
+      type(results_t), intent(in) :: results
+      character(len=:), allocatable :: text
+      real(wp) :: ratio
+      integer(ip) :: b, element
+
+      if (.not. allocated(results%u) .or. .not. allocated(data%fem%bodies%list)) return
+      do b = 1, data%fem%bodies%n
+         text = hourglass_text(data%fem, b)
+         if (len(text) > 0) then
+            call add_warning('W-HOURGLASS', text//': here contact or joints alone do')
+            cycle
+         end if
+         call worst_hourglass(data%fem, data%fem%bodies%list(b), results%u, ratio, element)
+         if (ratio <= LARGE_HOURGLASS) cycle
+     call add_warning('W-HOURGLASS', 'body '//data%fem%bodies%list(b)%name//': elements in one row take the shape that reduced '// &
+                         'integration hardly feels, an hourglass, most of all element '//to_text(element)//': full integration '// &
+                          'would see '//to_text(ratio, 2)//' times the strain energy in it; CPE8 or CPS8 there, or more rows')
+      end do
+   end subroutine warn_of_hourglass
 
    !> Whether there may be other solutions.
    subroutine warn_of_others(model, results)

@@ -1,7 +1,7 @@
 !> Solving with the sparse form: all bodies in one matrix, the contact points as elements that change.
 module atrito_sparse_form
    use atrito_assembly, only: fem_t
-   use atrito_condensed_body, only: check_held
+   use atrito_condensed_body, only: check_held, loose_text
    use atrito_constraint_rows, only: constraint_rows_t
    use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_contact_solution, only: contact_solution_t, serves_as_start
@@ -92,9 +92,7 @@ contains
             do dof = 1, 2
                if (bodies%equation(dof, node) <= 0) cycle
                if (data%assembled%numbering%before(b) + bodies%equation(dof, node) /= failed) cycle
-               call set_status(status, STATUS_SINGULAR, 'body '//bodies%list(b)%name//': '//status%text//', node ' &
-                               //to_text(data%fem%mesh%node_id(node))//' dof '//to_text(dof) &
-                               //': a part of the body can move by itself there (elements joined at one node only, or distorted)')
+               call set_status(status, STATUS_SINGULAR, loose_text(data%fem, b, status%text, data%fem%mesh%node_id(node), dof))
                return
             end do
          end do

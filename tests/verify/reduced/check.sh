@@ -94,4 +94,39 @@ deck
    near "tip of the cantilever, $rows rows" "$(awk '!/^#/ && $3 == 10 { u += $6; n++ } END { printf "%.17g", u/n }' \
       beam-$rows/nodes.tab)" "$(value '-(0.01*1000*12/3000 + 1.2*0.1*2.6/1000)')" 4e-4
 done
+
+# Hourglasses of eight nodes: one element whose supports leave it, at any place, size and angle and with every solver; a row of thin
+# elements that takes it; none in beams, in rows of squares, or where the supports hold it.
+row() { # NAME TYPE ELEMENTS LENGTH ANGLE UNIT SUPPORTS
+   awk -v type="$2" -v n="$3" -v l="$4" -v angle="$5" -v unit="$6" -v held="$7" 'function point(x, y) {
+         return sprintf("%.17g, %.17g", unit*(7 + c*x - s*y), unit*(s*x + c*y)) }
+      BEGIN { c = cos(angle*atan2(0, -1)/180); s = sin(angle*atan2(0, -1)/180)
+         print "*BLOCK, TYPE=" type ", ELSET=B, NX=" n ", NY=1\n" point(0, 0) "\n" point(l, 0) "\n" point(l, 1) "\n" point(0, 1)
+         print "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=B, MATERIAL=M\n*BOUNDARY"
+         k = split(held, line, "/"); for (i = 1; i <= k; i++) print line[i]
+         print "*STEP\n*STATIC\n*DSLOAD\nB-TOP, P, 1.\n*NODE PRINT\nU\n*END STEP" }' </dev/null >"$1.inp"
+}
+for type in CPE8R CPS8R; do
+   for solver in skyline banded sparse; do
+      row alone $type 1 1 30 1 '1, 1, 2/2, 2'
+      run 4 alone.inp alone --quiet --solver $solver
+      says "alone, $type, $solver" alone.err 'element 1 can take a shape that strains none of its points, an hourglass'
+   done
+   row alone $type 1 100 57.3 1e-3 '1, 1, 2/2, 2'
+   run 4 alone.inp alone --quiet
+   says "alone and slender, $type" alone.err 'an hourglass of reduced integration'
+   row held $type 1 1 0 1 'B-BOTTOM, 2/1, 1'
+   run 0 held.inp held --quiet --contact sparse
+   row thin $type 10 0.5 30 1 '1, 1, 2/2, 2'
+   run 0 thin.inp thin --quiet
+   says "thin, $type" thin.err '[W-HOURGLASS] body B: elements in one row take the shape that reduced integration hardly feels'
+   row full "${type%R}" 10 0.5 30 1 '1, 1, 2/2, 2'
+   run 0 full.inp full --quiet
+   for length in 5 50; do
+      row beam $type 5 $length 0 1 'B-LEFT, 1, 2'
+      run 0 beam.inp beam --quiet
+      cat beam.err >>quiet.err
+   done
+done
+cat held.err full.err quiet.err | grep -q HOURGLASS && complain 'an hourglass that is none'
 finish

@@ -1,0 +1,122 @@
+!> Dofs in bilateral rows: displacements of nodes of elements, and of reference nodes the displacements of those that carry their
+!> motion.
+module atrito_row_dofs
+   use atrito_build_context, only: build_context_t, has_lost_elements, ids_text
+   use atrito_build_loads, only: in_no_element
+   use atrito_build_rigid_bodies, only: carriers_of, is_reference, ROTATION_DOF
+   use atrito_deck, only: token_t
+   use atrito_diagnostics, only: report_error
+   use atrito_kinds, only: ip, wp
+   use atrito_local_axes, only: dof_direction
+   use atrito_mesh, only: is_revolved
+   use atrito_strings, only: to_text
+   implicit none (type, external)
+   private
+   public :: check_row_nodes, check_row_dof, has_no_unknowns, row_node, row_terms, arm_of, TERMS_A_DOF, WHAT_DOF
+
+   !> A rotation is a difference of two displacements.
+   integer(ip), parameter :: TERMS_A_DOF = 2
+   character(len=*), parameter :: WHAT_DOF = 'degree of freedom: 1 (x) or 2 (y)', &
+                                  AT_REFERENCE = '; of the reference node of a *RIGID BODY also 6'
+
+contains
+
+   !> The nodes of a list that belong to no element and carry no rigid surface.
+   pure function has_no_unknowns(context, nodes) result(loose)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: nodes(:)              !< places
+      logical :: loose(size(nodes))
+
+      loose = in_no_element(context, nodes) .and. .not. is_reference(context, nodes)
+   end function has_no_unknowns
+
+   !> ok is false, and an error told, where some nodes have no unknowns.
+   subroutine check_row_nodes(context, place, nodes, expected, keyword, ok)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place
+      integer(ip), intent(in) :: nodes(:)
+      character(len=*), intent(in) :: expected, keyword
+      logical, intent(out) :: ok
+
+      ok = .not. any(has_no_unknowns(context, nodes))
+      if (ok .or. has_lost_elements(context)) return
+      call report_error(context%deck, place, 'E-NODE', 'node '//ids_text(pack(context%model%mesh%node_id(nodes), &
+                                                                      has_no_unknowns(context, nodes)))//' belongs to no element', &
+                        expected=expected, keyword=keyword)
+   end subroutine check_row_nodes
+
+   !> ok is false, and an error told, where some nodes do not have a dof.
+   subroutine check_row_dof(context, place, nodes, dof, keyword, ok)
+      type(build_context_t), intent(in) :: context
+      type(token_t), intent(in) :: place               !< of the dof
+      integer(ip), intent(in) :: nodes(:), dof
+      character(len=*), intent(in) :: keyword
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: what
+      integer(ip) :: i
+
+      ok = dof == 1 .or. dof == 2 .or. (dof == ROTATION_DOF .and. all(is_reference(context, nodes)))
+      if (.not. ok) then
+         call report_error(context%deck, place, 'E-DOF', 'dof '//to_text(dof)//' does not exist in the plane', &
+                           expected=WHAT_DOF//repeat(AT_REFERENCE, merge(1, 0, dof == ROTATION_DOF)), keyword=keyword)
+         return
+      end if
+      if (.not. any(is_reference(context, nodes))) return
+      what = ''
+      do i = 1, size(nodes, kind=ip)
+         if (.not. is_reference(context, nodes(i)) .or. len(what) > 0) cycle
+         associate (body => context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, nodes(i), dim=1)))
+            if (body%is_section) then
+               if (dof /= 1) what = 'the node of a pre-tension section has dof 1 alone, not '
+            else if (is_revolved(context%model%mesh) .and. dof /= 2) then
+               what = 'a rigid surface round an axis moves along it alone, not by dof '
+            end if
+         end associate
+      end do
+      ok = len(what) == 0
+      if (.not. ok) call report_error(context%deck, place, 'E-DOF', what//to_text(dof), &
+                                      expected='a dof by which it moves', keyword=keyword)
+   end subroutine check_row_dof
+
+   !> The node of the solver's mesh whose displacement is that of a node: of a reference node the first of those that carry it.
+   pure integer(ip) function row_node(context, node) result(moves)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node
+      integer(ip) :: carriers(3)
+
+      moves = node
+      if (.not. is_reference(context, node)) return
+      carriers = carriers_of(context%model, findloc(context%model%rigid_bodies%node, node, dim=1, kind=ip))
+      moves = carriers(1)
+   end function row_node
+
+   !> What a dof is in a row: a displacement along its direction, or the rotation of a reference node times an arm, which is the
+   !> difference of what the first two of its nodes move by along 2: they lie the size of the surface apart along 1.
+   pure subroutine row_terms(context, node, dof, arm, nodes, vectors)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node, dof
+      real(wp), intent(in) :: arm                      !< that a rotation is multiplied by [L]
+      integer(ip), intent(out) :: nodes(TERMS_A_DOF)   !< of the solver's mesh
+      real(wp), intent(out) :: vectors(2, TERMS_A_DOF)
+      integer(ip) :: carriers(3)
+
+      nodes = row_node(context, node)
+      vectors = 0.0_wp
+      if (dof /= ROTATION_DOF) then
+         vectors(:, 1) = dof_direction(context, node, dof)
+         return
+      end if
+      carriers = carriers_of(context%model, findloc(context%model%rigid_bodies%node, node, dim=1, kind=ip))
+      nodes = carriers(:TERMS_A_DOF)
+      vectors(2, :) = [-arm, arm]/arm_of(context, node)
+   end subroutine row_terms
+
+   !> The size of the surface of a reference node [L].
+   pure real(wp) function arm_of(context, node) result(arm)
+      type(build_context_t), intent(in) :: context
+      integer(ip), intent(in) :: node
+
+      arm = context%model%rigid_bodies(findloc(context%model%rigid_bodies%node, node, dim=1))%size
+   end function arm_of
+
+end module atrito_row_dofs
