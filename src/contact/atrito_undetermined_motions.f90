@@ -24,12 +24,11 @@ module atrito_undetermined_motions
 
 contains
 
-   !> Takes the least motion, as far as no point penetrates nor slips with its friction. undetermined: one of the motions, (k); not allocated when there is
+   !> Takes the least motion, unless points would penetrate or slip with their friction. undetermined: one of the motions, (k); not allocated when there is
    !> none. position: where the bodies were before, from where it counts.
-   subroutine settle_undetermined_motions(system, bounds, n_normal, multipliers, state, undetermined, position)
+   subroutine settle_undetermined_motions(system, bounds, multipliers, state, undetermined, position)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
-      integer(ip), intent(in) :: n_normal
       type(multiplier_t), intent(inout) :: multipliers
       type(box_state_t), intent(inout) :: state
       real(wp), allocatable, intent(out) :: undetermined(:)
@@ -37,7 +36,6 @@ contains
       real(wp), allocatable :: basis(:, :)
       type(multiplier_t) :: least
       type(box_state_t) :: least_state
-      real(wp) :: far
 
       call find_undetermined_motions(system, multipliers, basis)
       if (size(basis, 2) == 0) return
@@ -50,44 +48,22 @@ contains
          if (present(position)) amplitudes = amplitudes + position
       end associate
       call set_forces(system, bounds, least, least_state)
-      far = way_without_change(bounds, state, least%e - bounds%d*state%q, &
-                               least%noise*(bounds%d + least%r*least%part*system%flexibility), n_normal)
-      if (far <= 0.0_wp) return
-      if (far < 1.0_wp) then
-         least%x = multipliers%x + far*(least%x - multipliers%x)
-         call set_forces(system, bounds, least, least_state)
-      end if
+      if (changes_a_state(bounds, state, least%e - bounds%d*state%q, &
+                          least%noise*(bounds%d + least%r*least%part*system%flexibility))) return
       multipliers = least
       state%a = least_state%a
       where (state%state /= FREE) state%r = least%e - bounds%d*state%q
    end subroutine settle_undetermined_motions
 
-   !> The share of the way from state%r to r on which no state has to change: r <= 0 of open points and of those that slip at their
-   !> lower bound, r >= 0 of those at their upper one.
-   pure real(wp) function way_without_change(bounds, state, r, slack, n_normal) result(far)
+   !> Whether r > 0 at an open point or one that slips at its lower bound, or r < 0 at one that slips at its upper one.
+   pure logical function changes_a_state(bounds, state, r, slack) result(changes)
       type(box_bounds_t), intent(in) :: bounds
       type(box_state_t), intent(in) :: state
       real(wp), intent(in) :: r(:), slack(:)     !< (m) [L]
-      integer(ip), intent(in) :: n_normal
-      real(wp) :: from, to
-      integer(ip) :: i
 
-      far = 1.0_wp
-      do i = 1, size(r, kind=ip)
-         if (i > n_normal .and. bounds%upper(i) <= bounds%lower(i)) cycle
-         select case (state%state(i))
-         case (AT_LOWER)
-            from = state%r(i)
-            to = r(i)
-         case (AT_UPPER)
-            from = -state%r(i)
-            to = -r(i)
-         case default
-            cycle
-         end select
-         if (to > slack(i)) far = min(far, max(-from, 0.0_wp)/(to - from))
-      end do
-   end function way_without_change
+      changes = any(bounds%lower < bounds%upper .and. (state%state == AT_LOWER .and. r > slack .or. &
+                                                       state%state == AT_UPPER .and. r < -slack))
+   end function changes_a_state
 
    !> basis: (n, motions), their amplitudes orthonormal; the displacements in them are round-off.
    subroutine find_undetermined_motions(system, multipliers, basis)

@@ -68,12 +68,14 @@ contains
       type(results_t), intent(inout) :: results             !< with the scene; nothing else is there yet
       type(contact_solution_t), intent(out) :: solution
       type(status_t), intent(out) :: status
-      type(controls_t) :: controls
+      type(controls_t) :: controls, first
 
       controls = data%step%controls
       controls%is_brief = data%may_cut
       if (asked_form == CONTACT_AUTO) controls%most_entries = MOST_ENTRIES
-      call solve_one_form(data, data%contact_form, controls, store, results, solution, status)
+      first = controls
+      first%is_first = asked_form == CONTACT_AUTO
+      call solve_one_form(data, data%contact_form, first, store, results, solution, status)
       if (results%scene%near_elements .and. .not. is_solved(results, status)) then
          call solve_without_near(data, controls, store, results, solution, status)
       end if
@@ -176,8 +178,8 @@ contains
       end do
    end function growth_of_bodies
 
-   !> The other form of the contact system, and Newton's method from a start of its own; with few points also what takes long:
-   !> what is found counts when it converges and its law holds.
+   !> What is tried where the first attempt found nothing, and no proof that there is nothing: the sparse form, then all that the
+   !> dense one has; with few points also what takes long. What is found counts when it converges and its law holds.
    subroutine try_others(data, controls, store, results, solution)
       type(scene_data_t), intent(inout) :: data
       type(controls_t), intent(in) :: controls
@@ -188,8 +190,10 @@ contains
       integer :: attempt
 
       if (controls%method /= METHOD_ANDERSON) return        ! the user's own choice
-      call try_form(data, merge(CONTACT_SPARSE, CONTACT_DENSE, data%contact_form == CONTACT_DENSE), controls, store, results, &
-                    solution)
+      if (data%contact_form == CONTACT_DENSE) call try_form(data, CONTACT_SPARSE, controls, store, results, solution)
+      if (.not. (results%converged .and. results%law_holds)) then
+         call try_form(data, CONTACT_DENSE, controls, store, results, solution)
+      end if
       if (controls%is_brief .or. (results%converged .and. results%law_holds)) return
       newton = controls
       newton%method = METHOD_NEWTON

@@ -49,6 +49,7 @@ module atrito_multiplier_loop
    real(wp), parameter :: FAST_R = 1.0e-3_wp          !< without contact points
    real(wp), parameter :: LAGS = 0.5_wp               !< change of the forces over that of the step before that is slow
    integer(ip), parameter :: MOST_LAGGING = 3_ip      !< such steps, before rho falls:
+   real(wp), parameter :: LITTLE_LEFT = 1.0e-6_wp     !< change of the forces that is left as it is: it may be a drift without end
    real(wp), parameter :: LESS_PART = 1.0e-2_wp, LEAST_R = 1.0e-7_wp
    real(wp), parameter :: MOST_NOISE = 1.0e-7_wp      !< of the forces of a pair
    integer(ip), parameter :: SLOW_STANDS = 3_ip       !< steps without a change of states before the mixing begins then
@@ -233,7 +234,7 @@ contains
 
       loop%standing = merge(0_ip, loop%standing + 1_ip, multipliers%changed)
       loop%lagging = merge(loop%lagging + 1_ip, 0_ip, loop%standing > 1 .and. .not. loop%slow .and. &
-                           loop%distance%forces > LAGS*loop%change)
+                           loop%distance%forces > max(LAGS*loop%change, LITTLE_LEFT))
       loop%change = loop%distance%forces
       if (loop%lagging >= MOST_LAGGING) then
          loop%lagging = 0
@@ -331,7 +332,7 @@ contains
       end if
       call clear_unloaded(system, shape, multipliers, solution%state)
       call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
-      if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
+      if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, multipliers, solution%state, &
                                                          solution%inner%undetermined, before%a)
       solution%p = pressure_of(line, solution%state%q)
       solution%tau = bound_of_state(line, solution)

@@ -54,7 +54,7 @@ nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values source
 element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/atrito_fingerprint.f90 add_amplitude amplitude name
 increments_t       model/atrito_fingerprint.f90 add_way way
-controls_t         model/atrito_fingerprint.f90 add_way controls is_brief
+controls_t         model/atrito_fingerprint.f90 add_way controls is_brief,is_first
 requests_t         model/atrito_fingerprint.f90 add_requests requests
 frequencies_t      model/atrito_fingerprint.f90 add_requests every
 requested_t        model/atrito_fingerprint.f90 add_requested requested
