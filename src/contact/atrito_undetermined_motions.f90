@@ -24,8 +24,8 @@ module atrito_undetermined_motions
 
 contains
 
-   !> Takes the least motion, unless points would penetrate or slip with their friction. undetermined: one of the motions, (k); not allocated when there is
-   !> none. position: where the bodies were before, from where it counts.
+   !> Takes the least motion, unless points would penetrate or slip with their friction. undetermined: one of the motions, (k); not
+   !> allocated when there is none. position: where the bodies were before, from where it counts.
    subroutine settle_undetermined_motions(system, bounds, multipliers, state, undetermined, position)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
