@@ -52,11 +52,12 @@ module atrito_increment
    end type attempt_t
 
    !> In this order. Of 7,500 random scenes the first solved 113, the second, with its own attempts (atrito_outer_loop), 56, the
-   !> others one, one and three.
-   type(attempt_t), parameter :: ATTEMPTS(5) = [attempt_t(CONTACT_SPARSE, METHOD_ANDERSON), &
+   !> others one, one, one and two.
+   type(attempt_t), parameter :: ATTEMPTS(6) = [attempt_t(CONTACT_SPARSE, METHOD_ANDERSON), &
                                                 attempt_t(CONTACT_DENSE, METHOD_ANDERSON), &
                                                 attempt_t(CONTACT_DENSE, METHOD_NEWTON), &
                                                 attempt_t(CONTACT_DENSE, METHOD_ANDERSON, is_coarse=.true.), &
+                                                attempt_t(CONTACT_DENSE, METHOD_ANDERSON, 3), &
                                                 attempt_t(CONTACT_DENSE, METHOD_PICARD, 10, 0.3_wp)]
    integer, parameter :: BRIEF = 2, QUICK = 3              !< of them where a shorter increment may do, and where points are many:
    integer, parameter :: MOST_PATIENT = 400                !< unknown forces

@@ -211,6 +211,10 @@ contains
          if (norm2(change) > 0.0_wp .and. norm2(change - loop%drift) <= STEADY*norm2(change)) then
             steps = HUGE_REAL
             yields = dot_product(change, bounds%d*change)/dot_product(change, (bounds%d + rho_of(system, multipliers))*change)
+            ! what yields may be beside what drifts by round-off
+            if (loop%distance%forces <= 10*STALE_DISTANCE) then
+               yields = min(yields, 1 - dot_product(change, loop%drift)/dot_product(loop%drift, loop%drift))
+            end if
             if (yields > 1/MOST_DRIFT) steps = 1/yields
             do i = 1, size(change, kind=ip)
                if (state%state(i) /= FREE .or. change(i) == 0.0_wp) cycle
