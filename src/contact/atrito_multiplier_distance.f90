@@ -11,7 +11,7 @@ module atrito_multiplier_distance
    use atrito_multiplier_step, only: multiplier_t, pull_of
    implicit none (type, external)
    private
-   public :: distance_t, measure_distance, forces_that_are_none
+   public :: distance_t, measure_distance, forces_that_are_none, NO_FORCE_AFTER
 
    !> Relative to the forces of the pair or body.
    type :: distance_t
@@ -22,6 +22,7 @@ module atrito_multiplier_distance
    end type distance_t
 
    real(wp), parameter :: NO_FORCE = 1.0e-12_wp  !< of the forces on the bodies that meet: none
+   real(wp), parameter :: NO_FORCE_AFTER = 1.0e-14_wp !< of the force in the increment before
    !> The same of a bilateral row: it may be where nothing moves, and nothing tells its noise.
    real(wp), parameter :: LITTLE = 1.0e-5_wp
 
@@ -109,7 +110,8 @@ contains
       end do
    end subroutine measure_rigid_bodies
 
-   !> The force at each pair that is round-off of those on its bodies.
+   !> The force at each pair that is round-off of those on its bodies, or of what it bore in the increment before: of a pair that is
+   !> unloaded nothing else may be left to compare with.
    subroutine measure_pairs(system, multipliers, of_body, least)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
@@ -118,6 +120,7 @@ contains
       integer(ip) :: i
 
       least = 0.0_wp
+      if (allocated(multipliers%before)) least = NO_FORCE_AFTER*multipliers%before
       do i = 1, system%rows%n
          associate (bodies => system%body(system%rows%column(system%rows%first(i):system%rows%first(i + 1) - 1)), &
                     pair => multipliers%pair(i))

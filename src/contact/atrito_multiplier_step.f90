@@ -20,10 +20,11 @@ module atrito_multiplier_step
    implicit none (type, external)
    private
    public :: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, set_forces, pull_of, &
-             take_least_forces, clear_round_off
+             take_least_forces, clear_round_off, rho_of
 
    type :: multiplier_t
       real(wp) :: r = 1.0e-2_wp                  !< rho over the flexibility of the row
+      real(wp), allocatable :: part(:)           !< (m) of that, which the row takes: less where its forces come slowly
       real(wp) :: kappa = 1.0e-4_wp              !< pull on a motion over what its rows hold it with
       real(wp), allocatable :: x(:)              !< (n) [L]
       real(wp), allocatable :: e(:)              !< (m) B x + g0 [L]
@@ -32,6 +33,7 @@ module atrito_multiplier_step
       real(wp), allocatable :: a_old(:)          !< (k) [L]
       real(wp), allocatable :: hold(:)           !< (k) [F/L] sum of G_ij^2/c_i over the rows of the body
       integer(ip), allocatable :: pair(:)        !< (m) contact pair of each row
+      real(wp), allocatable :: before(:)         !< (n_pairs) largest force in the increment before, 0 where there is none [F]
       integer(ip) :: n_pairs = 0
       integer(ip) :: n_contact_pairs = huge(1_ip) !< those behind are groups of bilateral rows
       real(wp), allocatable :: stiffness(:)      !< (m) that was factored last
@@ -69,6 +71,7 @@ contains
          allocate (multipliers%x(system%n), multipliers%q_old(m), multipliers%noise(m), multipliers%a_old(system%k), &
                    multipliers%hold(system%k), &
                    multipliers%stiffness(m), multipliers%pull(system%k), source=0.0_wp)
+         allocate (multipliers%part(m), source=1.0_wp)
          multipliers%e = system%g0
          do i = 1, m
             do k = system%rows%first(i), system%rows%first(i + 1) - 1
@@ -94,7 +97,7 @@ contains
       state%state = FREE
       where (bounds%lower == bounds%upper) state%state = FROZEN
       state%q = 0.0_wp
-      where (state%state == FREE) state%q = multipliers%e/(bounds%d + multipliers%r*system%flexibility)
+      where (state%state == FREE) state%q = multipliers%e/(bounds%d + rho_of(system, multipliers))
       call residual_of(system, multipliers, state%q, residual)
       call provide_factor(system, bounds, state, multipliers, status)
       if (.not. is_ok(status)) return
@@ -125,7 +128,7 @@ contains
          multipliers%e = e + system%g0
       end if
       do i = 1, system%rows%n
-         rho = multipliers%r*system%flexibility(i)
+         rho = multipliers%r*multipliers%part(i)*system%flexibility(i)
          multipliers%noise(i) = ROUND_OFFS*EPS_MACH*(multipliers%noise(i) + abs(system%g0(i)))/(bounds%d(i) + rho)
          z = (multipliers%e(i) + rho*multipliers%q_old(i))/(bounds%d(i) + rho)
          state%q(i) = min(max(z, bounds%lower(i)), bounds%upper(i))
@@ -178,6 +181,14 @@ contains
          residual(first + 1:) = residual(first + 1:) - pull_of(multipliers)*(multipliers%x(first + 1:) - multipliers%a_old)
       end associate
    end subroutine residual_of
+
+   pure function rho_of(system, multipliers) result(rho)
+      class(contact_system_t), intent(in) :: system
+      type(multiplier_t), intent(in) :: multipliers
+      real(wp) :: rho(system%rows%n)
+
+      rho = multipliers%r*multipliers%part*system%flexibility
+   end function rho_of
 
    pure function pull_of(multipliers) result(pull)
       type(multiplier_t), intent(in) :: multipliers
@@ -233,7 +244,7 @@ contains
       logical :: is_new
 
       stiffness = 0.0_wp
-      where (state%state == FREE) stiffness = 1/(bounds%d + multipliers%r*system%flexibility)
+      where (state%state == FREE) stiffness = 1/(bounds%d + rho_of(system, multipliers))
       ! a row whose compliance has changed little keeps the stiffness that was factored
       where (abs(stiffness - multipliers%stiffness) <= SAME_STIFFNESS*stiffness) stiffness = multipliers%stiffness
       do
@@ -270,7 +281,7 @@ contains
       end do
       stays = .true.
       do i = 1, system%rows%n
-         rho = multipliers%r*system%flexibility(i)
+         rho = multipliers%r*multipliers%part(i)*system%flexibility(i)
          z = (multipliers%e(i) + de(i) + rho*multipliers%q_old(i))/(bounds%d(i) + rho)
          slack = SAME_STATE*scale(multipliers%pair(i)) + multipliers%noise(i)
          select case (state%state(i))
@@ -302,7 +313,7 @@ contains
          slope = slope + dot_product(a, pull_of(multipliers)*a)
       end associate
       constant = -dot_product(dx, residual) - dot_product(de, state%q)
-      associate (rho => multipliers%r*system%flexibility)
+      associate (rho => rho_of(system, multipliers))
          t = search_line(constant, slope, de, multipliers%e, rho*multipliers%q_old, bounds%d + rho, bounds%lower, bounds%upper)
       end associate
       multipliers%x = multipliers%x + t*dx
@@ -322,7 +333,7 @@ contains
 
       may_change = bounds%d <= NO_COMPLIANCE*system%flexibility .and. state%state /= FROZEN
       where (state%state == AT_LOWER .or. state%state == AT_UPPER)
-         may_change = may_change .and. abs(state%r) <= multipliers%noise*(bounds%d + multipliers%r*system%flexibility)
+         may_change = may_change .and. abs(state%r) <= multipliers%noise*(bounds%d + rho_of(system, multipliers))
       end where
       call find_least_forces(rows, weight, bounds%lower, bounds%upper, may_change, state%q, is_shared)
       where (is_shared .and. state%q > bounds%lower .and. state%q < bounds%upper) state%state = FREE

@@ -6,7 +6,7 @@
 !> are least.
 module atrito_undetermined_motions
    use atrito_bodies, only: reduce_columns
-   use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE
+   use atrito_bound_qp, only: box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER
    use atrito_constraint_rows, only: multiply_rows, add_transposed
    use atrito_contact_system, only: contact_system_t
    use atrito_dense, only: least_squares
@@ -24,12 +24,11 @@ module atrito_undetermined_motions
 
 contains
 
-   !> Takes the least motion, unless points would penetrate. undetermined: one of the motions, (k); not allocated when there is
-   !> none. position: where the bodies were before, from where it counts.
-   subroutine settle_undetermined_motions(system, bounds, n_normal, multipliers, state, undetermined, position)
+   !> Takes the least motion, unless points would penetrate or slip with their friction. undetermined: one of the motions, (k); not
+   !> allocated when there is none. position: where the bodies were before, from where it counts.
+   subroutine settle_undetermined_motions(system, bounds, multipliers, state, undetermined, position)
       class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
-      integer(ip), intent(in) :: n_normal
       type(multiplier_t), intent(inout) :: multipliers
       type(box_state_t), intent(inout) :: state
       real(wp), allocatable, intent(out) :: undetermined(:)
@@ -49,12 +48,22 @@ contains
          if (present(position)) amplitudes = amplitudes + position
       end associate
       call set_forces(system, bounds, least, least_state)
-      if (any(least_state%r(:n_normal) > least%noise(:n_normal)*(bounds%d(:n_normal) + least%r*system%flexibility(:n_normal)) &
-              .and. state%state(:n_normal) /= FREE)) return
+      if (changes_a_state(bounds, state, least%e - bounds%d*state%q, &
+                          least%noise*(bounds%d + least%r*least%part*system%flexibility))) return
       multipliers = least
       state%a = least_state%a
-      where (state%state /= FREE) state%r = least_state%r
+      where (state%state /= FREE) state%r = least%e - bounds%d*state%q
    end subroutine settle_undetermined_motions
+
+   !> Whether r > 0 at an open point or one that slips at its lower bound, or r < 0 at one that slips at its upper one.
+   pure logical function changes_a_state(bounds, state, r, slack) result(changes)
+      type(box_bounds_t), intent(in) :: bounds
+      type(box_state_t), intent(in) :: state
+      real(wp), intent(in) :: r(:), slack(:)     !< (m) [L]
+
+      changes = any(bounds%lower < bounds%upper .and. (state%state == AT_LOWER .and. r > slack .or. &
+                                                       state%state == AT_UPPER .and. r < -slack))
+   end function changes_a_state
 
    !> basis: (n, motions), their amplitudes orthonormal; the displacements in them are round-off.
    subroutine find_undetermined_motions(system, multipliers, basis)

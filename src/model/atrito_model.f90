@@ -155,6 +155,7 @@ module atrito_model
       logical :: is_coarse = .false.                !< bound_qp_t%is_coarse: states that round-off turns to and fro
       real(wp) :: most_entries = huge(1.0_wp)       !< of C to go through, over all linear solves, before it is given up
       logical :: is_brief = .false.                 !< a shorter increment may do: what takes long is not tried
+      logical :: is_first = .false.                 !< others come later: the dense form makes one attempt alone
    end type controls_t
 
    !> A curve over time that multiplies loads and displacements: *AMPLITUDE.

@@ -3,16 +3,16 @@
 module atrito_multiplier_loop
    use atrito_accelerator, only: anderson_t
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_constraint_rows, only: constraint_rows_t
+   use atrito_constraint_rows, only: constraint_rows_t, multiply_rows
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   tangential_of
    use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_multiplier_distance, only: distance_t, measure_distance, forces_that_are_none
+   use atrito_multiplier_distance, only: distance_t, measure_distance, forces_that_are_none, NO_FORCE_AFTER
    use atrito_multiplier_step, only: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, &
-                                     take_least_forces, clear_round_off
+                                     take_least_forces, clear_round_off, rho_of
    use atrito_model, only: controls_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: begin_outer, end_outer
@@ -31,6 +31,9 @@ module atrito_multiplier_loop
       logical :: shares = .false.                !< some are not, and the least are taken
       type(distance_t) :: distance               !< of the last step from a solution
       integer(ip) :: standing = 0                !< steps without a change of states
+      integer(ip) :: lagging = 0                 !< of them, those in which the forces changed nearly as much as in the one before
+      logical :: can_wait = .true.               !< with the mixing, for forces that come faster
+      real(wp) :: change = 0.0_wp                !< of the forces in the last step, relative as in distance
       logical :: slow = .false.                  !< states went on changing: smaller steps
       real(wp), allocatable :: share(:)          !< (points) of the way to Picard's bound that the next one goes
       real(wp), allocatable :: off(:)            !< (points) Picard's bound less the last one [F/L^2]
@@ -44,6 +47,11 @@ module atrito_multiplier_loop
    integer(ip), parameter :: MANY_STEPS = 100_ip      !< after which states that still change ask for smaller steps:
    real(wp), parameter :: SLOW_R = 1.0_wp             !< rho over the flexibility of a row then
    real(wp), parameter :: FAST_R = 1.0e-3_wp          !< without contact points
+   real(wp), parameter :: LAGS = 0.5_wp               !< change of the forces over that of the step before that is slow
+   integer(ip), parameter :: MOST_LAGGING = 3_ip      !< such steps, before rho falls:
+   real(wp), parameter :: LITTLE_LEFT = 1.0e-6_wp     !< change of the forces that is left as it is: it may be a drift without end
+   real(wp), parameter :: LESS_PART = 1.0e-2_wp, LEAST_R = 1.0e-7_wp
+   real(wp), parameter :: MOST_NOISE = 1.0e-7_wp      !< of the forces of a pair
    integer(ip), parameter :: SLOW_STANDS = 3_ip       !< steps without a change of states before the mixing begins then
    real(wp), parameter :: LESS = 0.7_wp, MORE = 1.2_wp !< of the share of a point whose bound oscillates, and of one whose does not
    real(wp), parameter :: LEAST_SHARE = 0.05_wp
@@ -87,7 +95,9 @@ contains
       end if
       if (.not. is_ok(status)) return
       tau = solution%tau
-      do outer = 1, OUTERS_A_MAXIT*controls%max_iterations
+      outer = 0
+      do
+         outer = outer + 1
          call begin_outer(solution%history)
          solution%tau = tau
          call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
@@ -100,22 +110,32 @@ contains
          call judge_step(system, line, controls%tolerance, outer, multipliers, loop, solution, image)
          call tell(reporter, outer, loop%distance, multipliers, solution)
          if (solution%converged) call look_for_shared(system, rows, shape, multipliers, loop, solution)
-         if (solution%converged .or. multipliers%factorisations > FACTORISATIONS_A_MAXIT*controls%max_iterations) exit
+         if (solution%converged .or. is_used_up(outer, controls%max_iterations, multipliers%factorisations, loop)) exit
          if (loop%moving > MOST_MOVING) then
             solution%inner%moves = .true.
             solution%inner%motion = multipliers%x(system%n - system%k + 1:) - multipliers%a_old
             call set_status(status, STATUS_SINGULAR, FREE_MOTION)
             return
          end if
-         call follow_drift(solution%bounds, multipliers, loop, solution%state)
+         call follow_drift(system, solution%bounds, multipliers, loop, solution%state)
          call accept_step(system, solution%state, multipliers)
-         call choose_steps(outer, multipliers, loop)
+         call choose_steps(outer, solution%state, multipliers, loop)
          call next_bound(image, loop, anderson, tau)
       end do
       call finish(system, line, shape, loop%distance, before%state, multipliers, solution)
       if (solution%converged) x = multipliers%x
       if (allocated(before%multipliers)) solution%multipliers = multipliers
    end subroutine solve_by_multipliers
+
+   !> Whether the steps are used up that MAXIT allows. A loop whose distance was halved in the last quarter of them is on its way,
+   !> and goes on: so often can it be halved and no more.
+   pure logical function is_used_up(outer, max_iterations, factorisations, loop)
+      integer(ip), intent(in) :: outer, max_iterations, factorisations
+      type(loop_t), intent(in) :: loop
+
+      is_used_up = outer >= OUTERS_A_MAXIT*max_iterations .or. factorisations > FACTORISATIONS_A_MAXIT*max_iterations
+      if (is_used_up) is_used_up = outer - loop%best_outer > outer/4
+   end function is_used_up
 
    pure logical function has_multipliers(solution)
       type(contact_solution_t), intent(in) :: solution
@@ -132,9 +152,18 @@ contains
       type(multiplier_t), intent(inout) :: multipliers
       type(contact_solution_t), intent(inout) :: solution
       type(multiplier_t) :: fresh
+      integer(ip) :: i
 
       multipliers = before%multipliers
+      if (allocated(multipliers%before)) deallocate (multipliers%before)
       multipliers%r = fresh%r
+      multipliers%part = spread(1.0_wp, 1, shape%m)
+      allocate (multipliers%before(multipliers%n_pairs), source=0.0_wp)
+      do i = 1, shape%m
+         associate (k => multipliers%pair(i))
+            multipliers%before(k) = max(multipliers%before(k), abs(before%state%q(i)))
+         end associate
+      end do
       multipliers%factorisations = 0
       multipliers%q_old = before%state%q
       multipliers%a_old = multipliers%x(size(multipliers%x) - shape%k + 1:)
@@ -166,19 +195,27 @@ contains
    end subroutine judge_step
 
    !> Forces of rows that depend on each other, and whose gaps contradict each other a little, change by the same amount in every
-   !> step until one comes to its bound. They go there at once: the bodies do not feel it.
-   subroutine follow_drift(bounds, multipliers, loop, state)
+   !> step until one comes to its bound, or until the compliance of the rows has taken up the contradiction, which a share of
+   !> D/(D + rho) does in each step. They go there at once: the bodies do not feel it.
+   subroutine follow_drift(system, bounds, multipliers, loop, state)
+      class(contact_system_t), intent(in) :: system
       type(box_bounds_t), intent(in) :: bounds
       type(multiplier_t), intent(in) :: multipliers
       type(loop_t), intent(inout) :: loop
       type(box_state_t), intent(inout) :: state
-      real(wp) :: change(size(state%q)), steps, bound
+      real(wp) :: change(size(state%q)), steps, bound, yields
       integer(ip) :: i
 
       change = state%q - multipliers%q_old
       if (allocated(loop%drift) .and. .not. multipliers%changed) then
          if (norm2(change) > 0.0_wp .and. norm2(change - loop%drift) <= STEADY*norm2(change)) then
             steps = HUGE_REAL
+            yields = dot_product(change, bounds%d*change)/dot_product(change, (bounds%d + rho_of(system, multipliers))*change)
+            ! what yields may be beside what drifts by round-off
+            if (loop%distance%forces <= 10*STALE_DISTANCE) then
+               yields = min(yields, 1 - dot_product(change, loop%drift)/dot_product(loop%drift, loop%drift))
+            end if
+            if (yields > 1/MOST_DRIFT) steps = 1/yields
             do i = 1, size(change, kind=ip)
                if (state%state(i) /= FREE .or. change(i) == 0.0_wp) cycle
                bound = merge(bounds%lower(i), bounds%upper(i), change(i) < 0.0_wp)
@@ -191,17 +228,52 @@ contains
    end subroutine follow_drift
 
    !> States that still change after many steps may do so for ever. With rho of the size of the flexibility, a step moves the
-   !> forces about half of the way only.
-   subroutine choose_steps(outer, multipliers, loop)
+   !> forces about half of the way only. Where states stand and the forces come no faster to their end, rho is large beside what
+   !> tells them: it falls as far as its round-off may.
+   subroutine choose_steps(outer, state, multipliers, loop)
       integer(ip), intent(in) :: outer
+      type(box_state_t), intent(in) :: state
       type(multiplier_t), intent(inout) :: multipliers
       type(loop_t), intent(inout) :: loop
 
       loop%standing = merge(0_ip, loop%standing + 1_ip, multipliers%changed)
+      loop%lagging = merge(loop%lagging + 1_ip, 0_ip, loop%standing > 1 .and. .not. loop%slow .and. &
+                           loop%distance%forces > max(LAGS*loop%change, LITTLE_LEFT))
+      loop%change = loop%distance%forces
+      if (loop%lagging >= MOST_LAGGING) then
+         loop%lagging = 0
+         if (loop%distance%pull > NO_LOAD .and. multipliers%kappa > LEAST_KAPPA) then
+            multipliers%kappa = max(0.1_wp*multipliers%kappa, LEAST_KAPPA)
+         else
+            call take_less_rho(state, multipliers, loop%can_wait)
+         end if
+      end if
       if (loop%slow .or. outer < MANY_STEPS .or. .not. multipliers%changed) return
       loop%slow = .true.
       multipliers%r = SLOW_R
    end subroutine choose_steps
+
+   !> Less rho at the pairs whose forces stay far above the round-off of their rows with it.
+   pure subroutine take_less_rho(state, multipliers, any_less)
+      type(box_state_t), intent(in) :: state
+      type(multiplier_t), intent(inout) :: multipliers
+      logical, intent(out) :: any_less
+      real(wp) :: force(multipliers%n_pairs), noise(multipliers%n_pairs)
+      logical :: bears(size(state%q))
+      integer(ip) :: i
+
+      force = 0.0_wp
+      noise = 0.0_wp
+      do i = 1, size(state%q, kind=ip)
+         associate (k => multipliers%pair(i))
+            force(k) = max(force(k), abs(state%q(i)))
+            noise(k) = max(noise(k), multipliers%noise(i))
+         end associate
+      end do
+      bears = noise(multipliers%pair) <= LESS_PART*MOST_NOISE*force(multipliers%pair) .and. multipliers%r*multipliers%part > LEAST_R
+      where (bears) multipliers%part = LESS_PART*multipliers%part
+      any_less = any(bears)
+   end subroutine take_less_rho
 
    !> The friction bound of the next step: Picard's as long as states change, then Anderson's mixing within a range of it.
    subroutine next_bound(image, loop, anderson, tau)
@@ -211,7 +283,8 @@ contains
       real(wp), intent(inout) :: tau(:)
       real(wp) :: mixed(size(tau))
 
-      if (loop%standing >= merge(SLOW_STANDS, 1_ip, loop%slow) .and. all(tau < HUGE_REAL)) then
+      if (loop%standing >= merge(SLOW_STANDS, 1_ip, loop%slow) .and. all(tau < HUGE_REAL) .and. &
+          .not. (loop%can_wait .and. loop%lagging > 0)) then
          call anderson%update(tau, image, mixed)
          tau = min(max(mixed, image/MOST_MIXING), MOST_MIXING*image)
          return
@@ -261,8 +334,9 @@ contains
                             to_text(distance%bound, 3)//', forces '//to_text(distance%forces, 3)//')'
          return
       end if
+      call clear_unloaded(system, shape, multipliers, solution%state)
       call clear_round_off(shape, forces_that_are_none(system, multipliers, solution%state%q), multipliers, solution%state)
-      if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, shape%n_normal, multipliers, solution%state, &
+      if (system%k > 0) call settle_undetermined_motions(system, solution%bounds, multipliers, solution%state, &
                                                          solution%inner%undetermined, before%a)
       solution%p = pressure_of(line, solution%state%q)
       solution%tau = bound_of_state(line, solution)
@@ -275,9 +349,28 @@ contains
          where (state%state(n + 1:) /= FREE) state%r(n + 1:) = multipliers%e(n + 1:) - solution%bounds%d(n + 1:)*state%q(n + 1:)
       end associate
       solution%t = shear_force_of(line, solution%state%q, solution%tau)
-      ! nothing acts any more: what is left of the deformation of the increment before is round-off
-      if (all(system%load == 0.0_wp) .and. all(solution%state%q == 0.0_wp)) multipliers%x(:system%n - system%k) = 0.0_wp
    end subroutine finish
+
+   !> Where nothing acts any more, what is left of the forces and the deformation of the increment before is round-off of them.
+   subroutine clear_unloaded(system, shape, multipliers, state)
+      class(contact_system_t), intent(in) :: system
+      type(bound_qp_t), intent(in) :: shape
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      real(wp) :: none
+
+      none = 0.0_wp
+      if (allocated(multipliers%before)) none = NO_FORCE_AFTER*maxval([multipliers%before, 0.0_wp])
+      if (any(system%load /= 0.0_wp) .or. any(abs(state%q) > none)) return
+      multipliers%x(:system%n - system%k) = 0.0_wp
+      call multiply_rows(system%rows, multipliers%x, multipliers%e)
+      multipliers%e = multipliers%e + system%g0
+      state%q = 0.0_wp
+      state%r = multipliers%e
+      associate (n => shape%n_normal)
+         where (state%state(:n) == FREE .and. multipliers%pair(:n) <= multipliers%n_contact_pairs) state%state(:n) = AT_LOWER
+      end associate
+   end subroutine clear_unloaded
 
    !> Before the first solution is taken: where its forces are not unique, the loop goes on with the least ones.
    subroutine look_for_shared(system, rows, shape, multipliers, loop, solution)

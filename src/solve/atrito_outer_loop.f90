@@ -227,7 +227,7 @@ contains
 
       call keep_start(tau, solution, first)
       call iterate(task, anderson, tau, solution, status)
-      if (solution%converged) return
+      if (solution%converged .or. task%controls%is_first) return
       if (.not. (is_ok(status) .or. is_free_motion(status))) return
       found = solution
       do attempt = 1, size(ATTEMPTS)

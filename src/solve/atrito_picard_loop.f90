@@ -28,6 +28,7 @@ module atrito_picard_loop
    integer(ip), parameter :: STALE = 10                   !< iterations in which the residual is not halved
    real(wp), parameter :: STALE_RESIDUAL = 1.0e-8_wp      !< that is accepted then
    integer(ip), parameter :: LEAST_SOLVES = 200           !< before it is given up
+   integer(ip), parameter :: STALLED = 4                  !< iterations in which the residual is not halved, to be given up then
 
    !> What the loop remembers of its bounds.
    type :: loop_t
@@ -65,12 +66,14 @@ contains
             if (.not. is_ok(status)) return
             cycle
          end if
-         if (.not. solution%inner%solved .or. is_too_much(task, solution%history)) exit
+         if (.not. solution%inner%solved) exit
          solution%residual = relative_residual(task%line, tau, image)
          call end_outer(solution%history, solution%residual)
          call tell(task%reporter, outer, solution)
          call judge_step(task%line, task%controls%tolerance, outer, tau, image, loop, solution)
          if (solution%converged) return
+         ! a loop that converges is not given up, whatever it takes
+         if (is_too_much(task, solution%history) .and. outer - loop%best_outer >= STALLED) exit
          loop%good = tau
          loop%good_image = image
          call accelerator%update(loop%good, image, tau)

@@ -33,7 +33,7 @@ warm_start_t       solve/atrito_warm_start.f90 take_start,take_multipliers start
 contact_solution_t solve/atrito_warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations
 box_state_t        solve/atrito_warm_start.f90 put_start state
 box_bounds_t       solve/atrito_warm_start.f90 put_start bounds
-multiplier_t       solve/atrito_warm_start.f90 put_multipliers multipliers factorisations,solves,generation
+multiplier_t       solve/atrito_warm_start.f90 put_multipliers multipliers factorisations,solves,generation,part,before
 slip_memory_t      solve/atrito_slip_memory.f90 put_memory memory is_incremental
 slip_memory_t      solve/atrito_slip_memory.f90 take_memory memory is_incremental
 run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last,observer
@@ -54,7 +54,7 @@ nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values source
 element_load_t     model/atrito_fingerprint.f90 add_element_loads loads line,source
 amplitude_t        model/atrito_fingerprint.f90 add_amplitude amplitude name
 increments_t       model/atrito_fingerprint.f90 add_way way
-controls_t         model/atrito_fingerprint.f90 add_way controls is_brief
+controls_t         model/atrito_fingerprint.f90 add_way controls is_brief,is_first
 requests_t         model/atrito_fingerprint.f90 add_requests requests
 frequencies_t      model/atrito_fingerprint.f90 add_requests every
 requested_t        model/atrito_fingerprint.f90 add_requested requested
