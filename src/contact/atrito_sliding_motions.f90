@@ -139,11 +139,11 @@ contains
       end do
    end subroutine add_piece
 
-   !> Half a unit of the last printed digit of coordinates [L], by those that are large: small ones may have more decimals. Two digits
+   !> Half a unit of the last printed digit of coordinates [L], by those that are large: small ones may have more decimals. Three digits
    !> are a round number that is meant as it is.
    pure real(wp) function printed_grain(x) result(grain)
       real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
-      integer, parameter :: MOST_DIGITS = 13, ROUND = 2
+      integer, parameter :: MOST_DIGITS = 13, ROUND = 3
       real(wp), parameter :: LARGE = 0.1_wp, SPARE = 1.0e-3_wp
       real(wp) :: most, unit
       integer :: digit
@@ -344,6 +344,7 @@ contains
          if (norm2(normal(:, j) - points%normal(:, j)) > merge(MOST_TURN, LITTLE_TURN, motion%is_of_both)) return
       end do
       do j = 1, points%n
+         points%gap(j) = points%gap(j)/dot_product(normal(:, j), points%normal(:, j)) ! of faces across the old normal
          points%normal(:, j) = normal(:, j)
          call clear_small_component(points%x(:, j), points%length(j), points%normal(:, j))
          if (.not. motion%is_round) cycle

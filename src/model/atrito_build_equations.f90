@@ -2,7 +2,7 @@
 module atrito_build_equations
    use atrito_bilateral_rows, only: add_row, ROW_EQUATION
    use atrito_build_context, only: build_context_t
-   use atrito_build_rigid_bodies, only: is_reference, ROTATION_DOF
+   use atrito_build_rigid_bodies, only: ROTATION_DOF
    use atrito_deck, only: card_t, data_line_t, token_t, line_item, is_empty_token, keyword_name
    use atrito_diagnostics, only: report_error, report_note
    use atrito_items, only: get_integer, get_real
@@ -19,7 +19,7 @@ module atrito_build_equations
    private
    public :: build_equations
 
-   integer(ip), parameter :: ITEMS_A_TERM = 3, PLANE_DOFS = 2, LAST_DOF = 6
+   integer(ip), parameter :: ITEMS_A_TERM = 3, PLANE_DOFS = 2, LAST_DOF = 6, NO_DOF = 0
    character(len=*), parameter :: KEYWORD = 'EQUATION'
    character(len=*), parameter :: TERM = 'terms of node, dof, coefficient, up to as many as announced'
 
@@ -163,6 +163,7 @@ contains
             if (all(good) .and. is_out_of_plane(context, terms(i))) then
                call report_note(context%deck, line_item(context%deck, line, item + 2), 'N-DOF', 'the dofs 3 to 6 do not exist '// &
                                 'in the plane; this term is 0', keyword=KEYWORD)
+               terms(i)%dof = NO_DOF
                cycle
             end if
             if (good(2)) call check_row_dof(context, line_item(context%deck, line, item + 2), terms(i)%nodes, terms(i)%dof, &
@@ -173,13 +174,15 @@ contains
       end do
    end subroutine read_term_line
 
-   !> A displacement or rotation of three dimensions, which is 0; a reference node has a dof 6.
+   !> A displacement or rotation of three dimensions, which is 0. Where there are reference nodes, whose dof 6 is a rotation, it is one that
+   !> the node does not have.
    pure logical function is_out_of_plane(context, term)
       type(build_context_t), intent(in) :: context
       type(term_t), intent(in) :: term
 
       is_out_of_plane = term%dof > PLANE_DOFS .and. term%dof <= LAST_DOF
-      if (is_out_of_plane .and. term%dof == LAST_DOF) is_out_of_plane = .not. any(is_reference(context, term%nodes))
+      if (term%dof /= LAST_DOF .or. .not. allocated(context%model%rigid_bodies)) return
+      is_out_of_plane = size(context%model%rigid_bodies) == 0
    end function is_out_of_plane
 
    !> The terms whose dofs there are.
@@ -188,10 +191,10 @@ contains
       type(term_t), allocatable :: list(:)
       integer(ip) :: i, n
 
-      allocate (list(count(terms%dof <= PLANE_DOFS)))
+      allocate (list(count(terms%dof /= NO_DOF)))
       n = 0
       do i = 1, size(terms, kind=ip)
-         if (terms(i)%dof > PLANE_DOFS) cycle
+         if (terms(i)%dof == NO_DOF) cycle
          n = n + 1
          list(n) = terms(i)
       end do

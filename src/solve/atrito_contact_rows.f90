@@ -50,7 +50,7 @@ contains
             rows%normal(:, m) = points(i)%normal(:, j)
             rows%tangent(:, m) = [-points(i)%normal(2, j), points(i)%normal(1, j)]
             rows%gap(m) = points(i)%gap(j)
-            rows%reach(m) = points(i)%length(j)
+            if (allocated(points(i)%length)) rows%reach(m) = points(i)%length(j)
             if (allocated(points(i)%is_held)) rows%is_held(:, m) = points(i)%is_held(:, j)
             if (allocated(points(i)%doubt)) rows%doubt(m) = points(i)%doubt(j)
             rows%first(m + 1) = rows%first(m) + (points(i)%first(j + 1) - points(i)%first(j))

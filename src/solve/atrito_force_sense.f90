@@ -62,7 +62,6 @@ contains
             end if
          end if
          call sides_differ(data%points(i), data%fem%mesh%x, results%contact(i), off, moment)
-         write (*, '(a,i0,4es12.3)') 'SENSE ', i, force, sense%asked, force/sense%asked, off
          if (off <= max(UNBALANCED, sense%off)) cycle
          sense%unbalanced = i
          sense%off = off

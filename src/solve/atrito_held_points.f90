@@ -2,8 +2,9 @@
 !>
 !> The normal of a curved side is known there to the resolution of the faces or to the digits of the nodes, and may be slightly off the
 !> direction d of the support. What d leaves of the row is then n - d (n . d), an error e, and a row e . u is held by forces as large as the
-!> support's over e. So a normal that is off by no more than it is in doubt becomes d, or the direction across d; and a row along which
-!> all of its nodes are held has no force of its own: the support takes it.
+!> support's over e. So where the normal is off d by no more than it is in doubt, it becomes d, and the point has no force of its own: the
+!> support takes it. Where it is as near to the direction across d it becomes that, and the tangential row has no force; gap and weight are those
+!> that leave the displacement and the force along the new normal what they were.
 module atrito_held_points
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT
@@ -24,7 +25,7 @@ contains
       type(contact_points_t), intent(inout) :: points(:)
       real(wp), allocatable :: support(:, :)         ! (2, n_nodes) along what a node is held; 0: not at all
       logical :: is_fixed(fem%mesh%n_nodes)          ! held along any direction
-      real(wp) :: d(2)
+      real(wp) :: d(2), across(2), part
       integer(ip) :: i, j
 
       call list_supports(bilateral, fem, support, is_fixed)
@@ -37,10 +38,15 @@ contains
             end associate
             if (.not. norm2(d) > 0.0_wp) cycle
             associate (n => points(i)%normal(:, j), doubt => max(points(i)%doubt(j), SAME))
-               points(i)%is_held(1, j) = abs(n(1)*d(2) - n(2)*d(1)) <= doubt
                points(i)%is_held(2, j) = abs(dot_product(n, d)) <= doubt
-               if (points(i)%is_held(1, j)) n = sign(1.0_wp, dot_product(n, d))*d
-               if (points(i)%is_held(2, j)) n = sign(1.0_wp, n(2)*d(1) - n(1)*d(2))*[-d(2), d(1)]
+               points(i)%is_held(1, j) = abs(n(1)*d(2) - n(2)*d(1)) <= doubt
+               if (.not. any(points(i)%is_held(:, j))) cycle
+               across = [-d(2), d(1)]
+               if (points(i)%is_held(1, j)) across = d
+               part = abs(dot_product(n, across))
+               points(i)%gap(j) = points(i)%gap(j)/part ! of faces across the old normal, along the new one
+               points(i)%weight(j) = points(i)%weight(j)*part ! the same force along it
+               n = sign(1.0_wp, dot_product(n, across))*across
             end associate
          end do
       end do

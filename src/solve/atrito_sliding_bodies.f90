@@ -23,27 +23,29 @@ module atrito_sliding_bodies
 contains
 
    !> Of each pair that slides along itself in a motion that the supports leave to one of its bodies: turns its rows along that, and notes
-   !> the motion of the bodies of decks with some digits, whose loads are balanced along it.
+   !> the motion of the bodies of decks with some digits, whose loads are balanced along it. Sides that are exact as they stand, as along an
+   !> axis, leave nothing in doubt.
    subroutine let_slide(points, fem)
       type(contact_points_t), intent(inout) :: points(:)
       type(fem_t), intent(inout) :: fem
       real(wp) :: motion(4)
       integer(ip) :: i, k, b(2)
-      logical :: is_free
+      logical :: is_free, is_exact
 
       do i = 1, size(points, kind=ip)
          if (.not. points(i)%sliding%exists) cycle
          b = fem%bodies%of_node(points(i)%entry([1_ip, points(i)%first(2) - 1])) ! of the first point: slave first, master last
          is_free = .false.
+         is_exact = is_along(points(i)%sliding, fem%mesh, points(i))
          do k = 1, merge(1_ip, 2_ip, b(1) == b(2))
             if (b(k) == 0) cycle
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
             if (.not. is_left_free(fem%bodies%list(b(k)), motion)) cycle
             is_free = .true.
-            if (points(i)%sliding%grain > EXACT*points(i)%sliding%extent) call add_motion(motion, fem%bodies%list(b(k)))
+            if (is_exact .or. points(i)%sliding%grain <= EXACT*points(i)%sliding%extent) cycle
+            call add_motion(motion, fem%bodies%list(b(k)))
          end do
-         if (.not. is_free) cycle
-         if (.not. is_along(points(i)%sliding, fem%mesh, points(i))) call turn_points(points(i)%sliding, fem%mesh, points(i))
+         if (is_free .and. .not. is_exact) call turn_points(points(i)%sliding, fem%mesh, points(i))
       end do
    end subroutine let_slide
 

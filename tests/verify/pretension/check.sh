@@ -26,7 +26,9 @@ for case in dense sparse; do
    near "$case: pressure, pulled" "$(pressure "joint-$case" 2)" "$(value '(0.03 - 0.02*150/275)/1.5')" 1e-13
    near "$case: force of the bolt, open" "$(of "joint-$case" 3 r1)" 0.08 1e-13
    near "$case: pressure, open" "$(pressure "joint-$case" 3)" 0 0
-   near "$case: loosened" "$(of "joint-$case" 4 u1)" 0 1e-17
+   # what is loosened is free to move: it is told, and the least motion from where it was leaves the middle of the head where it was
+   says "$case: loosened" "joint-$case.err" 'W-IDLE'
+   near "$case: loosened" "$(of "joint-$case" 4 u1)" -8e-5 1e-17
    near "$case: no force" "$(of "joint-$case" 4 r1)" 0 1e-15
 done
 same_tables 'both forms' joint-dense/rigid.tab joint-sparse/rigid.tab 1e-12
