@@ -25,7 +25,7 @@ module atrito_sliding_motions
    use atrito_mesh, only: mesh_t, face_nodes
    use atrito_pieces, only: place_at, normal_at
    use atrito_points, only: contact_points_t, sliding_t
-   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, clear_small_component
+   use atrito_slave_faces, only: nodal_rule_t, nodal_rule, turn_at, sine, clear_small_component
    implicit none (type, external)
    private
    public :: chords_t, list_chords, find_sliding, turn_points, is_along, note_doubt, serves, adopted, velocity, printed_grain
@@ -390,7 +390,7 @@ contains
    end function first_of_master
 
    !> By what normals may be off: by the digits of the nodes; and at an end of a chain, where a curve goes on that the faces do not
-   !> show, as at a line of symmetry, by half of the turn from one straight face to the next.
+   !> show, as at a line of symmetry, by half of the turn from one straight face to the next, or by what a parabola is off.
    pure subroutine note_doubt(mesh, slave, grain, points)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave        !< one chain, ordered (order_chain)
@@ -398,15 +398,19 @@ contains
       type(contact_points_t), intent(inout) :: points
       type(nodal_rule_t) :: rule
       integer(ip) :: i, k, j
+      real(wp) :: turn
       real(wp), parameter :: HALF = 0.6_wp          !< with some reserve
+      real(wp), parameter :: PARABOLA = 1/16.0_wp   !< of a circle's arc it is off by 1/32 of the cube of the angle at its ends
 
       points%doubt = DIGITS_TURN*grain/points%length(:points%n)
       do k = 1, 2
          i = merge(1_ip, slave%n, k == 1)
          rule = nodal_rule(mesh, slave%element(i), slave%face(i))
-         if (rule%n /= 2) cycle
-         j = findloc(points%node(:points%n), rule%node(k), dim=1, kind=ip)
-         if (j > 0) points%doubt(j) = max(points%doubt(j), HALF*asin(turn_at(mesh, slave, i, rule)))
+         j = findloc(points%node(:points%n), rule%node(merge(1_ip, rule%n, k == 1)), dim=1, kind=ip)
+         if (j == 0) cycle
+         turn = asin(turn_at(mesh, slave, i, rule))
+         if (rule%n == 3) turn = PARABOLA*asin(sine(rule%normal(:, 1), rule%normal(:, 3)))**3
+         points%doubt(j) = max(points%doubt(j), HALF*turn)
       end do
    end subroutine note_doubt
 

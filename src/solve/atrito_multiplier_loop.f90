@@ -88,6 +88,11 @@ contains
 
       before = solution
       call begin_solution(system, line, shape, multipliers, solution)
+      if (all_rests(system, shape, solution%bounds)) then
+         call let_rest(system, line, shape, solution, x)
+         if (allocated(before%multipliers)) allocate (solution%multipliers)
+         return
+      end if
       if (has_multipliers(before)) then
          call start_from(before, shape, line, multipliers, solution)
       else
@@ -136,6 +141,41 @@ contains
       is_used_up = outer >= OUTERS_A_MAXIT*max_iterations .or. factorisations > FACTORISATIONS_A_MAXIT*max_iterations
       if (is_used_up) is_used_up = outer - loop%best_outer > outer/4
    end function is_used_up
+
+   !> Nothing acts, nothing overlaps, and no bilateral row asks for a displacement: nothing moves.
+   pure logical function all_rests(system, shape, bounds)
+      class(contact_system_t), intent(in) :: system
+      type(bound_qp_t), intent(in) :: shape
+      type(box_bounds_t), intent(in) :: bounds
+
+      associate (n => shape%n_normal)
+         all_rests = all(system%load == 0.0_wp) .and. all(system%g0(:n) <= 0.0_wp) &
+                     .and. all(system%g0(:n) == 0.0_wp .or. bounds%lower(:n) > -HUGE_REAL)
+      end associate
+   end function all_rests
+
+   pure subroutine let_rest(system, line, shape, solution, x)
+      class(contact_system_t), intent(in) :: system
+      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: shape
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), allocatable, intent(out) :: x(:)
+      integer(ip) :: i
+
+      x = [(0.0_wp, i=1, system%n)]
+      solution%tau = [(0.0_wp, i=1, line%n)]
+      call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
+      associate (state => solution%state, n => shape%n_normal)
+         where (solution%bounds%lower(:n) > -HUGE_REAL) state%state(:n) = AT_LOWER
+         state%q = [(0.0_wp, i=1, shape%m)]
+         state%a = [(0.0_wp, i=1, shape%k)]
+         state%r = system%g0
+      end associate
+      solution%p = solution%tau
+      solution%t = solution%tau
+      solution%inner%solved = .true.
+      solution%converged = .true.
+   end subroutine let_rest
 
    pure logical function has_multipliers(solution)
       type(contact_solution_t), intent(in) :: solution

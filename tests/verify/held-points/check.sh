@@ -1,0 +1,24 @@
+# check.sh ATRITO CASE_FOLDER INPUT_FOLDER
+. "$(dirname "$0")/../lib.sh"
+# hold NAME: the force along the belt at the held end over the pull of 1e5; of supports along their own axes from resultants.tab
+hold() {
+   awk -v t="$2" '/^# columns:/ { for (i = 3; i <= NF; i++) at[$i] = i - 2 } /^#/ { next }
+      { for (i = 1; i <= NF; i++) if ($i == "HELD") { c = cos(t*atan2(1, 1)/45); s = sin(t*atan2(1, 1)/45); print -($at["fx"]*c + $at["fy"]*s)/1e5 } }' "$1/resultants.tab"
+}
+most() { column "$1/contact.tab" pressure | awk '$1 > m { m = $1 } END { printf "%.17g", m }'; }
+# tension over radius and width: 1e5/0.55/0.2, to what six chords of a quarter resolve
+p=$(value '1e5/0.55/0.2')
+for type in CPS4 CPS9; do
+   for turn in 0 30 57.3 90; do
+      for digits in 6 10 17; do
+         for form in dense sparse; do
+            name=$type-$turn-$digits-$form
+            awk -v n=6 -v turn=$turn -v digits=$digits -v type=$type -v free=1 -f "$here/belt.awk" </dev/null >"$name.inp"
+            run 0 "$name.inp" "$name" --digits 17 --quiet --contact $form
+            near "$name hold" "$(hold "$name" $turn)" 1 2e-3
+            near "$name pressure" "$(most "$name")" "$p" "$(value "0.4*$p")"
+         done
+      done
+   done
+done
+finish
