@@ -12,8 +12,8 @@
 !>
 !>     A = sum_f h_f^2 r_f r_f',    r_f = (n_f, n_f . perp(x_f - o)/L),     h_f the length of the chord
 !>
-!> has it as its vector, since a node that is off by g turns a chord by g/h_f. It is one that is meant when at each chord |n . v|/|v|
-!> is less than what the printed digits, or the resolution of a curve of radius R by chords, leave in doubt:
+!> has it as its vector, since a node that is off by g turns a chord by g/h_f. It is one that is meant when at each chord |n .
+!> v|/|v| is less than what the printed digits, or the resolution of a curve of radius R by chords, leave in doubt:
 !>
 !>     3 g/h_f   or   (h_f/R)^2/100
 module atrito_sliding_motions
@@ -139,8 +139,8 @@ contains
       end do
    end subroutine add_piece
 
-   !> Half a unit of the last printed digit of coordinates [L], by those that are large: small ones may have more decimals. Three digits
-   !> are a round number that is meant as it is.
+   !> Half a unit of the last printed digit of coordinates [L], by those that are large: small ones may have more decimals. Three
+   !> digits are a round number that is meant as it is.
    pure real(wp) function printed_grain(x) result(grain)
       real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
       integer, parameter :: MOST_DIGITS = 13, ROUND = 3
@@ -326,9 +326,9 @@ contains
       if (motion%is_round) v = perp(x - motion%centre)
    end function velocity
 
-   !> Turns the rows of a pair along a motion that both sides have. The normal of a point becomes the one across the motion where the
-   !> force acts on the slave; where the master's share acts, the motion may have a part along that, and some of the force passes
-   !> from the nodes on one side of that place to those on the other.
+   !> Turns the rows of a pair along a motion that both sides have. The normal of a point becomes the one across the motion where
+   !> the force acts on the slave; where the master's share acts, the motion may have a part along that, and some of the force
+   !> passes from the nodes on one side of that place to those on the other.
    pure subroutine turn_points(motion, mesh, points)
       type(sliding_t), intent(in) :: motion
       type(mesh_t), intent(in) :: mesh

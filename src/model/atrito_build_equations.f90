@@ -174,8 +174,8 @@ contains
       end do
    end subroutine read_term_line
 
-   !> A displacement or rotation of three dimensions, which is 0. Where there are reference nodes, whose dof 6 is a rotation, it is one that
-   !> the node does not have.
+   !> A displacement or rotation of three dimensions, which is 0. Where there are reference nodes, whose dof 6 is a rotation, it is
+   !> one that the node does not have.
    pure logical function is_out_of_plane(context, term)
       type(build_context_t), intent(in) :: context
       type(term_t), intent(in) :: term

@@ -48,8 +48,8 @@ contains
       if (.not. is_revolved(model%mesh)) call let_slide(chords, points)
    end subroutine pair_all
 
-   !> The motions in which the sides of pairs slide along themselves. Pairs that have the same one but for digits, as rings in rings, take
-   !> that of the one with the most chords.
+   !> The motions in which the sides of pairs slide along themselves. Pairs that have the same one but for digits, as rings in
+   !> rings, take that of the one with the most chords.
    subroutine let_slide(chords, points)
       type(chords_t), intent(in) :: chords(:)
       type(contact_points_t), intent(inout) :: points(:)

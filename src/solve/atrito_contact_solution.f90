@@ -35,7 +35,8 @@ module atrito_contact_solution
       logical, allocatable :: is_shared(:)            !< (unknowns) with rows: the force is not unique, the least is given
       real(wp), allocatable :: p(:), tau(:), t(:)     !< at the points [F/L^2]; tau is the bound that was used
       type(multiplier_t), allocatable :: multipliers  !< of the sparse form, where a next increment goes on from them
-      real(wp), allocatable :: body_motion(:), body_force(:) !< (bodies) largest displacement [L], force at a node [F]; when recovered
+      real(wp), allocatable :: body_motion(:), body_force(:) !< (bodies) largest displacement [L] and force at a node [F]
+      logical :: has_settled = .false.                !< an idle motion was made least: r is known to rounding of the way
       integer :: form = 0                             !< CONTACT_*, that it was found by
       logical :: converged = .false.
       character(len=:), allocatable :: verdict        !< why not

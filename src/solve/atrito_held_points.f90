@@ -1,10 +1,10 @@
 !> Points at nodes that supports hold along or across the normal, as where a line of symmetry goes through a contact.
 !>
-!> The normal of a curved side is known there to the resolution of the faces or to the digits of the nodes, and may be slightly off the
-!> direction d of the support. What d leaves of the row is then n - d (n . d), an error e, and a row e . u is held by forces as large as the
-!> support's over e. So where the normal is off d by no more than it is in doubt, it becomes d, and the point has no force of its own: the
-!> support takes it. Where it is as near to the direction across d it becomes that, and the tangential row has no force; gap and weight are those
-!> that leave the displacement and the force along the new normal what they were.
+!> The normal of a curved side is known there to the resolution of the faces or to the digits of the nodes, and may be slightly off
+!> the direction d of the support. What d leaves of the row is then n - d (n . d), an error e, and a row e . u is held by forces as
+!> large as the support's over e. So where the normal is off d by no more than it is in doubt, it becomes d, and the point has no
+!> force of its own: the support takes it. Where it is as near to the direction across d it becomes that, and the tangential row has
+!> no force; gap and weight are those that leave the displacement and the force along the new normal what they were.
 module atrito_held_points
    use atrito_assembly, only: fem_t
    use atrito_bilateral_rows, only: bilateral_rows_t, ROW_SUPPORT

@@ -1,16 +1,19 @@
-!> Rigid motions that nothing holds and no load drives: of all displacements that differ by them the least are given, in either form of
-!> the contact system and whatever solver the bodies have.
+!> Rigid motions that nothing holds and no load drives: of all displacements that differ by them the least are given, in either form
+!> of the contact system and whatever solver the bodies have.
 !>
-!> A motion v of the bodies is idle where no row that takes a force sees it: N v = 0 at closed points, T v = 0 at those that stick, b v = 0 in
-!> bilateral rows. Bodies are joined by such rows into groups, and the idle motions of a group are the null space of its rows.
-!> From the displacements u that were found, and u' of the increment before, the sum over all nodes of (u + V s - u')^2 is made
-!> least, V being the idle motions, under the conditions that no point that is open closes beyond its gap and none that slips goes back.
+!> A motion v of the bodies is idle where no row that takes a force sees it: N v = 0 at closed points, T v = 0 at those that stick,
+!> b v = 0 in bilateral rows. Bodies are joined by such rows into groups, and the idle motions of a group are the null space of its
+!> rows. From the displacements u that were found, and u' of the increment before, the sum over all nodes of (u + V s - u')^2 is
+!> made least, V being the idle motions, under the conditions that no point that is open closes beyond its gap and none that slips
+!> goes back.
 module atrito_idle_motions
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: mode_at, reduce_columns
-   use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER
+   use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
+   use atrito_contact_line, only: friction_bound, rest_of
+   use atrito_contact_rows, only: row_value
    use atrito_contact_solution, only: contact_solution_t
-   use atrito_dense, only: eigen_symmetric
+   use atrito_dense, only: eigen_symmetric, least_squares
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t, motion_rates
@@ -22,6 +25,7 @@ module atrito_idle_motions
 
    integer(ip), parameter :: MOST_MOTIONS = 300_ip  !< of a group: its null space takes their cube of operations
    real(wp), parameter :: NULL_MOTION = 1.0e-14_wp  !< square of what rows see of an idle motion, over that of the others
+   real(wp), parameter :: MOST_ENTRIES = 1.0e6_wp   !< of the rows that are closed again
    integer(ip), parameter :: MOST_SWEEPS = 1000_ip
    real(wp), parameter :: SEEN = 1.0e-20_wp         !< square of what a row sees of the motions, of the largest
    real(wp), parameter :: NO_WAY = 1.0e-12_wp       !< of the displacements: it is rounding that is not least
@@ -30,8 +34,8 @@ module atrito_idle_motions
 
 contains
 
-   !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there is none;
-   !> groups of many motions have what their form of the contact system found.
+   !> Takes the least of the idle motions. solution%inner%undetermined: one of them, the simplest, or not allocated where there is
+   !> none; groups of many motions have what their form of the contact system found.
    subroutine settle_idle_motions(data, u, before, solution)
       type(scene_data_t), intent(in) :: data
       real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
@@ -39,39 +43,43 @@ contains
       type(contact_solution_t), intent(inout) :: solution
       type(motion_rows_t) :: rows
       logical :: holds(size(solution%state%state))
+      real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
       integer(ip), allocatable :: group(:)
       real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
       integer(ip) :: i
 
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
       if (rows%k == 0) return
-      holds = [(is_holding(data, solution, i), i=1, rows%m)]
+      tau = friction_bound(data%line, max(solution%p, 0.0_wp))
+      holds = [(is_holding(data, solution, tau, i), i=1, rows%m)]
       call join_motions(rows, holds, group)
       if (largest_group(group) > MOST_MOTIONS) return
       call find_idle(rows, holds, group, idle)
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest(idle)
-      ! a closed point without force may open
+      ! a closed point without force may open, one without friction slip
       associate (state => solution%state, n => count(data%line%normal > 0, kind=ip))
          where (state%state(:n) == FREE .and. .not. holds(:n)) state%state(:n) = AT_LOWER
+         where (state%state(n + 1:) == FREE .and. .not. holds(n + 1:)) state%state(n + 1:) = FROZEN
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
       call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), solution)
+      if (solution%has_settled) call close_rows(data, rows, holds, u, solution)
    end subroutine settle_idle_motions
 
    !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
-   pure logical function is_holding(data, solution, i)
+   pure logical function is_holding(data, solution, tau, i)
       type(scene_data_t), intent(in) :: data
       type(contact_solution_t), intent(in) :: solution
+      real(wp), intent(in) :: tau(:)                !< friction bounds at the points [F/L^2]
       integer(ip), intent(in) :: i                  !< unknown force
 
       associate (state => solution%state, line => data%line)
          is_holding = state%state(i) == FREE
-         if (is_holding .and. line%normal(line%point(i)) == i .and. line%point(i) <= line%n - line%n_bilateral) then
-            is_holding = state%q(i) > 0.0_wp
-         end if
+         if (.not. is_holding .or. line%point(i) > line%n - line%n_bilateral) return
+         is_holding = merge(state%q(i), tau(line%point(i)), line%normal(line%point(i)) == i) > 0.0_wp
       end associate
    end function is_holding
 
@@ -179,7 +187,8 @@ contains
       where (abs(motion) < ROUND_OFF*maxval(abs(motion))) motion = 0.0_wp
    end function simplest
 
-   !> Of the displacements since the increment before, the sums over the nodes of each body with its motions: Z'(u + Z a - u') and Z'Z.
+   !> Of the displacements since the increment before, the sums over the nodes of each body with its motions: Z'(u + Z a - u') and
+   !> Z'Z.
    pure subroutine measure_motions(fem, u, before, a, off, metric)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: u(:, :)
@@ -242,7 +251,51 @@ contains
       solution%state%a = solution%state%a + way
       rate = motion_rates(rows, way, .false.)
       where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
+      solution%has_settled = .true.
    end subroutine take_least
+
+   !> After a long way the rows that take a force are off by its rounding: the rigid motions that put them right, the least there are.
+   subroutine close_rows(data, rows, holds, u, solution)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      logical, intent(in) :: holds(:)               !< (m)
+      real(wp), intent(in) :: u(:, :)               !< (2, n_nodes) without rigid motions [L]
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp), parameter :: DEPENDENT = 1.0e-8_wp
+      real(wp), allocatable :: g(:, :), off(:), moved(:)
+      real(wp) :: back(rows%k)
+      integer(ip), allocatable :: list(:)
+      integer(ip) :: i, rank, info
+
+      list = pack([(i, i=1, rows%m)], holds)
+      if (size(list) == 0 .or. real(size(list), wp)*rows%k > MOST_ENTRIES) return
+      allocate (g(size(list), rows%k), source=0.0_wp)
+      allocate (off(size(list)))
+      moved = motion_rates(rows, solution%state%a, .false.)
+      do i = 1, size(list, kind=ip)
+         associate (k => list(i))
+            g(i, rows%motion(rows%first(k):rows%first(k + 1) - 1)) = rows%value(rows%first(k):rows%first(k + 1) - 1)
+            off(i) = moved(k) - solution%bounds%d(k)*solution%state%q(k) + row_of(data, k, u)
+         end associate
+      end do
+      call least_squares(g, off, back, DEPENDENT, rank, info)
+      if (info == 0) solution%state%a = solution%state%a - back
+   end subroutine close_rows
+
+   !> What the displacements make of row i beyond its gap, rest slip or value [L].
+   pure real(wp) function row_of(data, i, u) result(value)
+      type(scene_data_t), intent(in) :: data
+      integer(ip), intent(in) :: i                  !< unknown force
+      real(wp), intent(in) :: u(:, :)
+
+      associate (j => data%line%point(i))
+         if (data%line%normal(j) == i) then
+            value = row_value(data%rows, j, data%rows%normal(:, j), u) - data%rows%gap(j)
+         else
+            value = row_value(data%rows, j, data%rows%tangent(:, j), u) - rest_of(data%line, j)
+         end if
+      end associate
+   end function row_of
 
    pure function times_metric(fem, metric, v) result(product)
       type(fem_t), intent(in) :: fem
@@ -258,8 +311,9 @@ contains
       end do
    end function times_metric
 
-   !> The point s nearest to the wanted one at which no row that is at a bound would have to leave it: r + A s <= 0 at the lower bound,
-   !> >= 0 at the upper one. By Hildreth's method: projections onto one condition after the other, each with a multiplier >= 0.
+   !> The point s nearest to the wanted one at which no row that is at a bound would have to leave it: r + A s <= 0 at the lower
+   !> bound, >= 0 at the upper one. By Hildreth's method: projections onto one condition after the other, each with a multiplier >=
+   !> 0.
    pure function within_conditions(rows, basis, wanted, solution) result(s)
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: basis(:, :), wanted(:)

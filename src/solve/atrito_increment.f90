@@ -476,7 +476,7 @@ contains
          associate (nodes => data%fem%bodies%list(b)%nodes)
             solution%body_motion(b) = maxval(abs(results%u(:, nodes)))
             solution%body_force(b) = max(maxval(abs(data%f(:, nodes))), maxval(abs(contact(:, nodes))), &
-                                        maxval(abs(results%reaction(:, nodes))))
+                                         maxval(abs(results%reaction(:, nodes))))
          end associate
       end do
    end subroutine measure_sizes

@@ -4,6 +4,7 @@ module atrito_recovery
    use atrito_bodies, only: body_t, mode_at
    use atrito_bound_qp, only: FREE
    use atrito_condensed_body, only: condensed_body_t, contact_response, expand_body
+   use atrito_contact_form, only: CONTACT_SPARSE
    use atrito_contact_line, only: contact_line_t, rest_of, slip_of_unknown
    use atrito_contact_rows, only: contact_rows_t, row_value, true_gap
    use atrito_contact_solution, only: contact_solution_t
@@ -175,7 +176,8 @@ contains
       end do
    end subroutine recover_contact
 
-   !> Gap and slip of a point: where a force acts from its law, elsewhere from the displacements.
+   !> Gap and slip of a point: of an active one from its law, of a free one from its row, or from the displacements where these tell
+   !> more, and without friction, where there is no unknown.
    pure subroutine place_of_point(line, rows, solution, u, j, gap, slip)
       type(contact_line_t), intent(in) :: line
       type(contact_rows_t), intent(in) :: rows
@@ -190,13 +192,15 @@ contains
          gap = -line%known_overlap(j)
       else if (solution%state%state(i) == FREE) then
          gap = -line%delta(j)*solution%p(j)
-      else
+      else if (takes_displacements(solution)) then
          gap = rows%gap(j) - row_value(rows, j, rows%normal(:, j), u)
+      else
+         gap = -solution%state%r(i)
       end if
       i = line%tangential(j)
       if (i == 0) then
          slip = row_value(rows, j, rows%tangent(:, j), u)
-      else if (solution%state%state(i) /= FREE .and. .not. abs(solution%state%q(i)) > 0.0_wp) then
+      else if (takes_displacements(solution) .and. solution%state%state(i) /= FREE) then
          slip = row_value(rows, j, rows%tangent(:, j), u)
       else if (abs(solution%state%q(i)) < tiny(slip)/epsilon(slip) .and. solution%bounds%d(i) > 0.0_wp) then
          ! the force has lost its digits at the end of the range of numbers
@@ -205,6 +209,13 @@ contains
          slip = rest_of(line, j) + slip_of_unknown(solution%bounds, solution%state, i)
       end if
    end subroutine place_of_point
+
+   !> Where idle motions were made least, r has the rounding of the way; in the sparse form it is as good as the last step.
+   pure logical function takes_displacements(solution)
+      type(contact_solution_t), intent(in) :: solution
+
+      takes_displacements = solution%has_settled .or. solution%form == CONTACT_SPARSE
+   end function takes_displacements
 
    pure integer(ip) function status_of(line, solution, j, pressure) result(status)
       type(contact_line_t), intent(in) :: line

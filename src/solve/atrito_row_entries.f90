@@ -172,9 +172,9 @@ contains
       if (line%normal(line%point(i)) == i) d = rows%normal(:, line%point(i))
    end function direction_of
 
-   !> What forces work on the rigid motions of all bodies, h = Z' f over the free dofs, and the size of what that is the sum of. A body
-   !> whose forces balance but for round-off rests: it has no load. The place where a force acts is known to rounding of the coordinates alone, so what
-   !> turns a body has a size though all forces act at its centre.
+   !> What forces work on the rigid motions of all bodies, h = Z' f over the free dofs, and the size of what that is the sum of. A
+   !> body whose forces balance but for round-off rests: it has no load. The place where a force acts is known to rounding of the
+   !> coordinates alone, so what turns a body has a size though all forces act at its centre.
    pure subroutine loads_on_motions(fem, f, work, work_size)
       type(fem_t), intent(in) :: fem
       real(wp), intent(in) :: f(:, :)                !< (2, n_nodes) [F]

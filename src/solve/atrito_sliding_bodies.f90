@@ -3,10 +3,10 @@
 !> Where the supports leave such a motion to a body, nothing but friction resists it, so the rows of its points are turned along it
 !> (atrito_sliding_motions); of bodies that are held they stay as they are, and a uniform pressure is carried over exactly.
 !>
-!> A load has work on such a motion as far as the digits of the deck go: forces through the centre of a pin miss it by a unit of the last
-!> digit g of the coordinates, so their moment is known to some g times the sum of their sizes, and along a straight side to g over its
-!> length of that sum. Work below that is none, and is taken out of the forces; nothing could resist it, or it would be told that
-!> a balanced load moves the body.
+!> A load has work on such a motion as far as the digits of the deck go: forces through the centre of a pin miss it by a unit of the
+!> last digit g of the coordinates, so their moment is known to some g times the sum of their sizes, and along a straight side to g
+!> over its length of that sum. Work below that is none, and is taken out of the forces; nothing could resist it, or it would be
+!> told that a balanced load moves the body.
 module atrito_sliding_bodies
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: body_t, mode_at
@@ -22,10 +22,11 @@ module atrito_sliding_bodies
 
 contains
 
-   !> Of each pair that slides along itself in a motion that the supports leave to one of its bodies: turns its rows along that, and notes
-   !> the motion of the bodies of decks with some digits, whose loads are balanced along it. Sides that are exact as they stand, as along an
-   !> axis, leave nothing in doubt.
-   subroutine let_slide(points, fem)
+   !> Of each pair that slides along itself in a motion that the supports leave to one of its bodies: turns its rows along that, and
+   !> notes the motion of the bodies of decks with some digits, whose loads are balanced along it. Sides that are exact as they
+   !> stand, as along an axis, leave nothing in doubt.
+   subroutine let_slide(rubs, points, fem)
+      logical, intent(in) :: rubs(:)                !< (pairs) with friction
       type(contact_points_t), intent(inout) :: points(:)
       type(fem_t), intent(inout) :: fem
       real(wp) :: motion(4)
@@ -33,7 +34,7 @@ contains
       logical :: is_free, is_exact
 
       do i = 1, size(points, kind=ip)
-         if (.not. points(i)%sliding%exists) cycle
+         if (.not. points(i)%sliding%exists .or. (rubs(i) .and. .not. points(i)%sliding%is_round)) cycle
          b = fem%bodies%of_node(points(i)%entry([1_ip, points(i)%first(2) - 1])) ! of the first point: slave first, master last
          is_free = .false.
          is_exact = is_along(points(i)%sliding, fem%mesh, points(i))

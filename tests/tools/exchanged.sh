@@ -30,14 +30,14 @@ restart_state_t    output/atrito_restart_file.f90 exchange_state,exchange_findin
 warm_start_t       output/atrito_restart_file.f90 exchange_start start
 warm_start_t       solve/atrito_warm_start.f90 put_start,put_multipliers start
 warm_start_t       solve/atrito_warm_start.f90 take_start,take_multipliers start
-contact_solution_t solve/atrito_warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations
+contact_solution_t solve/atrito_warm_start.f90 put_start solution factor,inner,converged,verdict,factorisations,body_motion,body_force,has_settled
 box_state_t        solve/atrito_warm_start.f90 put_start state
 box_bounds_t       solve/atrito_warm_start.f90 put_start bounds
 multiplier_t       solve/atrito_warm_start.f90 put_multipliers multipliers factorisations,solves,generation,part,before
 slip_memory_t      solve/atrito_slip_memory.f90 put_memory memory is_incremental
 slip_memory_t      solve/atrito_slip_memory.f90 take_memory memory is_incremental
-run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last,observer
-run_t              solve/atrito_history.f90 resume run reporter,observer
+run_t              solve/atrito_history.f90 record run options,reporter,scene,has_last,observer,sense,idle,n_idle
+run_t              solve/atrito_history.f90 resume run reporter,observer,idle,n_idle
 progress_t         solve/atrito_history.f90 record now cuts
 model_t            model/atrito_fingerprint.f90 * model deck_path,deck_name,heading,parameters,instances,levels,node_sets,element_sets,springs,ties,equations,inclined,sources,restart_every,asks_nlgeom,solver_mesh,provenance,as_run
 mesh_t             model/atrito_fingerprint.f90 digest_of_mesh mesh node_map,element_map
@@ -46,8 +46,8 @@ section_t          model/atrito_fingerprint.f90 digest_of_materials sections els
 surface_t          model/atrito_fingerprint.f90 digest_of_surfaces surface
 face_list_t        model/atrito_fingerprint.f90 digest_of_surfaces faces
 interaction_t      model/atrito_fingerprint.f90 digest_of_interactions law
-pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set,is_resolved
-contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,n_seeing,faces,coarseness,coarse_node
+pair_t             model/atrito_fingerprint.f90 digest_of_pairs pair adjust,adjust_set,is_resolved,is_exchanged
+contact_points_t   model/atrito_fingerprint.f90 add_points points node,s,length,n_faces,n_left_out,n_seeing,faces,coarseness,coarse_node,piece,doubt,is_held,sliding
 bilateral_rows_t   model/atrito_fingerprint.f90 digest_of_rows rows n_groups
 step_t             model/atrito_fingerprint.f90 * step title
 nodal_values_t     model/atrito_fingerprint.f90 add_nodal_values values source
