@@ -46,6 +46,7 @@ contains
       real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
       integer(ip), allocatable :: group(:)
       real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
+      real(wp) :: way(size(solution%state%a))
       integer(ip) :: i
 
       call build_motion_rows(data%fem, data%rows, data%line, data%f, rows)
@@ -65,8 +66,11 @@ contains
       end associate
       if (size(idle, 2) > MOST_MOTIONS) return
       call measure_motions(data%fem, u, before, solution%state%a, off, metric)
-      call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), solution)
-      if (solution%has_settled) call close_rows(data, rows, holds, u, solution)
+      call take_least(data%fem, rows, idle, off, metric, maxval(abs(u)), solution, way)
+      if (.not. solution%has_settled) return
+      ! only those that have moved: others are exact to their own rounding, which may be far less
+      holds = [(holds(i) .and. has_moved(rows, group, way, i), i=1, rows%m)]
+      call close_rows(data, rows, holds, u, solution)
    end subroutine settle_idle_motions
 
    !> Whether an unknown holds a motion: it takes a force, or would take one of either sign.
@@ -225,7 +229,7 @@ contains
    end subroutine measure_motions
 
    !> Least squares over the idle motions, V' M V s = -V' off, and the same within the conditions of the rows that do not hold.
-   subroutine take_least(fem, rows, idle, off, metric, largest, solution)
+   subroutine take_least(fem, rows, idle, off, metric, largest, solution, way)
       type(fem_t), intent(in) :: fem
       type(motion_rows_t), intent(in) :: rows
       real(wp), intent(in) :: idle(:, :)            !< (k, motions)
@@ -233,10 +237,12 @@ contains
       real(wp), intent(in) :: metric(:, :, :)
       real(wp), intent(in) :: largest               !< displacement [L]
       type(contact_solution_t), intent(inout) :: solution
-      real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2)), way(rows%k)
+      real(wp), intent(out) :: way(:)               !< (k) that the bodies went [L]; 0 where they did not
+      real(wp) :: basis(size(idle, 1), size(idle, 2)), gram(size(idle, 2), size(idle, 2)), values(size(idle, 2))
       real(wp) :: rate(rows%m)
       integer(ip) :: j, info
 
+      way = 0.0_wp
       gram = matmul(transpose(idle), times_metric(fem, metric, idle))
       call eigen_symmetric(gram, values, info)
       if (info /= 0) return
@@ -245,7 +251,11 @@ contains
          basis(:, j) = basis(:, j)/sqrt(max(values(j), tiny(1.0_wp)))
       end do
       way = matmul(basis, within_conditions(rows, basis, -matmul(off, basis), solution))
-      if (maxval(abs(way)) <= NO_WAY*max(maxval(abs(solution%state%a)), largest)) return
+      if (maxval(abs(way)) <= NO_WAY*max(maxval(abs(solution%state%a)), largest)) then
+         way = 0.0_wp
+         return
+      end if
+      where (abs(way) <= NO_WAY*maxval(abs(way))) way = 0.0_wp
       ! a body that comes back to where it was is there
       way = merge(way, -solution%state%a, abs(solution%state%a + way) > BACK*abs(way))
       solution%state%a = solution%state%a + way
@@ -253,6 +263,19 @@ contains
       where (solution%state%state /= FREE) solution%state%r = solution%state%r + rate
       solution%has_settled = .true.
    end subroutine take_least
+
+   !> Whether a row is one of a group of bodies of which some have gone a way.
+   pure logical function has_moved(rows, group, way, i)
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:), i
+      real(wp), intent(in) :: way(:)
+      integer(ip) :: e
+
+      has_moved = .false.
+      do e = rows%first(i), rows%first(i + 1) - 1
+         has_moved = has_moved .or. any(abs(way) > 0.0_wp .and. group == group(rows%motion(e)))
+      end do
+   end function has_moved
 
    !> After a long way the rows that take a force are off by its rounding: the rigid motions that put them right, the least there are.
    subroutine close_rows(data, rows, holds, u, solution)
