@@ -140,7 +140,10 @@ contains
       integer(ip) :: place(size(group)), g, i, j, n, info
 
       n = 0
-      of_group = [(merge(group(rows%motion(rows%first(i))), 0_ip, holds(i) .and. rows%first(i + 1) > rows%first(i)), i=1, rows%m)]
+      allocate (of_group(rows%m), source=0_ip)
+      do i = 1, rows%m
+         if (holds(i) .and. rows%first(i + 1) > rows%first(i)) of_group(i) = group(rows%motion(rows%first(i)))
+      end do
       call list_holders(rows%k, reshape(of_group, [1_ip, rows%m]), first, member)
       do g = 1, rows%k
          if (group(g) /= g) cycle
@@ -277,7 +280,7 @@ contains
       end do
    end function has_moved
 
-   !> After a long way the rows that take a force are off by its rounding: the rigid motions that put them right, the least there are.
+   !> After a long way the rows that take a force are off by its rounding: the least rigid motions that put them right.
    subroutine close_rows(data, rows, holds, u, solution)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows

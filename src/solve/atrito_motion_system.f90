@@ -5,7 +5,7 @@ module atrito_motion_system
    use atrito_contact_rows, only: contact_rows_t
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t
-   use atrito_row_entries, only: motions_of_row, first_motions, loads_on_motions
+   use atrito_row_entries, only: motions_of_row, first_motions, work_on_motion
    implicit none (type, external)
    private
    public :: build_motion_rows
@@ -27,9 +27,11 @@ contains
       motions%k = first_motion(fem%bodies%n + 1) - 1
       allocate (motions%body(motions%k), motions%work(motions%k), motions%work_size(motions%k))
       do b = 1, fem%bodies%n
-         motions%body(first_motion(b):first_motion(b + 1) - 1) = b
+         do i = first_motion(b), first_motion(b + 1) - 1
+            motions%body(i) = b
+            call work_on_motion(fem, fem%bodies%list(b), i - first_motion(b) + 1_ip, f, motions%work(i), motions%work_size(i))
+         end do
       end do
-      call loads_on_motions(fem, f, motions%work, motions%work_size)
       motions%m = size(line%point, kind=ip)
       n = 0
       do i = 1, motions%m

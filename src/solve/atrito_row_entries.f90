@@ -8,7 +8,7 @@ module atrito_row_entries
    use atrito_kinds, only: ip, wp
    implicit none (type, external)
    private
-   public :: build_constraint_rows, motions_of_row, first_motions, direction_of, loads_on_motions
+   public :: build_constraint_rows, motions_of_row, first_motions, direction_of, loads_on_motions, work_on_motion
 
    integer(ip), parameter :: MOST_MODES = 3_ip   !< of a body
    real(wp), parameter :: ROUND_OFF = 1.0e-13_wp !< motions are of size one: what is below rounding of that is no motion
@@ -200,6 +200,7 @@ contains
       end do
    end subroutine loads_on_motions
 
+   !> What forces work on a rigid motion, over the free dofs; and the size of what that is the sum of.
    pure subroutine work_on_motion(fem, body, mode, f, work, work_size)
       type(fem_t), intent(in) :: fem
       type(body_t), intent(in) :: body

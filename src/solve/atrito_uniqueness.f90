@@ -131,6 +131,8 @@ contains
       do i = 1, n
          map%factor(i, i) = map%factor(i, i) + compliance(set(i))
       end do
+      possible = all([(map%factor(i, i) > 0.0_wp, i=1, n)])  ! rows among rigid bodies alone give way nowhere
+      if (.not. possible) return
       map%scale = [(1.0_wp/sqrt(map%factor(i, i)), i=1, n)]
       do i = 1, n
          map%factor(:, i) = map%factor(:, i)*map%scale*map%scale(i)
