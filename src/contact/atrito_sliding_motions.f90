@@ -42,10 +42,11 @@ module atrito_sliding_motions
 
    real(wp), parameter :: DIGITS_TURN = 3.0_wp      !< by what a chord may be turned, in grains over its length
    real(wp), parameter :: CURVE_TURN = 0.01_wp      !< the same of chords of a curve, in squares of the angle they span
+   integer, parameter :: MOST_DIGITS = 13           !< that are looked for
    integer(ip), parameter :: LEAST_CHORDS = 3_ip    !< of a round side: two bisectors always meet
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
-   real(wp), parameter :: MOST_TURN = 0.6_wp        !< of a row [rad]: more than coarse chords make of a curve
+   real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
    real(wp), parameter :: LITTLE_TURN = 0.05_wp     !< the same where one side alone is straight
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
    real(wp), parameter :: CONCENTRIC = 0.02_wp      !< distance of the centres of a pin and its hole, in radii
@@ -139,26 +140,36 @@ contains
       end do
    end subroutine add_piece
 
-   !> Half a unit of the last printed digit of coordinates [L], by those that are large: small ones may have more decimals. Three
-   !> digits are a round number that is meant as it is.
+   !> Half a unit of the last printed digit of coordinates [L], by those of the first decade, which have as many decimals as the next
+   !> one or, printed with so many digits, one less; where they are round numbers by the next one. Three digits are meant as they are.
    pure real(wp) function printed_grain(x) result(grain)
       real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
-      integer, parameter :: MOST_DIGITS = 13, ROUND = 3
-      real(wp), parameter :: LARGE = 0.1_wp, SPARE = 1.0e-3_wp
-      real(wp) :: most, unit
-      integer :: digit
+      integer, parameter :: ROUND = 3
+      real(wp) :: most, decade
+      integer :: digits(2)
 
       most = 0.0_wp
       if (size(x) > 0) most = maxval(abs(x))
       grain = EPS_MACH*most
       if (.not. most > 0.0_wp) return
-      do digit = ROUND, MOST_DIGITS
-         unit = 10.0_wp**(floor(log10(most)) + 1 - digit)
-         if (any(abs(x) > LARGE*most .and. abs(x/unit - anint(x/unit)) > SPARE)) cycle
-         if (digit > ROUND) grain = max(grain, 0.5_wp*unit)
-         return
-      end do
+      decade = 10.0_wp**floor(log10(most))
+      digits = [digits_of(pack(x, abs(x) >= decade), 10*decade), &
+                digits_of(pack(x, abs(x) < decade .and. abs(x) >= 0.1_wp*decade), 10*decade)]
+      if (digits(1) < digits(2) - 1) digits(1) = digits(2)
+      if (digits(1) > ROUND .and. digits(1) <= MOST_DIGITS) grain = max(grain, 5*decade*10.0_wp**(-digits(1)))
    end function printed_grain
+
+   !> The digits of some numbers, counted from a decade on; one more than are looked for where there are more.
+   pure integer function digits_of(x, decade) result(digits)
+      real(wp), intent(in) :: x(:), decade
+      real(wp), parameter :: SPARE = 1.0e-3_wp
+      real(wp) :: unit
+
+      do digits = 1, MOST_DIGITS
+         unit = decade*10.0_wp**(-digits)
+         if (all(abs(x/unit - anint(x/unit)) <= SPARE)) return
+      end do
+   end function digits_of
 
    !> The sliding motion of a pair, where there is one: of both sides; of a pin in a hole with some clearance, whose centres differ,
    !> that of the pin; of a curve on a straight side, whose normal counts, the translation along that.

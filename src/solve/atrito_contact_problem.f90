@@ -374,12 +374,17 @@ contains
       end associate
    end subroutine add_motion_row
 
-   !> Motions are of size one: what is below rounding of that is no motion.
+   !> Motions are of size one: what is below rounding of that is no motion, nor is one that no point sees but for the rounding of
+   !> coordinates that supports allow it by (find_rigid_modes).
    pure subroutine clear_round_off(g)
       real(wp), intent(inout) :: g(:, :)
-      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp
+      real(wp), parameter :: ROUND_OFF = 1.0e-13_wp, UNSEEN = 1.0e-10_wp
+      integer(ip) :: j
 
       where (abs(g) < ROUND_OFF) g = 0.0_wp
+      do j = 1, size(g, 2, kind=ip)
+         if (all(abs(g(:, j)) < UNSEEN)) g(:, j) = 0.0_wp
+      end do
    end subroutine clear_round_off
 
    !> The body that moves most in a motion of amplitudes a, and its motion as translations and rotation.

@@ -51,7 +51,28 @@ contains
       n = constraints%first(constraints%n + 1) - 1
       constraints%column = constraints%column(:n)
       constraints%value = constraints%value(:n)
+      if (with_motions) call drop_unseen_motions(before(fem%bodies%n + 1), constraints)
    end subroutine build_constraint_rows
+
+   !> A motion that no row sees but for the rounding of coordinates that supports allow it by (find_rigid_modes) is seen by none.
+   pure subroutine drop_unseen_motions(n_displacements, constraints)
+      integer(ip), intent(in) :: n_displacements
+      type(constraint_rows_t), intent(inout) :: constraints
+      real(wp), parameter :: UNSEEN = 1.0e-10_wp
+      real(wp) :: seen(n_displacements + 1:constraints%n_columns)
+      integer(ip) :: e
+
+      seen = 0.0_wp
+      do e = 1, size(constraints%column, kind=ip)
+         associate (column => constraints%column(e))
+            if (column > n_displacements) seen(column) = max(seen(column), abs(constraints%value(e)))
+         end associate
+      end do
+      do e = 1, size(constraints%column, kind=ip)
+         if (constraints%column(e) <= n_displacements) cycle
+         if (seen(constraints%column(e)) < UNSEEN) constraints%value(e) = 0.0_wp
+      end do
+   end subroutine drop_unseen_motions
 
    pure integer(ip) function count_bodies(bodies) result(n)
       integer(ip), intent(in) :: bodies(:)       !< of the entries of a row

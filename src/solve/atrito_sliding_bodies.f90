@@ -43,12 +43,18 @@ contains
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
             if (.not. is_left_free(fem%bodies%list(b(k)), motion)) cycle
             is_free = .true.
-            if (is_exact .or. points(i)%sliding%grain <= EXACT*points(i)%sliding%extent) cycle
+            if (is_along_axis(points(i)%sliding) .or. points(i)%sliding%grain <= EXACT*points(i)%sliding%extent) cycle
             call add_motion(motion, fem%bodies%list(b(k)))
          end do
          if (is_free .and. .not. is_exact) call turn_points(points(i)%sliding, fem%mesh, points(i))
       end do
    end subroutine let_slide
+
+   pure logical function is_along_axis(sliding)
+      type(sliding_t), intent(in) :: sliding
+
+      is_along_axis = .not. sliding%is_round .and. any(abs(sliding%direction) <= 0.0_wp)
+   end function is_along_axis
 
    !> The motion as one of the modes of a body, and what work along it is none, over the sum of the forces.
    pure function motion_of_body(sliding, body) result(motion)
