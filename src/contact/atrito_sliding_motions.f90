@@ -140,8 +140,9 @@ contains
       end do
    end subroutine add_piece
 
-   !> Half a unit of the last printed digit of coordinates [L], by those of the first decade, which have as many decimals as the next
-   !> one or, printed with so many digits, one less; where they are round numbers by the next one. Three digits are meant as they are.
+   !> Half a unit of the last printed digit of coordinates [L], by those of the first decade, which have as many decimals as the
+   !> next one or, printed with so many digits, one less; where they are round numbers by the next one. Three digits are meant as
+   !> they are.
    pure real(wp) function printed_grain(x) result(grain)
       real(wp), intent(in) :: x(:, :)               !< (2, n) [L]
       integer, parameter :: ROUND = 3
