@@ -47,7 +47,7 @@ module atrito_sliding_motions
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
    real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
-   real(wp), parameter :: LITTLE_TURN = 0.05_wp     !< the same where one side alone is straight
+   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< the same where one side alone is straight, in grains over the length of a point
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
    real(wp), parameter :: CONCENTRIC = 0.02_wp      !< distance of the centres of a pin and its hole, in radii
 
@@ -345,7 +345,7 @@ contains
       type(sliding_t), intent(in) :: motion
       type(mesh_t), intent(in) :: mesh
       type(contact_points_t), intent(inout) :: points
-      real(wp) :: normal(2, points%n), v(2)
+      real(wp) :: normal(2, points%n), v(2), most
       integer(ip) :: j, k, m
 
       do j = 1, points%n
@@ -353,7 +353,9 @@ contains
          if (.not. norm2(v) > 0.0_wp) return
          normal(:, j) = [v(2), -v(1)]/norm2(v)
          normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
-         if (norm2(normal(:, j) - points%normal(:, j)) > merge(MOST_TURN, LITTLE_TURN, motion%is_of_both)) return
+         most = MOST_TURN
+         if (.not. motion%is_of_both) most = MIXED_TURN*motion%grain/points%length(j)
+         if (norm2(normal(:, j) - points%normal(:, j)) > most) return
       end do
       do j = 1, points%n
          points%gap(j) = points%gap(j)/dot_product(normal(:, j), points%normal(:, j)) ! of faces across the old normal
