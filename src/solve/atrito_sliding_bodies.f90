@@ -35,8 +35,7 @@ contains
 
       do i = 1, size(points, kind=ip)
          if (.not. points(i)%sliding%exists .or. (rubs(i) .and. .not. points(i)%sliding%is_round)) cycle
-         if (lies_open(rubs, points, fem, i)) cycle
-         b = bodies_of(points(i), fem)
+         b = fem%bodies%of_node(points(i)%entry([1_ip, points(i)%first(2) - 1])) ! of the first point: slave first, master last
          is_free = .false.
          is_exact = is_along(points(i)%sliding, fem%mesh, points(i))
          do k = 1, merge(1_ip, 2_ip, b(1) == b(2))
@@ -50,37 +49,6 @@ contains
          if (is_free .and. .not. is_exact) call turn_points(points(i)%sliding, fem%mesh, points(i))
       end do
    end subroutine let_slide
-
-   !> Of two straight sides alone nothing wedges a body that lies on one; between two that are parallel it may be.
-   pure logical function lies_open(rubs, points, fem, i)
-      logical, intent(in) :: rubs(:)
-      type(contact_points_t), intent(in) :: points(:)
-      type(fem_t), intent(in) :: fem
-      integer(ip), intent(in) :: i                  !< pair
-      real(wp), parameter :: PARALLEL = 1.0e-3_wp
-      integer(ip) :: k
-
-      lies_open = points(i)%sliding%is_of_both .and. .not. points(i)%sliding%is_round
-      do k = 1, size(points, kind=ip)
-         if (.not. lies_open) return
-         if (k == i .or. rubs(k) .or. .not. points(k)%sliding%exists .or. points(k)%sliding%is_round) cycle
-         associate (d => points(i)%sliding%direction, other => points(k)%sliding%direction)
-            if (abs(d(1)*other(2) - d(2)*other(1)) > PARALLEL) cycle
-         end associate
-         associate (own => bodies_of(points(i), fem), others => bodies_of(points(k), fem))
-            lies_open = .not. any(own == others(1) .or. own == others(2))
-         end associate
-      end do
-   end function lies_open
-
-   !> The bodies of the slave and of the master, by the first point; 0 where it is rigid.
-   pure function bodies_of(points, fem) result(b)
-      type(contact_points_t), intent(in) :: points
-      type(fem_t), intent(in) :: fem
-      integer(ip) :: b(2)
-
-      b = fem%bodies%of_node(points%entry([1_ip, points%first(2) - 1]))
-   end function bodies_of
 
    pure logical function is_along_axis(sliding)
       type(sliding_t), intent(in) :: sliding
