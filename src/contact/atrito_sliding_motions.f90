@@ -47,7 +47,7 @@ module atrito_sliding_motions
    real(wp), parameter :: FLAT = 1.0e-3_wp          !< sag of a face over its length, of one that is straight
    real(wp), parameter :: NO_PART = 5.0e-14_wp      !< of a motion, along a normal
    real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
-   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< the same where one side alone is straight, in grains over the length of a point
+   real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone is straight: in grains over the length of a point
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
    real(wp), parameter :: CONCENTRIC = 0.02_wp      !< distance of the centres of a pin and its hole, in radii
 
