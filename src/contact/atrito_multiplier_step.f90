@@ -19,8 +19,8 @@ module atrito_multiplier_step
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, set_forces, pull_of, &
-             take_least_forces, clear_round_off, rho_of
+   public :: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
+             take_least_forces, clear_round_off, rho_of, ROUND_OFFS
 
    type :: multiplier_t
       real(wp) :: r = 1.0e-2_wp                  !< rho over the flexibility of the row
@@ -50,6 +50,8 @@ module atrito_multiplier_step
    real(wp), parameter :: ROUND_OFFS = 20.0_wp       !< of the terms of a row
    real(wp), parameter :: NO_COMPLIANCE = 1.0e-12_wp !< of the flexibility: a law that does not tell the force of a row
    real(wp), parameter :: MOST_KAPPA = 1.0e-2_wp
+   integer(ip), parameter :: MOST_REFINEMENTS = 3_ip
+   real(wp), parameter :: BALANCED = 1.0e-11_wp      !< residual of a body over its largest force
    real(wp), parameter :: SAME_STIFFNESS = 0.1_wp    !< change of D + rho that the factor bears
 
 contains
@@ -232,6 +234,31 @@ contains
          multipliers%changed = .true.
       end do
    end subroutine take_multiplier_step
+
+   !> Of a long way that a body went, and of the forces that closed gaps far larger than its strains, round-off is left in its
+   !> forces: the factor that is there solves for it, as long as no state changes.
+   subroutine refine_step(system, bounds, of_body, multipliers, state)
+      class(contact_system_t), intent(inout) :: system
+      type(box_bounds_t), intent(in) :: bounds
+      real(wp), intent(in) :: of_body(:)         !< (bodies) largest force on each [F]
+      type(multiplier_t), intent(inout) :: multipliers
+      type(box_state_t), intent(inout) :: state
+      real(wp) :: residual(system%n), de(system%rows%n)
+      integer(ip) :: refinement
+      logical :: stays
+
+      do refinement = 1, MOST_REFINEMENTS
+         call residual_of(system, multipliers, state%q, residual)
+         associate (last => system%n - system%k)
+            if (all(abs(residual(:last)) <= BALANCED*of_body(system%body(:last)))) return
+         end associate
+         call system%solve(residual)
+         multipliers%solves = multipliers%solves + 1
+         call multiply_rows(system%rows, residual, de)
+         call try_full_step(system, bounds, residual, de, multipliers, state, stays)
+         if (.not. stays) return
+      end do
+   end subroutine refine_step
 
    !> Factors for the present states, unless the last factor is as good.
    subroutine provide_factor(system, bounds, state, multipliers, status)

@@ -49,17 +49,18 @@ module atrito_sliding_motions
    real(wp), parameter :: MOST_TURN = 1.2_wp        !< of a row [rad]: more than coarse chords make of a curve
    real(wp), parameter :: MIXED_TURN = 30.0_wp      !< where one side alone is straight: in grains over the length of a point
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over size of nodes that are not rounded to digits
-   real(wp), parameter :: CONCENTRIC = 0.02_wp      !< distance of the centres of a pin and its hole, in radii
+   real(wp), parameter :: CONCENTRIC = 0.3_wp      !< distance of the centres of a pin and its hole, in radii
 
 contains
 
    !> The chords of the faces that take part: those of the slave that are not left out, and those that its points see.
-   pure subroutine list_chords(mesh, slave, faces, master, points, chords)
+   pure subroutine list_chords(mesh, slave, faces, master, points, grain, chords)
       type(mesh_t), intent(in) :: mesh
       type(face_list_t), intent(in) :: slave
       type(face_list_t), intent(in) :: faces        !< of the master; n = 0: it is rigid
       type(master_t), intent(in) :: master
       type(contact_points_t), intent(in) :: points
+      real(wp), intent(in) :: grain                 !< to which all nodes of the mesh are known [L]
       type(chords_t), intent(out) :: chords
       logical :: is_seen(master%n)
       integer(ip) :: i, used
@@ -68,8 +69,10 @@ contains
       allocate (chords%place(2, i), chords%normal(2, i), chords%length(i), chords%of_slave(i))
       is_seen = .false.
       is_seen(pack(points%piece, points%piece > 0)) = .true.
-      chords%grain = printed_grain(reshape([mesh%x(:, points%entry), master%a(:, pack([(i, i=1, master%n)], is_seen))], &
-                                           [2, size(points%entry) + count(is_seen)]))
+      ! nodes about the origin may have few digits, since the others have not many more
+      chords%grain = max(grain, printed_grain(reshape([mesh%x(:, points%entry), &
+                                                       master%a(:, pack([(i, i=1, master%n)], is_seen))], &
+                                                      [2, size(points%entry) + count(is_seen)])))
       used = 1
       do i = 1, slave%n                             ! the list of those that are used has the same order
          if (used > size(points%faces)) exit
@@ -340,12 +343,14 @@ contains
 
    !> Turns the rows of a pair along a motion that both sides have. The normal of a point becomes the one across the motion where
    !> the force acts on the slave; where the master's share acts, the motion may have a part along that, and some of the force
-   !> passes from the nodes on one side of that place to those on the other.
+   !> passes from the nodes on one side of that place to those on the other. Where one side alone is straight, points at which the
+   !> other one has turned away stay as they are.
    pure subroutine turn_points(motion, mesh, points)
       type(sliding_t), intent(in) :: motion
       type(mesh_t), intent(in) :: mesh
       type(contact_points_t), intent(inout) :: points
       real(wp) :: normal(2, points%n), v(2), most
+      logical :: is_turned(points%n)
       integer(ip) :: j, k, m
 
       do j = 1, points%n
@@ -355,9 +360,11 @@ contains
          normal(:, j) = sign(1.0_wp, dot_product(normal(:, j), points%normal(:, j)))*normal(:, j)
          most = MOST_TURN
          if (.not. motion%is_of_both) most = MIXED_TURN*motion%grain/points%length(j)
-         if (norm2(normal(:, j) - points%normal(:, j)) > most) return
+         is_turned(j) = norm2(normal(:, j) - points%normal(:, j)) <= most
+         if (.not. is_turned(j) .and. motion%is_of_both) return
       end do
       do j = 1, points%n
+         if (.not. is_turned(j)) cycle
          points%gap(j) = points%gap(j)/dot_product(normal(:, j), points%normal(:, j)) ! of faces across the old normal
          points%normal(:, j) = normal(:, j)
          call clear_small_component(points%x(:, j), points%length(j), points%normal(:, j))
@@ -389,16 +396,17 @@ contains
       is_along = .true.
    end function is_along
 
-   !> The first of the master's entries of a point: those of the slave are positive, and add up to one.
+   !> The first of the master's entries of a point: those of the slave stand before and add up to one; beside a face of three nodes
+   !> some may be negative.
    pure integer(ip) function first_of_master(points, j) result(k)
       type(contact_points_t), intent(in) :: points
       integer(ip), intent(in) :: j
-      real(wp), parameter :: NEARLY = 1 - 1.0e-9_wp
+      real(wp), parameter :: NEARLY = 1.0e-9_wp
       real(wp) :: total
 
       total = 0.0_wp
       do k = points%first(j), points%first(j + 1) - 1
-         if (total > NEARLY) return
+         if (abs(total - 1) <= NEARLY) return
          total = total + points%coefficient(k)
       end do
    end function first_of_master

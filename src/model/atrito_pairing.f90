@@ -1,7 +1,7 @@
 !> Pairs of a model: their slaves in order, and their points.
 module atrito_pairing
    use atrito_faces, only: face_list_t, chain_report_t, order_chain
-   use atrito_kinds, only: ip, lp, wp
+   use atrito_kinds, only: ip, lp, wp, EPS_MACH
    use atrito_master, only: master_t, master_of_faces, master_of_segments, turn_master
    use atrito_model, only: model_t, SURFACE_SEGMENTS, QUADRATURE_NODAL, QUADRATURE_MORTAR
    use atrito_mortar_points, only: pair_by_mortar
@@ -10,7 +10,7 @@ module atrito_pairing
    use atrito_points, only: contact_points_t, sliding_t
    use atrito_mesh, only: is_revolved
    use atrito_section_elasticity, only: elasticity_of
-   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, serves, adopted
+   use atrito_sliding_motions, only: chords_t, list_chords, find_sliding, note_doubt, printed_grain, serves, adopted
    use atrito_sorting, only: sorted_places
    implicit none (type, external)
    private
@@ -88,11 +88,14 @@ contains
       type(master_t) :: turned
       logical :: is_master(size(model%surfaces)), turns
       real(wp), allocatable :: thickness(:)
+      real(wp) :: grain                                ! of coordinates of few digits [L]
       integer(ip) :: i
 
       allocate (points(size(slaves)), masters(size(model%surfaces)))
       if (present(chords)) allocate (chords(size(slaves)))
       if (size(points) == 0) return
+      grain = printed_grain(model%mesh%x)
+      if (grain <= EPS_MACH*maxval(abs(model%mesh%x))) grain = 0.0_wp
       thickness = element_thickness(model)
       is_master = .false.
       is_master(partners) = .true.
@@ -112,7 +115,7 @@ contains
                call make_points(model, thickness, quadrature(i), slave, surface%faces, master, points(i))
             end if
             if (present(chords)) then
-               call list_chords(model%mesh, slave, surface%faces, master, points(i), chords(i))
+               call list_chords(model%mesh, slave, surface%faces, master, points(i), grain, chords(i))
                call note_doubt(model%mesh, slave, chords(i)%grain, points(i))
             end if
          end associate

@@ -5,7 +5,8 @@ module atrito_contact_solution
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, clear_vanishing, &
                               force_round_off, FREE, AT_LOWER
    use atrito_constraint_rows, only: constraint_rows_t
-   use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, friction_bound, set_friction_bounds
+   use atrito_contact_line, only: contact_line_t, last_of_pair, pressure_of, shear_force_of, friction_bound, set_friction_bounds, &
+                                  normal_bounds
    use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
    use atrito_free_set_factor, only: free_set_factor_t, condition_of
    use atrito_multiplier_step, only: multiplier_t
@@ -14,8 +15,8 @@ module atrito_contact_solution
    use atrito_status, only: status_t, is_ok
    implicit none (type, external)
    private
-   public :: contact_solution_t, serves_as_start, FREE_MOTION, solve_with_bound, bound_of_state, judge_condition, has_settled, &
-             may_be_round_off, relative_residual
+   public :: contact_solution_t, serves_as_start, asks_no_force, let_rest, FREE_MOTION, solve_with_bound, bound_of_state, &
+             judge_condition, has_settled, may_be_round_off, relative_residual
 
    !> Text of the status when no friction bound holds a body; solution%inner%motion is the motion.
    character(len=*), parameter :: FREE_MOTION = 'free motion'
@@ -55,6 +56,44 @@ contains
       serves_as_start = .false.
       if (allocated(solution)) serves_as_start = solution%form == form
    end function serves_as_start
+
+   !> Whether no contact force is asked for: as the bodies are without any, nothing overlaps, and what bilateral rows prescribe is so.
+   pure logical function asks_no_force(line, problem, g0)
+      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
+      real(wp), intent(in) :: g0(:)                   !< (m) overlaps and slips without contact forces [L]
+      type(box_bounds_t) :: bounds
+      type(box_state_t) :: state
+
+      asks_no_force = all(g0(:problem%n_normal) <= 0.0_wp)
+      if (.not. asks_no_force) return
+      call normal_bounds(line, problem, bounds, state)
+      associate (n => problem%n_normal)
+         asks_no_force = all(g0(:n) >= 0.0_wp .or. bounds%lower(:n) > -HUGE_REAL) .and. &
+                         all(pressure_of(line, state%q) <= 0.0_wp)
+      end associate
+   end function asks_no_force
+
+   !> The solution without contact forces.
+   pure subroutine let_rest(line, problem, g0, solution)
+      type(contact_line_t), intent(in) :: line
+      type(bound_qp_t), intent(in) :: problem         !< of which the shape counts
+      real(wp), intent(in) :: g0(:)                   !< (m) [L]
+      type(contact_solution_t), intent(inout) :: solution
+      integer(ip) :: i
+
+      solution%tau = [(0.0_wp, i=1, line%n)]
+      call normal_bounds(line, problem, solution%bounds, solution%state)
+      call set_friction_bounds(line, problem, solution%tau, solution%bounds, solution%state)
+      associate (state => solution%state, n => problem%n_normal)
+         where (solution%bounds%lower(:n) > -HUGE_REAL) state%state(:n) = AT_LOWER
+         state%r = g0
+      end associate
+      solution%p = solution%tau
+      solution%t = solution%tau
+      solution%inner%solved = .true.
+      solution%converged = .true.
+   end subroutine let_rest
 
    !> Solves the inner problem for a frozen friction bound, from the present state. Image: nu S_rho of the pressure found.
    subroutine solve_with_bound(problem, line, tau, solution, image, status)

@@ -7,7 +7,7 @@ module atrito_dense_form
    use atrito_contact_form, only: CONTACT_DENSE
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_problem, only: build_flexibility, set_right_hand_sides
-   use atrito_contact_solution, only: contact_solution_t, serves_as_start
+   use atrito_contact_solution, only: contact_solution_t, serves_as_start, asks_no_force, let_rest
    use atrito_dense_refinement, only: refine_dense_solution
    use atrito_kinds, only: ip, wp
    use atrito_model, only: controls_t, METHOD_ANDERSON
@@ -156,6 +156,10 @@ contains
       type(contact_solution_t) :: nothing
       type(status_t) :: fine
 
+      if (all(problem%h == 0.0_wp) .and. asks_no_force(data%line, problem, problem%g0)) then
+         call let_rest(data%line, problem, problem%g0, solution)
+         return
+      end if
       if (serves_as_start(data%last, CONTACT_DENSE) .and. controls%method == METHOD_ANDERSON) then
          solution = data%last
          if (has_position(data, problem%h)) solution%state%a = 0.0_wp

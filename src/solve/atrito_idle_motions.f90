@@ -10,7 +10,7 @@ module atrito_idle_motions
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: mode_at, reduce_columns
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_contact_line, only: friction_bound, rest_of
+   use atrito_contact_line, only: friction_bound, pressure_of, rest_of
    use atrito_contact_rows, only: row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense, only: eigen_symmetric, least_squares
@@ -31,6 +31,9 @@ module atrito_idle_motions
    real(wp), parameter :: NO_WAY = 1.0e-12_wp       !< of the displacements: it is rounding that is not least
    real(wp), parameter :: BACK = 1.0e-13_wp         !< what rounding leaves of a way and the way back
    real(wp), parameter :: SETTLED = 1.0e-14_wp
+   real(wp), parameter :: NO_FORCE = 1.0e-13_wp     !< of the largest force on bodies that touch: round-off
+   real(wp), parameter :: DOUBTS = 5.0_wp           !< of a normal, which a force may be off by, over the largest one
+   real(wp), parameter :: MOST_DOUBT = 1.0e-9_wp    !< that balances leave
 
 contains
 
@@ -42,7 +45,7 @@ contains
       real(wp), pointer, intent(in) :: before(:, :) !< (2, n_nodes) of the increment before [L]; null: there is none
       type(contact_solution_t), intent(inout) :: solution
       type(motion_rows_t) :: rows
-      logical :: holds(size(solution%state%state))
+      logical :: holds(size(solution%state%state))  ! rows that hold motions
       real(wp) :: tau(data%line%n)                  ! friction bounds at the points [F/L^2]
       integer(ip), allocatable :: group(:)
       real(wp), allocatable :: idle(:, :), off(:), metric(:, :, :)
@@ -56,6 +59,7 @@ contains
       call join_motions(rows, holds, group)
       if (largest_group(group) > MOST_MOTIONS) return
       call find_idle(rows, holds, group, idle)
+      call doubt_small_forces(data, rows, group, idle, holds, solution)
       if (allocated(solution%inner%undetermined)) deallocate (solution%inner%undetermined)
       if (size(idle, 2) == 0) return
       solution%inner%undetermined = simplest(idle)
@@ -86,6 +90,45 @@ contains
          is_holding = merge(state%q(i), tau(line%point(i)), line%normal(line%point(i)) == i) > 0.0_wp
       end associate
    end function is_holding
+
+   !> A force that is less than what the digits of the deck make of the largest one in its group, and without which a motion were
+   !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the last
+   !> digit.
+   subroutine doubt_small_forces(data, rows, group, idle, holds, solution)
+      type(scene_data_t), intent(in) :: data
+      type(motion_rows_t), intent(in) :: rows
+      integer(ip), intent(in) :: group(:)           !< (k)
+      real(wp), allocatable, intent(inout) :: idle(:, :) !< (k, motions)
+      logical, intent(inout) :: holds(:)            !< (m)
+      type(contact_solution_t), intent(inout) :: solution
+      real(wp) :: largest(rows%k), doubt
+      logical :: is_sure(size(holds))
+      real(wp), allocatable :: more(:, :)
+      integer(ip) :: i
+
+      largest = 0.0_wp
+      do i = 1, rows%m
+         if (rows%first(i + 1) == rows%first(i)) cycle
+         associate (g => group(rows%motion(rows%first(i))))
+            largest(g) = max(largest(g), abs(solution%state%q(i)))
+         end associate
+      end do
+      is_sure = holds
+      do i = 1, rows%m
+         associate (j => data%line%point(i))
+            if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. j > data%line%n - data%line%n_bilateral) cycle
+            doubt = max(NO_FORCE, min(DOUBTS*data%rows%doubt(j), MOST_DOUBT))
+            is_sure(i) = abs(solution%state%q(i)) > doubt*largest(group(rows%motion(rows%first(i))))
+         end associate
+      end do
+      if (all(is_sure .eqv. holds)) return
+      call find_idle(rows, is_sure, group, more)
+      if (size(more, 2) <= size(idle, 2)) return
+      call move_alloc(more, idle)
+      where (holds .and. .not. is_sure) solution%state%q = 0.0_wp
+      holds = is_sure
+      solution%p = pressure_of(data%line, solution%state%q)
+   end subroutine doubt_small_forces
 
    !> Groups of motions that rows join: the number of each, that of its first motion.
    pure subroutine join_motions(rows, holds, group)

@@ -6,13 +6,13 @@ module atrito_multiplier_loop
    use atrito_constraint_rows, only: constraint_rows_t, multiply_rows
    use atrito_contact_line, only: contact_line_t, pressure_of, shear_force_of, normal_bounds, set_friction_bounds, &
                                   tangential_of
-   use atrito_contact_solution, only: contact_solution_t, FREE_MOTION, bound_of_state
+   use atrito_contact_solution, only: contact_solution_t, asks_no_force, let_rest, FREE_MOTION, bound_of_state
    use atrito_contact_system, only: contact_system_t
    use atrito_undetermined_motions, only: settle_undetermined_motions
    use atrito_kinds, only: ip, wp, HUGE_REAL
-   use atrito_multiplier_distance, only: distance_t, measure_distance, forces_that_are_none, NO_FORCE_AFTER
-   use atrito_multiplier_step, only: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, accept_step, &
-                                     take_least_forces, clear_round_off, rho_of
+   use atrito_multiplier_distance, only: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
+   use atrito_multiplier_step, only: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, refine_step, &
+                                     accept_step, take_least_forces, clear_round_off, rho_of
    use atrito_model, only: controls_t
    use atrito_reporter, only: reporter_t, report_progress
    use atrito_solve_history, only: begin_outer, end_outer
@@ -25,7 +25,9 @@ module atrito_multiplier_loop
    !> What the loop remembers.
    type :: loop_t
       real(wp) :: best = HUGE_REAL, drive = 0.0_wp
-      integer(ip) :: best_outer = 0, moving = 0
+      integer(ip) :: best_outer = 0
+      integer(ip) :: steady = 0                  !< steps in which the pull on the bodies stayed what it was
+      integer(ip) :: moving = 0                  !< of them, those in which it was more than round-off of the largest force
       real(wp), allocatable :: drift(:)          !< (m) change of the forces in the last step, when no state changed [F]
       logical :: asked = .false.                 !< whether forces are unique
       logical :: shares = .false.                !< some are not, and the least are taken
@@ -83,13 +85,14 @@ contains
       type(multiplier_t) :: multipliers
       type(loop_t) :: loop
       type(anderson_t) :: anderson
-      real(wp) :: tau(line%n), image(line%n)
+      real(wp) :: tau(line%n), image(line%n), of_body(system%n_bodies)
       integer(ip) :: outer
 
       before = solution
       call begin_solution(system, line, shape, multipliers, solution)
-      if (all_rests(system, shape, solution%bounds)) then
-         call let_rest(system, line, shape, solution, x)
+      if (all(system%load == 0.0_wp) .and. asks_no_force(line, shape, system%g0)) then
+         call let_rest(line, shape, system%g0, solution)
+         x = spread(0.0_wp, 1, system%n)
          if (allocated(before%multipliers)) allocate (solution%multipliers)
          return
       end if
@@ -127,6 +130,10 @@ contains
          call choose_steps(outer, solution%state, multipliers, loop)
          call next_bound(image, loop, anderson, tau)
       end do
+      if (solution%converged) then
+         call measure_bodies(system, solution%state%q, of_body)
+         call refine_step(system, solution%bounds, of_body, multipliers, solution%state)
+      end if
       call finish(system, line, shape, loop%distance, before%state, multipliers, solution)
       if (solution%converged) x = multipliers%x
       if (allocated(before%multipliers)) solution%multipliers = multipliers
@@ -141,41 +148,6 @@ contains
       is_used_up = outer >= OUTERS_A_MAXIT*max_iterations .or. factorisations > FACTORISATIONS_A_MAXIT*max_iterations
       if (is_used_up) is_used_up = outer - loop%best_outer > outer/4
    end function is_used_up
-
-   !> Nothing acts, nothing overlaps, and no bilateral row asks for a displacement: nothing moves.
-   pure logical function all_rests(system, shape, bounds)
-      class(contact_system_t), intent(in) :: system
-      type(bound_qp_t), intent(in) :: shape
-      type(box_bounds_t), intent(in) :: bounds
-
-      associate (n => shape%n_normal)
-         all_rests = all(system%load == 0.0_wp) .and. all(system%g0(:n) <= 0.0_wp) &
-                     .and. all(system%g0(:n) == 0.0_wp .or. bounds%lower(:n) > -HUGE_REAL)
-      end associate
-   end function all_rests
-
-   pure subroutine let_rest(system, line, shape, solution, x)
-      class(contact_system_t), intent(in) :: system
-      type(contact_line_t), intent(in) :: line
-      type(bound_qp_t), intent(in) :: shape
-      type(contact_solution_t), intent(inout) :: solution
-      real(wp), allocatable, intent(out) :: x(:)
-      integer(ip) :: i
-
-      x = [(0.0_wp, i=1, system%n)]
-      solution%tau = [(0.0_wp, i=1, line%n)]
-      call set_friction_bounds(line, shape, solution%tau, solution%bounds, solution%state)
-      associate (state => solution%state, n => shape%n_normal)
-         where (solution%bounds%lower(:n) > -HUGE_REAL) state%state(:n) = AT_LOWER
-         state%q = [(0.0_wp, i=1, shape%m)]
-         state%a = [(0.0_wp, i=1, shape%k)]
-         state%r = system%g0
-      end associate
-      solution%p = solution%tau
-      solution%t = solution%tau
-      solution%inner%solved = .true.
-      solution%converged = .true.
-   end subroutine let_rest
 
    pure logical function has_multipliers(solution)
       type(contact_solution_t), intent(in) :: solution
@@ -391,7 +363,8 @@ contains
       solution%t = shear_force_of(line, solution%state%q, solution%tau)
    end subroutine finish
 
-   !> Where nothing acts any more, what is left of the forces and the deformation of the increment before is round-off of them.
+   !> Where nothing acts, or nothing any more, what is left of forces and deformation is round-off of the way that the bodies went
+   !> clear of each other, or of the increment before.
    subroutine clear_unloaded(system, shape, multipliers, state)
       class(contact_system_t), intent(in) :: system
       type(bound_qp_t), intent(in) :: shape
@@ -401,7 +374,7 @@ contains
 
       none = 0.0_wp
       if (allocated(multipliers%before)) none = NO_FORCE_AFTER*maxval([multipliers%before, 0.0_wp])
-      if (any(system%load /= 0.0_wp) .or. any(abs(state%q) > none)) return
+      if (any(system%load /= 0.0_wp) .or. any(abs(state%q) > max(none, multipliers%noise))) return
       multipliers%x(:system%n - system%k) = 0.0_wp
       call multiply_rows(system%rows, multipliers%x, multipliers%e)
       multipliers%e = multipliers%e + system%g0
@@ -478,10 +451,14 @@ contains
          loop%best_outer = outer
       end if
       if (multipliers%settled .and. outer - loop%best_outer >= STALE .and. whole <= STALE_DISTANCE) solution%converged = .true.
-      loop%moving = merge(loop%moving + 1_ip, 0_ip, loop%distance%drive > MOVES .and. loop%distance%drive > STEADY_PULL*loop%drive)
+      loop%steady = merge(loop%steady + 1_ip, 0_ip, loop%distance%drive > NO_LOAD .and. &
+                          loop%distance%drive > STEADY_PULL*loop%drive)
+      ! a weak pull may still change what is in contact
+      loop%moving = merge(loop%moving + 1_ip, 0_ip, loop%steady > 0 .and. loop%distance%drive > &
+                          merge(SMALL_PULL, MOVES, multipliers%changed))
       loop%drive = loop%distance%drive
-      if (loop%moving > 1) then
-         multipliers%kappa = max(0.1_wp*multipliers%kappa, LEAST_KAPPA)
+      if (loop%steady > 1) then
+         multipliers%kappa = max(0.01_wp*multipliers%kappa, LEAST_KAPPA)
       else if (loop%distance%drive < SMALL_PULL .and. multipliers%kappa > USUAL_KAPPA) then
          multipliers%kappa = 0.01_wp*multipliers%kappa
       end if

@@ -20,6 +20,8 @@ module atrito_sliding_bodies
    real(wp), parameter :: GRAINS = 5.0_wp           !< by which the place of a force may be off
    real(wp), parameter :: EXACT = 1.0e-13_wp        !< grain over extent of a deck that is not rounded to digits
 
+   real(wp), parameter :: ALL_BUT = 1.0e-3_wp       !< distance from a centre, of the size of a body
+
 contains
 
    !> Of each pair that slides along itself in a motion that the supports leave to one of its bodies: turns its rows along that, and
@@ -40,6 +42,7 @@ contains
          is_exact = is_along(points(i)%sliding, fem%mesh, points(i))
          do k = 1, merge(1_ip, 2_ip, b(1) == b(2))
             if (b(k) == 0) cycle
+            call turn_about(points(i)%sliding, fem%bodies%list(b(k)))
             motion = motion_of_body(points(i)%sliding, fem%bodies%list(b(k)))
             if (.not. is_left_free(fem%bodies%list(b(k)), motion)) cycle
             is_free = .true.
@@ -49,6 +52,16 @@ contains
          if (is_free .and. .not. is_exact) call turn_points(points(i)%sliding, fem%mesh, points(i))
       end do
    end subroutine let_slide
+
+   !> A free body whose middle is all but the centre of the motion is turned about that one: its rotation then moves no row at all,
+   !> where the distance between both would leave it the little of a translation, which no equation can be solved for.
+   pure subroutine turn_about(sliding, body)
+      type(sliding_t), intent(in) :: sliding
+      type(body_t), intent(inout) :: body
+
+      if (.not. sliding%is_round .or. size(body%modes, 2) < 3) return
+      if (maxval(abs(sliding%centre - body%centre)) <= ALL_BUT*body%size) body%centre = sliding%centre
+   end subroutine turn_about
 
    pure logical function is_along_axis(sliding)
       type(sliding_t), intent(in) :: sliding

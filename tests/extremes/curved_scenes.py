@@ -793,7 +793,8 @@ LAYOUTS = {'pin': pin, 'rings': rings, 'flat': roller_on_flat, 'v-groove': rolle
            'lining': lining, 'half cylinder': half_cylinder, 'plates': disc_between_plates, 'slider': slider}
 
 
-def make(number, seed):
+def make(number, seed, digits=None):
+    """The scene; its coordinates of its own number of digits, or of `digits`."""
     rng = np.random.default_rng([seed, number])
     kind = list(LAYOUTS)[int(rng.integers(len(LAYOUTS)))]
     m = Maker(rng, kind)
@@ -806,6 +807,7 @@ def make(number, seed):
     scene.size = max(np.ptp(np.vstack([body.mesh.x for body in scene.bodies]), axis=0))
     length, force = (1.0, 1.0) if m.chance(0.6) else (10.0**rng.integers(-3, 4), 10.0**rng.integers(-3, 4))
     scene.move(Motion(turn, length, far*rng.uniform(-1, 1, 2), force))
+    scene.digits = digits or scene.digits
     scene.round()
     kinds = '/'.join(str(len(body.mesh.cells[0])) for body in scene.bodies)
     scene.notes += [f'nu {m.nu}', f'elements {kinds}', f'{scene.digits} digits', f'{turn} degrees',

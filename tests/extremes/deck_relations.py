@@ -52,6 +52,13 @@ class Deck:
         at = [i for i, card in enumerate(self.cards) if card[0] == 'STEP'] + [len(self.cards)]
         return self.cards[:at[0]], [self.cards[a:b] for a, b in zip(at, at[1:])]
 
+    def largest_load(self):
+        """The order of the forces of the loads at nodes."""
+        loads = [abs(float(row[2])) for _, _, data in self.each('CLOAD') for row in data]
+        places = [[float(word) for word in row[1:3]] for _, _, data in self.each('NODE') for row in data]
+        size = max(max(x) - min(x) for x in zip(*places))
+        return max(loads + [abs(float(row[2]))*size for _, _, data in self.each('DSLOAD') for row in data], default=0.0)
+
     def has_friction(self):
         return any(float(data[0][0]) != 0 for _, _, data in self.each('FRICTION'))
 

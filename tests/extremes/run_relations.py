@@ -3,11 +3,11 @@
 run_relations.py ATRITO RANDOM_SCENES FIRST LAST SEED [-j N] [--folder DIR] [--only N,N,..] [--which RELATION,..] [options of atrito]
 
 Scene K is one of random_scenes, a history of one (histories.py) or a curved one (curved_scenes.py), in turn. Its deck is run, and then
-turned, mirrored, in other units, with other numbers; with every solver, in both forms, with two threads; with an empty step behind it,
-its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and all numbers of nodes.tab, reactions.tab and
-contact.tab to 1e-9 of the largest of their column (of a pair in contact.tab), after they were turned back: where friction acts to 1e-7,
-which is what the outer loop is stopped at, and only where both forms agree so far (else there may be several
-answers). Far from the origin the last digit of a coordinate is more than that of the motions: it is allowed, too. Prints a table by
+turned, mirrored, in other units (of a curved scene with all digits), with other numbers; with every solver, in both forms, with
+two threads; with an empty step behind it, its step in two, and begun again by --restart. Exit codes and W-IDLE must be the same, and
+all numbers of nodes.tab, reactions.tab and contact.tab to 1e-9 of the largest of their column (of a pair in contact.tab), after they
+were turned back: where friction acts to 1e-7, which is what the outer loop is stopped at, and only where both forms agree so far
+(else there may be several answers). Far from the origin the last digit of a coordinate is more than that of the motions: it is allowed, too. Prints a table by
 relation with the largest difference, and what failed; exit code 0 when nothing did.
 """
 
@@ -32,8 +32,10 @@ from scene_reader import read_deck, read_table
 
 EXACT, WITH_FRICTION = 1e-9, 1e-7
 DIGITS, EPS = 64, 2.0**-52
+LITTLE = 1e-4  # of the largest displacement, of the loads: slips, reactions that are much less are measured by it
 OTHER_DECKS = {'quarter turn': relations.quarter_turn, 'turn': relations.turn, 'mirror': relations.mirror, 'units': relations.units,
                'renumbered': relations.renumber, 'empty step': relations.empty_step}
+NEW_DIGITS = ('turn', 'units')  # what few digits say of a curve is lost where all its digits are others
 OTHER_OPTIONS = {'skyline': ['--solver', 'skyline'], 'banded': ['--solver', 'banded'], 'sparse': ['--solver', 'sparse'],
                  'dense form': ['--contact', 'dense'], 'sparse form': ['--contact', 'sparse'], 'threads': ['--threads', '2']}
 RELATIONS = [*OTHER_DECKS, *OTHER_OPTIONS, 'step in two', 'restart']
@@ -48,6 +50,7 @@ class Result:
             file.write(text)
         self.path = path
         self.code, said, _ = run(settings.atrito, path, self.folder, [*settings.options, *options])
+        self.load = Deck(text).largest_load()
         self.is_idle = 'W-IDLE' in said
         self.tables = {}
         if self.code == 0:
@@ -70,6 +73,9 @@ def largest_difference(first, other, back):
     """Over all columns, in parts of the largest value of each; and where."""
     worst = (0.0, '')
     spared = last_digits(first.tables.get('nodes'))
+    u = max((np.abs(first.tables['nodes'][c]).max(initial=0.0) for c in ('u1', 'u2')), default=0.0) if 'nodes' in first.tables else 0.0
+    far = max((np.abs(first.tables['nodes'][c]).max(initial=0.0) for c in 'xy'), default=0.0) if 'nodes' in first.tables else 0.0
+    floor = {'reactions': LITTLE*first.load, 'contact': max(LITTLE*u, DIGITS*EPS*far/EXACT), 'nodes': 0.0}
     for name, table in first.tables.items():
         if name not in other.tables:
             return math.inf, f'{name}.tab is missing'
@@ -77,7 +83,7 @@ def largest_difference(first, other, back):
         if len(a['step']) != len(b['step']):
             return math.inf, f'{name}.tab has {len(b["step"])} rows for {len(a["step"])}'
         rule = compare_points if name == 'contact' else compare_nodes
-        for part, where in rule(a, b, back, ('r1', 'r2') if name == 'reactions' else ('u1', 'u2')):
+        for part, where in rule(a, b, back, ('r1', 'r2') if name == 'reactions' else ('u1', 'u2'), floor[name]):
             part = part if part == math.inf else max(part - spared, 0.0)
             worst = max(worst, (part, f'{name} {where}'), key=lambda one: (not one[0] <= math.inf, one[0]))
     return worst
@@ -91,7 +97,7 @@ def last_digits(nodes):
     return DIGITS*EPS*np.abs(np.stack([nodes['x'], nodes['y']])).max(initial=0.0)/u if u > 0 else 0.0
 
 
-def compare_nodes(a, b, back, columns):
+def compare_nodes(a, b, back, columns, floor):
     number = b['node'].astype(int)
     if back.node:
         number = np.array([back.node[int(node)] for node in number])
@@ -102,11 +108,11 @@ def compare_nodes(a, b, back, columns):
     there = back.vector(np.stack([b[c] for c in columns], axis=1))[order]/(back.length if columns[0] == 'u1' else back.force)
     here = np.stack([a[c] for c in columns], axis=1)[mine]
     scale = np.abs(here).max(initial=0.0)
-    scale = max(scale, np.abs(there).max(initial=0.0))
+    scale = max(scale, np.abs(there).max(initial=0.0), floor)
     yield (np.abs(here - there).max(initial=0.0)/scale if scale > 0 else 0.0), columns[0][0]
 
 
-def compare_points(a, b, back, _):
+def compare_points(a, b, back, _, floor):
     units = {'L': back.length, 'P': back.force/back.length**2, 'A': back.length**2}
     for pair in sorted(set(a['pair'])):
         mine, theirs = a['pair'] == pair, b['pair'] == pair
@@ -130,7 +136,7 @@ def compare_points(a, b, back, _):
             scale = max(np.abs(x).max(initial=0.0), np.abs(y).max(initial=0.0))
             if name in ('gap', 'slip'):
                 # both are differences of places and motions
-                scale = max(scale, *(np.abs(a[c][rows]).max(initial=0.0) for c in ('gap', 'slip')))
+                scale = max(scale, *(np.abs(a[c][rows]).max(initial=0.0) for c in ('gap', 'slip')), floor)
             if scale > 0:
                 yield np.abs(x - y).max()/scale, f'{name} of pair {int(pair)}'
 
@@ -140,9 +146,9 @@ class Outcome:
         self.number, self.kind, self.code, self.found, self.is_one = number, '', None, {}, True
 
 
-def deck_of(settings, number):
+def deck_of(settings, number, digits=None):
     if number % 3 == 2:
-        scene = curved_scenes.make(number, settings.seed)
+        scene = curved_scenes.make(number, settings.seed, digits)
         return 'curved ' + scene.kind, scene.deck()
     text = subprocess.run([settings.generator, str(number), str(settings.seed)], capture_output=True, text=True, check=True).stdout
     if number % 3 == 0:
@@ -176,11 +182,14 @@ def compare_all(settings, outcome, deck, base):
             forms[name] = compare(settings, outcome, first, Result(settings, deck.text(), base, 'other', options), Back(), name)
     if outcome.has_friction:
         outcome.is_one = all(forms[name] <= WITH_FRICTION for name in ('dense form', 'sparse form'))
+    exact = Deck(deck_of(settings, outcome.number, digits=17)[1])
+    all_digits = first if exact.text() == deck.text() else Result(settings, exact.text(), base, 'all-digits')
     for name, relation in OTHER_DECKS.items():
         if name in settings.relations:
-            found = relation(deck, random.Random(f'{settings.seed}-{outcome.number}-{name}'))
+            mine, its = (exact, all_digits) if name in NEW_DIGITS else (deck, first)
+            found = relation(mine, random.Random(f'{settings.seed}-{outcome.number}-{name}'))
             if found:
-                compare(settings, outcome, first, Result(settings, found[0].text(), base, 'other'), found[1], name)
+                compare(settings, outcome, its, Result(settings, found[0].text(), base, 'other'), found[1], name)
     if 'step in two' in settings.relations:
         found = relations.split_step(deck, None)
         if found:
