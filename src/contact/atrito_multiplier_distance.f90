@@ -7,8 +7,8 @@ module atrito_multiplier_distance
    use atrito_constraint_rows, only: add_transposed
    use atrito_contact_line, only: contact_line_t
    use atrito_contact_system, only: contact_system_t
-   use atrito_kinds, only: ip, wp, EPS_MACH, HUGE_REAL
-   use atrito_multiplier_step, only: multiplier_t, pull_of, ROUND_OFFS
+   use atrito_kinds, only: ip, wp, HUGE_REAL
+   use atrito_multiplier_step, only: multiplier_t, pull_of
    implicit none (type, external)
    private
    public :: distance_t, measure_distance, measure_bodies, forces_that_are_none, NO_FORCE_AFTER
@@ -41,6 +41,8 @@ contains
       call measure_pairs(system, multipliers, of_body, least)
       distance%forces = force_distance(multipliers, q, least)
       distance%bound = bound_distance(line, multipliers, tau, image, least)
+      ! bodies without load that went clear of each other have nothing that a pull could be compared with
+      if (all(system%load == 0.0_wp) .and. all(abs(q) <= multipliers%noise)) return
       distance%pull = pull_distance(system, multipliers, of_body)
       distance%drive = pull_distance(system, multipliers, spread(maxval(of_body), 1, size(of_body)))
    end function measure_distance
@@ -169,36 +171,16 @@ contains
    end function bound_distance
 
    !> The largest pull on a motion, over the forces on its body.
-   real(wp) function pull_distance(system, multipliers, of_body) result(distance)
+   pure real(wp) function pull_distance(system, multipliers, of_body) result(distance)
       class(contact_system_t), intent(in) :: system
       type(multiplier_t), intent(in) :: multipliers
       real(wp), intent(in) :: of_body(:)
 
       associate (first => system%n - system%k + 1)
-         distance = greatest_ratio(pull_of(multipliers)*abs(multipliers%x(first:) - multipliers%a_old) &
-                                   - noise_of_motions(system, multipliers), of_body(system%body(first:)))
+         distance = greatest_ratio(pull_of(multipliers)*abs(multipliers%x(first:) - multipliers%a_old), &
+                                   of_body(system%body(first:)))
       end associate
    end function pull_distance
-
-   !> What round-off of the amplitudes a may make of the force along each: a row i with the flexibility c_i takes G_ij a_j/c_i of
-   !> amplitude j, and the sum over rows of |G_ik G_ij|/c_i is at most the root of hold_k hold_j.
-   function noise_of_motions(system, multipliers) result(noise)
-      class(contact_system_t), intent(in) :: system
-      type(multiplier_t), intent(in) :: multipliers
-      real(wp) :: noise(system%k)                !< [F], or [F L] of a rotation
-      real(wp) :: of_body(system%n_bodies)
-      integer(ip) :: j
-
-      of_body = 0.0_wp
-      associate (first => system%n - system%k)
-         do j = 1, system%k
-            associate (b => system%body(first + j))
-               of_body(b) = of_body(b) + sqrt(multipliers%hold(j))*max(abs(multipliers%x(first + j)), abs(multipliers%a_old(j)))
-            end associate
-         end do
-         noise = ROUND_OFFS*EPS_MACH*sqrt(multipliers%hold)*of_body(system%body(first + 1:))
-      end associate
-   end function noise_of_motions
 
    pure real(wp) function greatest_ratio(part, whole) result(ratio)
       real(wp), intent(in) :: part(:), whole(:)

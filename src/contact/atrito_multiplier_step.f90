@@ -20,7 +20,7 @@ module atrito_multiplier_step
    implicit none (type, external)
    private
    public :: multiplier_t, begin_multipliers, start_closed, take_multiplier_step, refine_step, accept_step, set_forces, pull_of, &
-             take_least_forces, clear_round_off, rho_of, ROUND_OFFS
+             take_least_forces, clear_round_off, rho_of
 
    type :: multiplier_t
       real(wp) :: r = 1.0e-2_wp                  !< rho over the flexibility of the row

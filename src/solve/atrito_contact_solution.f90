@@ -57,7 +57,7 @@ contains
       if (allocated(solution)) serves_as_start = solution%form == form
    end function serves_as_start
 
-   !> Whether no contact force is asked for: as the bodies are without any, nothing overlaps, and what bilateral rows prescribe is so.
+   !> Whether no contact force is asked for: without any nothing overlaps, and what bilateral rows prescribe is so.
    pure logical function asks_no_force(line, problem, g0)
       type(contact_line_t), intent(in) :: line
       type(bound_qp_t), intent(in) :: problem         !< of which the shape counts

@@ -183,7 +183,12 @@ def compare_all(settings, outcome, deck, base):
     if outcome.has_friction:
         outcome.is_one = all(forms[name] <= WITH_FRICTION for name in ('dense form', 'sparse form'))
     exact = Deck(deck_of(settings, outcome.number, digits=17)[1])
-    all_digits = first if exact.text() == deck.text() else Result(settings, exact.text(), base, 'all-digits')
+    all_digits = first
+    if exact.text() != deck.text():
+        all_digits = Result(settings, exact.text(), base, 'all-digits')
+        if outcome.has_friction and outcome.is_one:
+            outcome.is_one = all(difference(all_digits, Result(settings, exact.text(), base, 'other', options), Back())[0] <= WITH_FRICTION
+                                 for name, options in OTHER_OPTIONS.items() if name.endswith('form'))
     for name, relation in OTHER_DECKS.items():
         if name in settings.relations:
             mine, its = (exact, all_digits) if name in NEW_DIGITS else (deck, first)
@@ -211,17 +216,18 @@ def begin_again(settings, outcome, deck, base):
     compare(settings, outcome, first, Result(settings, whole.text(), base, 'other', ['--restart', kept]), Back(), 'restart')
 
 
+def difference(first, other, back):
+    if first.code != other.code:
+        return math.inf, f'exit {other.code} for {first.code}'
+    return (0.0, '') if first.code != 0 else largest_difference(first, other, back)
+
+
 def compare(settings, outcome, first, other, back, name):
     if name not in RELATIONS:
         return 0.0
-    if first.code != other.code:
-        found = math.inf, f'exit {other.code} for {first.code}'
-    elif first.code != 0:
-        found = 0.0, ''
-    else:
-        found = largest_difference(first, other, back)
-        if first.is_idle != other.is_idle and name not in ('step in two',):
-            found = math.inf, 'W-IDLE in one only'
+    found = difference(first, other, back)
+    if found[0] < math.inf and first.is_idle != other.is_idle and name != 'step in two':
+        found = math.inf, 'W-IDLE in one only'
     outcome.found[name] = found
     if settings.keep and found[0] > EXACT:
         shutil.copy(other.path, os.path.join(settings.folder, f'{outcome.number}-{name.replace(" ", "-")}.inp'))
