@@ -10,10 +10,11 @@ module atrito_idle_motions
    use atrito_assembly, only: fem_t
    use atrito_bodies, only: mode_at, reduce_columns
    use atrito_bound_qp, only: FREE, AT_LOWER, AT_UPPER, FROZEN
-   use atrito_contact_line, only: friction_bound, pressure_of, rest_of
+   use atrito_contact_line, only: friction_bound, rest_of
    use atrito_contact_rows, only: row_value
    use atrito_contact_solution, only: contact_solution_t
    use atrito_dense, only: eigen_symmetric, least_squares
+   use atrito_friction_law, only: FRICTION_NONE
    use atrito_incidence, only: list_holders
    use atrito_kinds, only: ip, wp
    use atrito_motion_rows, only: motion_rows_t, motion_rates
@@ -93,7 +94,7 @@ contains
 
    !> A force that is less than what the digits of the deck make of the largest one in its group, and without which a motion were
    !> idle, is none: a roller that stands on one node does not turn until the next one touches because its load is off by the last
-   !> digit.
+   !> digit. With friction the bound at its neighbours may hang on it, and it stays.
    subroutine doubt_small_forces(data, rows, group, idle, holds, solution)
       type(scene_data_t), intent(in) :: data
       type(motion_rows_t), intent(in) :: rows
@@ -116,7 +117,8 @@ contains
       is_sure = holds
       do i = 1, rows%m
          associate (j => data%line%point(i))
-            if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. j > data%line%n - data%line%n_bilateral) cycle
+            if (.not. holds(i) .or. rows%first(i + 1) == rows%first(i) .or. data%line%law(j)%kind /= FRICTION_NONE) cycle
+            if (j > data%line%n - data%line%n_bilateral) cycle
             doubt = max(NO_FORCE, min(DOUBTS*data%rows%doubt(j), MOST_DOUBT))
             is_sure(i) = abs(solution%state%q(i)) > doubt*largest(group(rows%motion(rows%first(i))))
          end associate
@@ -125,9 +127,12 @@ contains
       call find_idle(rows, is_sure, group, more)
       if (size(more, 2) <= size(idle, 2)) return
       call move_alloc(more, idle)
-      where (holds .and. .not. is_sure) solution%state%q = 0.0_wp
+      do i = 1, rows%m
+         if (.not. holds(i) .or. is_sure(i)) cycle
+         solution%state%q(i) = 0.0_wp
+         solution%p(data%line%point(i)) = 0.0_wp
+      end do
       holds = is_sure
-      solution%p = pressure_of(data%line, solution%state%q)
    end subroutine doubt_small_forces
 
    !> Groups of motions that rows join: the number of each, that of its first motion.
