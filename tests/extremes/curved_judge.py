@@ -5,6 +5,7 @@ The forces of contact are found from the displacements alone: stiffness times di
 which is the angle of a face where sides are chords, half its square where they are parabolas, and nothing on straight sides.
 """
 
+import copy
 import math
 import os
 import sys
@@ -233,6 +234,23 @@ def check_equilibrium(scene, tables, forces, verdict):
                 verdict.test('equilibrium', np.abs(c[node]).max(), allowed, f' at node {body.first + node + 1}')
 
 
+def as_solved(scene, pair, field):
+    """The pair with its roles exchanged, where the points are nodes of what the deck has as the master (N-ROLES)."""
+    if pair.master[0] is None:
+        return pair
+    places = np.stack([field['x'], field['y']], axis=1)
+    away = []
+    for number, side in (pair.slave, pair.master):
+        mesh = scene.bodies[number].mesh
+        nodes = mesh.x[sorted(mesh.side_nodes(side))]
+        away.append(np.linalg.norm(places[:, None] - nodes[None], axis=2).min(axis=1).max())
+    if away[0] <= away[1]:
+        return pair
+    turned = copy.copy(pair)
+    turned.slave, turned.master = pair.master, pair.slave
+    return turned
+
+
 def check_pair(scene, tables, forces, number, pair, verdict):
     """The sum of its forces, found from the displacements."""
     where = f' of pair {number}'
@@ -247,6 +265,7 @@ def check_pair(scene, tables, forces, number, pair, verdict):
     place = 1e-9*moved + 1e-12*scene.size + 4*np.abs(np.stack([field['x'], field['y']])).max()*judge.EPS
     verdict.test('penetration', max(-field['gap'].min(), 0.0), place, where)
     verdict.test('gap under pressure', np.abs(field['gap'][p > 0]).max(initial=0.0), place, where)
+    pair = as_solved(scene, pair, field)
     body = scene.bodies[pair.slave[0]]
     c, error, load = forces[pair.slave[0]]
     held = {node for b, nodes, _ in scene.supports if b == pair.slave[0] for node in nodes}
