@@ -7,10 +7,10 @@ module atrito_completion_words
    use atrito_task_table, only: TASKS, command_names
    implicit none (type, external)
    private
-   public :: commands_with, options_of, options_where, known_keywords, tasks_of, task_word, quoted
+   public :: commands_with, options_of, options_where, known_keywords, task_word
    public :: HELP_PAGES, VALUE_NONE, VALUE_OWN, VALUE_WORDS, VALUE_A_FOLDER, VALUE_A_FILE, kind_of_value
 
-   character(len=*), parameter :: HELP_PAGES = 'all man bash zsh fish'    !< what `atrito help` knows besides keywords
+   character(len=*), parameter :: HELP_PAGES = 'all man bash'    !< what `atrito help` knows besides keywords
 
    !> What a shell can do for the value of an option.
    integer, parameter :: VALUE_NONE = 0             !< there is none
@@ -45,19 +45,6 @@ contains
       word = trim(TASKS(task)%name)
       if (len(word) == 0) word = 'run'
    end function task_word
-
-   !> The tasks that know an option, blanks between them.
-   pure function tasks_of(option) result(text)
-      integer, intent(in) :: option                 !< place in OPTIONS
-      character(len=:), allocatable :: text
-      integer :: task
-
-      text = ''
-      do task = 1, size(TASKS)
-         if (OPTIONS(option)%for_task(task)) text = text//' '//task_word(task)
-      end do
-      text = text(2:)
-   end function tasks_of
 
    !> All names of the options that a task knows, blanks between them.
    pure function options_of(task) result(text)
@@ -105,23 +92,5 @@ contains
       table = keyword_table()
       keywords = table(pack([(i, i=1, size(table))], table%built))
    end subroutine known_keywords
-
-   !> A text between single quotes; a quote in it is written as the shell wants it.
-   pure function quoted(text, quote) result(safe)
-      character(len=*), intent(in) :: text
-      character(len=*), intent(in) :: quote         !< for a quote in the text
-      character(len=:), allocatable :: safe
-      integer :: i
-
-      safe = ''''
-      do i = 1, len(text)
-         if (text(i:i) == '''') then
-            safe = safe//quote
-         else
-            safe = safe//text(i:i)
-         end if
-      end do
-      safe = safe//''''
-   end function quoted
 
 end module atrito_completion_words

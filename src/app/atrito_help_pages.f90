@@ -1,11 +1,9 @@
 !> `atrito help`: of a keyword, or one of the pages that are made of the tables.
 module atrito_help_pages
    use atrito_bash_completion, only: compose_bash_completion
-   use atrito_fish_completion, only: compose_fish_completion
    use atrito_help, only: help_overview, help_keyword, help_manual
    use atrito_man_page, only: compose_man_page
    use atrito_strings, only: string_t
-   use atrito_zsh_completion, only: compose_zsh_completion
    implicit none (type, external)
    private
    public :: compose_help
@@ -28,10 +26,6 @@ contains
          call compose_man_page(lines)
       case ('BASH')
          call compose_bash_completion(lines)
-      case ('ZSH')
-         call compose_zsh_completion(lines)
-      case ('FISH')
-         call compose_fish_completion(lines)
       case default
          call help_keyword(words, lines, is_known)
       end select

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Completion yields the words of the tables in bash, and in zsh and fish where they are installed.
+# Completion yields the words of the tables in bash.
 #    completion.sh ATRITO
 # shellcheck disable=SC2016
 . "$(dirname "$0")/lib.sh"
@@ -9,9 +9,7 @@ mkdir decks
 : >plate.inp
 : >plate.txt
 : >decks/arch.inp
-for shell in bash zsh fish; do
-   "$atrito" help $shell >"atrito.$shell" || fail "help $shell: exit $?"
-done
+"$atrito" help bash >atrito.bash || fail "help bash: exit $?"
 # shellcheck source=/dev/null
 . ./atrito.bash
 
@@ -50,28 +48,6 @@ yields 'plate.inp plate.txt' compare plate
 
 # Every option of --help can be completed, of some command.
 for name in $("$atrito" --help | sed -n 's/^  \(-[a-zA-Z], \)\{0,1\}\(--*[a-z-]*\) .*/\2/p'); do
-   for shell in bash zsh fish; do
-      case $shell in
-         fish) grep -q -- " -[ls] ${name##*-}\( \|$\)" atrito.fish || grep -q -- " -l ${name#--}\( \|$\)" atrito.fish ;;
-         *) grep -q -- "$name\b" "atrito.$shell" ;;
-      esac || fail "$shell: no $name"
-   done
+   grep -q -- "$name\b" atrito.bash || fail "bash: no $name"
 done
-
-if command -v zsh >/dev/null 2>&1; then
-   zsh -n atrito.zsh || fail 'zsh cannot read it'
-fi
-if command -v fish >/dev/null 2>&1; then
-   # fish_yields WORDS LINE
-   fish_yields() {
-      came=$(fish --no-config -c "source atrito.fish; complete -C '$2'" | sed 's/\t.*//' | sort | tr '\n' ' ')
-      came=${came% }
-      [ "$came" = "$1" ] || fail "fish, $2: '$came' in place of '$1'"
-   }
-   fish_yields 'check' 'atrito ch'
-   fish_yields '--set --solver' 'atrito check --s'
-   fish_yields 'skyline sparse' 'atrito plate.inp --solver s'
-   fish_yields 'CONTACT PAIR' 'atrito help "CONTACT PA'
-   fish_yields 'decks/ plate.inp' 'atrito check '
-fi
 finish

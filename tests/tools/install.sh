@@ -5,7 +5,6 @@
 DESTDIR=$work/root cmake --install "$1" --prefix /usr >"$work/said" 2>&1 || fail "cmake --install: $(tail -n 3 "$work/said")"
 usr=$work/root/usr
 for file in bin/atrito share/atrito/input/lessons/arch.inp share/man/man1/atrito.1 share/bash-completion/completions/atrito \
-   share/zsh/vendor-completions/_atrito share/fish/vendor_completions.d/atrito.fish \
    share/doc/atrito/LICENSE share/doc/atrito/CHANGELOG.md share/doc/atrito/docs/user/keywords.md; do
    [ -s "$usr/$file" ] || fail "there is no $file"
 done
