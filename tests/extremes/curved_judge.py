@@ -43,6 +43,8 @@ class Tables:
         u = dict(zip(nodes['node'].astype(int), np.stack([nodes['u1'], nodes['u2']], axis=1)))
         self.u = [np.array([u[body.first + i + 1] for i in range(len(body.mesh.x))]) for body in scene.bodies]
         self.contact, _ = read_table(os.path.join(folder, 'contact.tab'))
+        self.notes = ' '.join(open(os.path.join(folder, name)).read() for name in os.listdir(folder) if name.endswith('.lst'))
+        self.notes = ' '.join(self.notes.split())
         self.reaction = {}
         if scene.supports:
             table, _ = read_table(os.path.join(folder, 'reactions.tab'))
@@ -203,7 +205,7 @@ def judge_run(scene, folder, warnings, least):
     check_equilibrium(scene, tables, forces, verdict)
     total = 0.0
     for number, pair in enumerate(scene.pairs, 1):
-        total += check_pair(scene, tables, forces, number, pair, verdict)
+        total += check_pair(scene, tables, forces, number, as_solved(scene, pair, tables.notes), verdict)
     loads = sum(np.abs(nodal_loads(scene, b)).sum() for b in range(len(scene.bodies)))
     verdict.test('contact forces', total, EXCESS*least + 10*loads + STIFF*asked_by_overlap(scene) + 1e-300)
     verdict.tables = tables
@@ -234,17 +236,9 @@ def check_equilibrium(scene, tables, forces, verdict):
                 verdict.test('equilibrium', np.abs(c[node]).max(), allowed, f' at node {body.first + node + 1}')
 
 
-def as_solved(scene, pair, field):
-    """The pair with its roles exchanged, where the points are nodes of what the deck has as the master (N-ROLES)."""
-    if pair.master[0] is None:
-        return pair
-    places = np.stack([field['x'], field['y']], axis=1)
-    away = []
-    for number, side in (pair.slave, pair.master):
-        mesh = scene.bodies[number].mesh
-        nodes = mesh.x[sorted(mesh.side_nodes(side))]
-        away.append(np.linalg.norm(places[:, None] - nodes[None], axis=2).min(axis=1).max())
-    if away[0] <= away[1]:
+def as_solved(scene, pair, notes):
+    """The pair with its roles exchanged, where the listing says so."""
+    if f'[N-ROLES] the slave {scene.side_name(pair.slave).upper()} is ' not in notes:
         return pair
     turned = copy.copy(pair)
     turned.slave, turned.master = pair.master, pair.slave
@@ -265,7 +259,6 @@ def check_pair(scene, tables, forces, number, pair, verdict):
     place = 1e-9*moved + 1e-12*scene.size + 4*np.abs(np.stack([field['x'], field['y']])).max()*judge.EPS
     verdict.test('penetration', max(-field['gap'].min(), 0.0), place, where)
     verdict.test('gap under pressure', np.abs(field['gap'][p > 0]).max(initial=0.0), place, where)
-    pair = as_solved(scene, pair, field)
     body = scene.bodies[pair.slave[0]]
     c, error, load = forces[pair.slave[0]]
     held = {node for b, nodes, _ in scene.supports if b == pair.slave[0] for node in nodes}
