@@ -1,6 +1,17 @@
 !> Solves the bound-constrained QP by full steps on the active set: all points change at once.
 !>
-!> Full steps end in a few solves almost always. When a state comes back, after MOST_FULL_STEPS, or when a body is free under
+!> If it were known which points are open, stick and slip, the QP would be linear: free unknowns have r = 0, the others stand at
+!> their bounds (solve_free_set). A full step solves that, and gives every unknown that breaks the condition of its state the
+!> other one:
+!>
+!>     free, q < lower or q > upper          -> at that bound        (a tension opens, too much shear slips)
+!>     at the lower bound, r > 0             -> free                 (an overlap closes, slip against the shear sticks)
+!>     at the upper bound, r < 0             -> free
+!>
+!> This is Newton's method for the piecewise linear equations q = clip(q + r/c, lower, upper), the primal-dual active set method of
+!> M. Hintermueller, K. Ito and K. Kunisch (SIAM J. Optim. 13 (2002) 865-888). Where no state changes the solution is exact.
+!>
+!> Full steps end in a few solves almost always, but nothing makes them. When a state comes back, after MOST_FULL_STEPS, or when a body is free under
 !> the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
 module atrito_active_set
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL

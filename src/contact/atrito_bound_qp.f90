@@ -78,6 +78,22 @@ contains
 
    !> Solves for the free unknowns, the others fixed at state%q; sets state%q, a, r, slack. solution%moves: no equilibrium, and a is
    !> the least motion that satisfies the rest. status: STATUS_SINGULAR when rows depend on each other (solution%dependent).
+   !>
+   !> With F the free unknowns, X the fixed ones and M = (C + D)_FF, the conditions r_F = 0 and G' q = h are the saddle system
+   !>
+   !>     [  M     -G_F ] [ q_F ]   [  (g0 - C q_X)_F  ]
+   !>     [ -G_F'    0  ] [  a  ] = [ -(h - G_X' q_X)  ]
+   !>
+   !> 1. M is scaled to a unit diagonal and factored by Cholesky: rows of stiff and of soft bodies then count alike. A pivot that
+   !>    vanishes is a row that others make up, as where nodes of two pairs are one.
+   !> 2. q_F = M^-1 (rhs + G_F a) leaves S a = h - G_X' q_X - G_F' M^-1 rhs with the complement S = G_F' M^-1 G_F, a matrix of the
+   !>    size of the rigid motions, which is decomposed into its eigenvectors.
+   !> 3. An eigenvalue that vanishes belongs to a motion that the closed points do not hold. It takes no part in a. Where the load
+   !>    works on it there is no equilibrium with these states (moves), else it may be anything (undetermined).
+   !> 4. The residual of both equations is solved for once more with the same factors: what is left is round-off of the solution.
+   !>
+   !> The factor of an earlier solve whose free set differs by some unknowns serves again as the preconditioner of conjugate
+   !> gradients (atrito_dual_preconditioner), where that is cheaper than a new one.
    subroutine solve_free_set(problem, d, state, solution, status, kept)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
@@ -96,6 +112,7 @@ contains
       end if
    end subroutine solve_free_set
 
+   !> By the factor that is there, or by a new one.
    subroutine solve_with_factor(problem, d, factor, state, solution, status)
       type(bound_qp_t), intent(in) :: problem
       real(wp), intent(in) :: d(:)               !< (m) [L/F]
@@ -180,6 +197,7 @@ contains
       end associate
    end subroutine solve_saddle
 
+   !> S = G' M^-1 G, scaled to a unit diagonal, by its eigenvectors; y = M^-1 G.
    subroutine complement_modes(gs, y, complement)
       real(wp), intent(in) :: gs(:, :), y(:, :)
       type(complement_t), intent(out) :: complement
@@ -259,6 +277,7 @@ contains
       solution%motion = motion*complement%scale
    end subroutine judge_motions
 
+   !> The work of all loads on each motion without sign [F]: what round-off of h is measured by.
    pure function size_of_load(problem)
       type(bound_qp_t), intent(in) :: problem
       real(wp) :: size_of_load(problem%k)

@@ -40,6 +40,9 @@ module atrito_outer_loop
 
 contains
 
+   !> Solves the contact line: the pressures, shears and states of all points, with the law's own bound. Long lines start from the
+   !> solution of a coarser one. Not converged: solution%converged is false and solution%verdict says why.
+   !> status: STATUS_SINGULAR with FREE_MOTION, or with dependent contact points, which needs the rows.
    subroutine solve_contact_line(problem, line, controls, reporter, solution, status, rows)
       type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
@@ -59,6 +62,8 @@ contains
       call judge_condition(solution)
    end subroutine solve_contact_line
 
+   !> Solves again, from the solution of a problem that differs by little, such as the increment before: its states, factor and bound
+   !> are where the loop begins. status: as of solve_contact_line.
    subroutine continue_contact_line(problem, line, controls, reporter, solution, status)
       type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
@@ -91,6 +96,8 @@ contains
       if (has_coarse_start) has_coarse_start = has_coarse_line(line)
    end function has_coarse_start
 
+   !> Begins where the line's coarse line ends. Whatever does not go well on the way leaves solution%converged false, and the caller
+   !> begins anew.
    recursive subroutine solve_from_coarse(task, solution, status)
       type(line_task_t), intent(in) :: task
       type(contact_solution_t), intent(out) :: solution
@@ -117,6 +124,7 @@ contains
       end if
    end subroutine solve_from_coarse
 
+   !> A coarse line need not be solved to the end, and not at all where that is hard.
    recursive subroutine solve_coarse(problem, line, solution, status)
       type(bound_qp_t), intent(in), target :: problem
       type(contact_line_t), intent(in), target :: line
@@ -142,6 +150,7 @@ contains
       end if
    end subroutine solve_coarse
 
+   !> From all points closed, by the method that the deck asks for.
    subroutine solve_from_plain_start(task, solution, status, rows)
       type(line_task_t), intent(in) :: task
       type(contact_solution_t), intent(out) :: solution  !< what a start before left is forgotten
@@ -173,6 +182,8 @@ contains
       end select
    end subroutine solve_from_plain_start
 
+   !> All points closed without friction. Where that leaves a body free, all closed and stuck without a bound. tau: the first
+   !> friction bound [F/L^2].
    subroutine start(problem, line, solution, tau, status)
       type(bound_qp_t), intent(in) :: problem
       type(contact_line_t), intent(in) :: line
@@ -196,6 +207,7 @@ contains
       if (solution%inner%moves) call set_status(status, STATUS_SINGULAR, FREE_MOTION)
    end subroutine start
 
+   !> One inner problem, then Newton's method on friction and contact at once.
    subroutine newton_from(task, tau, solution, status)
       type(line_task_t), intent(in) :: task
       real(wp), intent(in) :: tau(:)
@@ -214,6 +226,8 @@ contains
       call iterate_newton(task%problem, task%line, task%controls, solution)
    end subroutine newton_from
 
+   !> Anderson; where it does not converge or finds no equilibrium, the others in the order that random scenes taught
+   !> (docs/theory/formulation.md, section 5); then the honest end, which is that of Anderson.
    subroutine iterate_with_fallbacks(task, tau, solution, status)
       type(line_task_t), intent(in) :: task
       real(wp), intent(inout) :: tau(:)
@@ -261,6 +275,7 @@ contains
       first%state = solution%state
    end subroutine keep_start
 
+   !> One of the ATTEMPTS, from the start that Anderson had; Newton from where the last attempt ended.
    subroutine try_again(task, attempt, first, solution, status)
       type(line_task_t), intent(in) :: task
       integer, intent(in) :: attempt                 !< place in ATTEMPTS
@@ -294,6 +309,8 @@ contains
       end select
    end subroutine try_again
 
+   !> From a solution with much more friction to that of the line: the coefficients take the factors LARGEST_FACTOR**s, s from 1 to
+   !> 0, each from the solution of the one before. A step that does not converge is halved.
    subroutine ease_friction(task, first, solution, status)
       type(line_task_t), intent(in) :: task
       type(start_t), intent(in) :: first
@@ -328,6 +345,7 @@ contains
       end do
    end subroutine ease_friction
 
+   !> From a solution that is near, or a start: Newton, then Anderson.
    subroutine solve_near(task, is_solved, near, tau, solution, status)
       type(line_task_t), intent(in) :: task
       logical, intent(in) :: is_solved               !< near is a solution

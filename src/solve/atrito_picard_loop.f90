@@ -1,4 +1,21 @@
 !> The Picard loop on the weighted normal stress, with the accelerator that it is given.
+!>
+!> The friction law of Oden and Pires bounds the shear at a point by nu S_rho(p): the coefficient times the pressure, weighted over a
+!> length rho. The bound depends on the pressure, the pressure on the shear, so what is sought is a fixed point. Let p(tau) be the
+!> pressure of the contact problem with the bound frozen at tau: that is a convex problem with one solution (Tresca's), which
+!> `solve_with_bound` finds exactly. The loop is
+!>
+!>     tau_0 given,    tau_(k+1) = nu S_rho(p(tau_k)),                                                  (Picard)
+!>
+!> the iteration of the existence proof; S_rho makes the map compact, and for small nu it contracts. Its rate is measured on the way
+!> (`measure_rate`) and printed. An accelerator takes the bound and its image and says what the next bound is: Picard's own, or
+!> Anderson's mixing of the last ones (atrito_accelerator), which takes fewer steps.
+!>
+!> The loop stops when bound and image agree to the tolerance, pair by pair; when round-off, as the condition of the contact matrix
+!> tells it, leaves no more to gain; when bounds come again in a cycle; or when no bound holds the bodies.
+!>
+!> Source: E. B. Pires and P. Providencia e Costa (1991); L. T. Campos, J. T. Oden and N. Kikuchi, Comput. Methods Appl.
+!> Mech. Eng. 34 (1982) 821-845, for the problem with the bound frozen.
 module atrito_picard_loop
    use atrito_accelerator, only: accelerator_t
    use atrito_bound_qp, only: bound_qp_t
@@ -42,10 +59,13 @@ module atrito_picard_loop
 
 contains
 
+   !> The loop: solve with the bound, compare it with its image, take the next one. tau: the first bound in, the last one out.
+   !> solution: with the state of a solve before, which is where the first one starts. Not converged: solution%verdict says why.
+   !> status: STATUS_SINGULAR with FREE_MOTION where no bound that was tried holds the bodies, or with dependent contact points.
    subroutine iterate(task, accelerator, tau, solution, status)
       type(line_task_t), intent(in) :: task
       class(accelerator_t), intent(inout) :: accelerator
-      real(wp), intent(inout) :: tau(:)
+      real(wp), intent(inout) :: tau(:)             !< (n) [F/L^2]
       type(contact_solution_t), intent(inout) :: solution
       type(status_t), intent(out) :: status
       type(loop_t) :: loop
@@ -87,6 +107,7 @@ contains
       if (.not. solution%inner%solved) solution%verdict = 'the active set did not settle'
    end subroutine iterate
 
+   !> Whether the attempts so far went through so many entries of C that the other form of the contact system is cheaper.
    pure logical function is_too_much(task, history)
       type(line_task_t), intent(in) :: task
       type(solve_history_t), intent(in) :: history
@@ -94,6 +115,8 @@ contains
       is_too_much = history%n > LEAST_SOLVES .and. real(history%n, wp)*real(task%problem%m, wp)**2 > task%controls%most_entries
    end function is_too_much
 
+   !> The bound does not hold a body: half of the way back to the last one that did, or twice as much where none did so far.
+   !> status: STATUS_SINGULAR with FREE_MOTION when that was done often enough.
    subroutine step_back(loop, accelerator, tau, status)
       type(loop_t), intent(inout) :: loop
       class(accelerator_t), intent(inout) :: accelerator
@@ -113,6 +136,7 @@ contains
       end if
    end subroutine step_back
 
+   !> Whether the loop has converged with this bound and its image; and how fast it goes.
    subroutine judge_step(line, tolerance, outer, tau, image, loop, solution)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(in) :: tolerance
@@ -138,6 +162,7 @@ contains
       if (solution%converged) solution%residual = min(solution%residual, STALE_RESIDUAL)
    end subroutine judge_step
 
+   !> Whether the next bound was there before; the verdict says so.
    subroutine look_for_cycle(line, method, tau, loop, solution, cycles)
       type(contact_line_t), intent(in) :: line
       integer, intent(in) :: method
@@ -154,6 +179,8 @@ contains
       if (method == METHOD_PICARD) solution%verdict = solution%verdict//'; METHOD=ANDERSON may find the solution'
    end subroutine look_for_cycle
 
+   !> How much more the images of two bounds differ than the bounds do, in the norm of the line's weights, whatever made the step
+   !> between them: the largest so far. Below 1 the map contracts there, and the solution is the only one near.
    pure subroutine measure_rate(weight, step, answer, rate)
       real(wp), intent(in) :: weight(:)             !< relative to the largest
       real(wp), intent(in) :: step(:), answer(:)    !< relative to the largest bound
@@ -176,6 +203,7 @@ contains
       end associate
    end subroutine tell
 
+   !> Compares the next bound with the last ones: the same again after two steps or more, while the residual stays, is a cycle.
    pure subroutine find_cycle(line, visited, tau, residual, length)
       type(contact_line_t), intent(in) :: line
       real(wp), intent(inout) :: visited(:, :)        !< newest first
