@@ -11,8 +11,8 @@
 !> This is Newton's method for the piecewise linear equations q = clip(q + r/c, lower, upper), the primal-dual active set method of
 !> M. Hintermueller, K. Ito and K. Kunisch (SIAM J. Optim. 13 (2002) 865-888). Where no state changes the solution is exact.
 !>
-!> Full steps end in a few solves almost always, but nothing makes them. When a state comes back, after MOST_FULL_STEPS, or when a body is free under
-!> the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
+!> Full steps end in a few solves almost always, but nothing makes them. When a state comes back, after MOST_FULL_STEPS, or when a
+!> body is free under the load, the finite Goldfarb-Idnani steps take over (atrito_goldfarb_idnani).
 module atrito_active_set
    use atrito_kinds, only: ip, lp, wp, HUGE_REAL
    use atrito_bound_qp, only: bound_qp_t, box_bounds_t, box_state_t, equality_solution_t, solve_free_set, is_vanishing, &

@@ -1,7 +1,7 @@
 !> The Picard loop on the weighted normal stress, with the accelerator that it is given.
 !>
-!> The friction law of Oden and Pires bounds the shear at a point by nu S_rho(p): the coefficient times the pressure, weighted over a
-!> length rho. The bound depends on the pressure, the pressure on the shear, so what is sought is a fixed point. Let p(tau) be the
+!> The friction law of Oden and Pires bounds the shear at a point by nu S_rho(p): the coefficient times the pressure, weighted over
+!> a length rho. The bound depends on the pressure, the pressure on the shear, so what is sought is a fixed point. Let p(tau) be the
 !> pressure of the contact problem with the bound frozen at tau: that is a convex problem with one solution (Tresca's), which
 !> `solve_with_bound` finds exactly. The loop is
 !>
