@@ -21,7 +21,7 @@ contains
       integer(ip), allocatable, intent(out) :: holder(:)
       integer(ip), allocatable, intent(out), optional :: row(:)   !< where in the set the member stands
       integer(ip), allocatable :: at(:, :)           !< (n, n_parts): counts, then where the part's next set goes
-      integer(ip), allocatable :: place(:)           !< row; of no length where it is not wanted: an absent one is none of the threads'
+      integer(ip), allocatable :: place(:)           !< row; of no length where it is not wanted
       integer(ip) :: part, n_parts, length
 
       n_parts = 1

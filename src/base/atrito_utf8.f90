@@ -29,8 +29,8 @@ contains
           (first == 240 .and. second < 144) .or. (first == 244 .and. second >= 144)) n = 0
    end function utf8_length
 
-   !> Whether a text has characters by which a terminal may be told something: those below the blank but tabs and ends of lines, DEL,
-   !> and those of two bytes, U+0080 to U+009F.
+   !> Whether a text has characters that may tell a terminal something: those below the blank but tabs and ends of lines, DEL, and
+   !> those of two bytes, U+0080 to U+009F.
    pure logical function has_controls(text)
       character(len=*), intent(in) :: text
       integer :: i, code, before
