@@ -20,33 +20,42 @@ def a_quotient_by_zero(folder):
     write(folder, scene(young="<1/0>"))
 
 
-@case(SOLVED_OR_TOLD)
-def a_modulus_near_the_largest_number(folder):
-    write(folder, scene(young="1e308"))
-    return SOLVE
+RANGE = "numbers leave the range of the machine"
 
 
-@case(SOLVED_OR_TOLD)
-def a_modulus_near_the_least_number(folder):
-    write(folder, scene(young="1e-307"))
-    return SOLVE
+def in_both_forms(code, says, **scene_of):
+    """A case for each form of the contact system."""
+    for form in ["dense", "sparse"]:
+        def make(folder, form=form):
+            write(folder, scene(**scene_of))
+            return SOLVE + ["--contact", form]
+        make.__name__ = "_".join(f"{name} {value.split()[-1]}" for name, value in scene_of.items()) + ", " + form
+        case(code, says)(make)
 
 
-@case(SOLVED_OR_TOLD)
-def a_load_near_the_largest_number(folder):
-    write(folder, scene(q="1e300"))
-    return SOLVE + ["--contact", "dense"]
+in_both_forms((3, 4), RANGE, young="1.7e308")
+in_both_forms((3, 4), RANGE, young="1e-310")
+in_both_forms((3, 4), RANGE, q="1e300", size="1e50")
+in_both_forms((3, 4), RANGE, q="1e200", young="1e-200")
+in_both_forms((3, 4), RANGE, q="1", step="*BOUNDARY\nHIGH-TOP, 2, 2, -1e308\n")
+in_both_forms(0, (), young="1e300")
+in_both_forms(0, (), young="1e-300")
+in_both_forms(0, (), q="1e300")
+in_both_forms(0, (), q="1e-200")
+in_both_forms(0, (), size="1e-148")
+for length in ["1e-155", "1e-162", "1e-300"]:
+    in_both_forms(2, "so small that its area is no number of the machine", size=length)
 
 
-@case(SOLVED_OR_TOLD)
-def a_load_near_the_largest_number_in_the_sparse_form(folder):
-    write(folder, scene(q="1e300"))
+@case()
+def a_load_near_the_largest_number_with_friction_over_a_length(folder):
+    write(folder, scene(q="1e300").replace("*FRICTION\n0.3", "*FRICTION, NONLOCAL\n0.3, 4e296, 0.5"))
     return SOLVE + ["--contact", "sparse"]
 
 
-@case(SOLVED_OR_TOLD)
-def coordinates_whose_squares_are_nothing(folder):
-    write(folder, scene(size="1e-162"))
+@case(4, "is free to move")
+def a_motion_that_is_free(folder):
+    write(folder, scene(q="-1"))
     return SOLVE
 
 
