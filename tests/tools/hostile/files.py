@@ -89,3 +89,28 @@ def tables_that_are_none(folder):
     write(folder, b"# of nothing\n# a b c\n1 2\nx y z\n\xff\xfe\n" * 3000, "a.tab")
     write(folder, bytes(100_000), "b.tab")
     return ["compare", "a.tab", "b.tab"]
+
+
+@case(5, "has more than 10000 columns")
+def a_table_of_a_hundred_thousand_columns(folder):
+    write(folder, "# columns: " + " ".join(f"c{k}" for k in range(100_000)) + "\n", "a.tab")
+    return ["compare", "a.tab", "a.tab"]
+
+
+@case(5, "values for 9000 columns")
+def a_table_of_many_columns_and_short_rows(folder):
+    write(folder, "# columns: " + " ".join(f"c{k}" for k in range(9000)) + "\n" + "1\n" * 200_000, "a.tab")
+    return ["compare", "a.tab", "a.tab"]
+
+
+@case(5, "has more than 10000 columns")
+def comma_separated_values_of_a_hundred_thousand_columns(folder):
+    write(folder, ",".join(f"c{k}" for k in range(100_000)) + "\n", "a.csv")
+    return ["compare", "a.csv", "a.csv"]
+
+
+@case(5, "line 3 has control characters")
+def a_table_that_tells_the_terminal_something(folder):
+    write(folder, "# columns: a b\n1 2\nx\x1b]0;y\x07 1\n", "a.tab")
+    write(folder, "# columns: a b\n1 2\nx 1\n", "b.tab")
+    return ["compare", "b.tab", "a.tab"]
