@@ -39,7 +39,7 @@ contains
       printed = min(n, int(MOST_ERRORS, ip))
       do i = 1, SEVERITY_NOTE
          if (n(i) > printed(i)) call print_line('... the first '//to_text(printed(i))//' of '//to_text(n(i))//' '//trim(WORD(i)), &
-                                                 error_unit)
+                                                error_unit)
       end do
       if (n(SEVERITY_ERROR) > 0) call print_line(to_text(n(SEVERITY_ERROR))//' '// &
                                                  trim(merge('error ', 'errors', n(SEVERITY_ERROR) == 1))//' in the deck', &

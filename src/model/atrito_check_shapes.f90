@@ -18,7 +18,7 @@ module atrito_check_shapes
    !> First degree: GOOD, CLOCKWISE or DEGENERATE. Second degree also ORDER: mid-sides and centre in another order, and FOLDED:
    !> one of them too far off.
    integer(ip), parameter :: SHAPE_GOOD = 0, SHAPE_CLOCKWISE = 1, SHAPE_DEGENERATE = 2, SHAPE_ORDER = 3, SHAPE_FOLDED = 4, &
-                            SHAPE_TINY = 5
+                             SHAPE_TINY = 5
    !> A corner whose Jacobian is smaller than this part of the longest side squared is flat.
    real(wp), parameter :: FLAT = 1.0e-12_wp
    !> What is shorter has no area that is a number of the machine [L].

@@ -45,8 +45,8 @@ contains
       do i = 1, size(history%frames, kind=ip)
          associate (frame => history%frames(i))
             call require(wrong, is_before([frame%step, frame%increment], [state%step, state%increment]), 'frames behind the end')
-            if (i > 1) call require(wrong, .not. is_before([frame%step, frame%increment], [history%frames(i - 1)%step, &
-                                                           history%frames(i - 1)%increment]), 'frames out of order')
+            if (i > 1) call require(wrong,.not. is_before([frame%step, frame%increment], [history%frames(i - 1)%step, &
+                                                                           history%frames(i - 1)%increment]), 'frames out of order')
             call check_frame(data, scene, observed, frame, frame%step == state%step, wrong)
          end associate
          if (allocated(wrong)) return
@@ -308,7 +308,7 @@ contains
             call require(wrong, joint%pair >= before .and. joint%pair <= size(data%points), 'joints')
             call require(wrong, all(joint%bodies >= 0 .and. joint%bodies <= data%fem%bodies%n), 'joints')
             call require(wrong, is_finite([joint%m, joint%opening, joint%sliding, joint%force, joint%length, joint%u]), 'joints')
-            call require(wrong, .not. is_any_infinite([joint%n, joint%t, joint%place]), 'joints')
+            call require(wrong,.not. is_any_infinite([joint%n, joint%t, joint%place]), 'joints')
             before = joint%pair
          end associate
       end do
@@ -329,7 +329,7 @@ contains
       end associate
       if (allocated(frame%iterations)) call check_iterations(data, frame%iterations, wrong)
       ! of what did not converge, which no file has
-      call require(wrong, .not. allocated(frame%unsettled), 'unsettled')
+      call require(wrong,.not. allocated(frame%unsettled), 'unsettled')
       if (allocated(frame%extremes)) then
          do i = 1, size(frame%extremes, kind=ip)
             call check_extreme(data, frame%extremes(i), wrong)
@@ -439,7 +439,7 @@ contains
       call require(wrong, size(list) == size(names), 'observed')
       if (allocated(wrong)) return
       call require(wrong, all([(list(i)%name == names(i)%s, i=1, size(names))]), 'observed')
-      call require(wrong, .not. is_any_infinite(list%value), 'observed')
+      call require(wrong,.not. is_any_infinite(list%value), 'observed')
    end subroutine check_observed
 
    !> A row of every pair and increment.
@@ -462,8 +462,8 @@ contains
                          max(row%open, row%stick, row%slip) <= data%points(row%pair)%n, 'states of rows')
             if (allocated(wrong)) return
             call require(wrong, row%open + row%stick + row%slip == data%points(row%pair)%n, 'states of rows')
-            call require(wrong, .not. is_any_infinite([row%normal, row%shear, row%moment, row%length, row%centre, &
-                                                       row%max_pressure, row%dissipation, row%elastic_energy, row%mean_slip]), &
+            call require(wrong,.not. is_any_infinite([row%normal, row%shear, row%moment, row%length, row%centre, &
+                                                      row%max_pressure, row%dissipation, row%elastic_energy, row%mean_slip]), &
                          'rows')
             call require(wrong, row%time > 0.0_wp .and. row%time <= state%last%time, 'time of rows')
          end associate

@@ -12,8 +12,8 @@ module atrito_extremes
 
    !> The quantities, in the order of extremes.tab; a least one is the largest of its negative.
    character(len=16), parameter :: EXTREME_NAMES(10) = [character(len=16) :: 'u', 'u1_max', 'u1_min', 'u2_max', 'u2_min', &
-                                                                     'mises', 's1_max', 's3_min', 'contact_pressure', &
-                                                                     'contact_shear']
+                                                                                  'mises', 's1_max', 's3_min', 'contact_pressure', &
+                                                                                                                    'contact_shear']
    logical, parameter :: IS_LEAST(size(EXTREME_NAMES)) = [.false., .false., .true., .false., .true., .false., .false., .true., &
                                                           .false., .false.]
    integer, parameter :: U = 1, MISES = 6, S1 = 7, S3 = 8, PRESSURE = 9, SHEAR = 10
