@@ -88,6 +88,9 @@ for form in dense sparse; do
    clean 0 "a history goes on, $form" history.inp --quiet --contact $form -o again --restart whole/history.restart.h5
 done
 clean 0 'tables' compare whole again
+clean 0 'a report' "$deck" --quiet --report -o ex1r
+clean 0 'a sweep' sweep "$deck" --vary q=1,2 --quiet -o sweep
+clean 0 'a study' study "$deck" --levels 2 --quiet -o study
 sed 's/1000, 0.3/1000, 0.7/; s/^HIGH-TOP/NO-SUCH/; s/FRICTION/FRICTON/' history.inp >errors.inp
 clean 2 'a deck with errors' errors.inp
 clean 2 'messages as JSON' errors.inp --messages json
